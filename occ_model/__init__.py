@@ -1,0 +1,63 @@
+"""A model of optical camera communication: a blinking panel, a rolling shutter, a receiver.
+
+Everything here works without a window. A scene is a value; the functions take it and give arrays::
+
+    import occ_model as occ
+
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3, distance=1.2)
+    frame = occ.render(scene)
+    result = occ.decode(frame.image, scene)
+"""
+
+from occ_model.band_model import band_lengths, band_profile
+from occ_model.camera.exposure import on_time
+from occ_model.camera.photometry import column_profile
+from occ_model.camera.projection import panel_corners
+from occ_model.errors import (
+    BandModelUndefined,
+    DecodeInputError,
+    OccError,
+    OutputError,
+    ParameterError,
+    PhotoError,
+    PresetError,
+    ProjectionError,
+    SceneFileError,
+)
+from occ_model.photo.load import Photo, load_photo
+from occ_model.presets import load_preset, presets
+from occ_model.receiver.decode import decode
+from occ_model.results import DecodeResult, Frame, Region
+from occ_model.scene import Scene
+from occ_model.simulation import render
+from occ_model.transmitter.packet import packet
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "BandModelUndefined",
+    "DecodeInputError",
+    "DecodeResult",
+    "Frame",
+    "OccError",
+    "OutputError",
+    "ParameterError",
+    "Photo",
+    "PhotoError",
+    "PresetError",
+    "ProjectionError",
+    "Region",
+    "Scene",
+    "SceneFileError",
+    "band_lengths",
+    "band_profile",
+    "column_profile",
+    "decode",
+    "load_photo",
+    "load_preset",
+    "on_time",
+    "packet",
+    "panel_corners",
+    "presets",
+    "render",
+]

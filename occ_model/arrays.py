@@ -1,0 +1,8 @@
+"""Names for the kinds of array that cross a room's door."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int64]
+ByteArray = NDArray[np.uint8]

@@ -1,0 +1,81 @@
+"""The rolling shutter: how long each column sees the panel lit.
+
+Column ``i`` is exposed over [t_0 + i t_r, t_0 + i t_r + t]. The time that the LED is on within it
+is a difference of two values of the waveform's running integral: the same work for any ratio of
+exposure time to switching period, with no sampling in time and no loop over chips.
+"""
+
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.scene import Scene
+from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.waveform import Duration, Phases, Waveform
+
+
+def column_phases(scene: Scene, period: int) -> Phases:
+    """Say where in the sent period each column's exposure starts.
+
+    The start and the step from column to column are reduced to one period in exact arithmetic,
+    as fractions; the columns then follow in floating point. The step is split in two, the larger
+    part short enough (24 bits) that its product with any column number is exact, so that the error
+    does not grow with the column: about 2e-16 chips after a million columns.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    period
+        The number of chips of one sent period.
+
+    Returns
+    -------
+    Phases, shape (columns,)
+    """
+    frequency = Fraction(scene.transmitter.switching_frequency)
+    start = Fraction(scene.model.start_time) * frequency % period
+    step = Fraction(scene.camera.readout_time) * frequency % period
+    coarse = float(np.float32(float(step)))
+    fine = float(step - Fraction(coarse))
+    start_chip = start.numerator // start.denominator
+
+    column = np.arange(scene.camera.columns, dtype=np.float64)
+    position = column * coarse
+    chip = np.floor(position)
+    fraction = (position - chip) + (column * fine + float(start - start_chip))
+    carry = np.floor(fraction)
+    fraction -= carry
+    # A fraction just below zero rounds up to a whole chip when that chip is taken away from it.
+    over = fraction >= 1.0
+    fraction[over] = 0.0
+    chip += carry + over + start_chip
+    return Phases(np.mod(chip, period).astype(np.int64), fraction)
+
+
+def lit_fraction(scene: Scene) -> FloatArray:
+    """Give the share of each column's exposure in which the LED is on, t_on / t.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,), from 0 to 1
+    """
+    chips = sent_chips(scene.transmitter)
+    frequency = Fraction(scene.transmitter.switching_frequency)
+    exposure = Fraction(scene.camera.exposure_time) * frequency
+    waveform = Waveform(chips)
+    starts = column_phases(scene, waveform.period)
+    lit = waveform.lit_chips(starts, Duration.of(exposure, waveform.period))
+    return np.clip(lit / float(exposure), 0.0, 1.0, out=lit)
+
+
+def on_time(scene: Scene) -> FloatArray:
+    """Give the time that the LED is on while each column is exposed, t_on(i).
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,)
+        Seconds, from 0 to the exposure time; t_off is the exposure time less this.
+    """
+    return lit_fraction(scene) * scene.camera.exposure_time

@@ -1,0 +1,147 @@
+"""Where the panel lies in the image, and the image of it."""
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.errors import ProjectionError
+from occ_model.scene import Scene
+from occ_model.units import METRE
+
+MAX_PIXELS = 200_000_000
+"""The largest image that is made; a larger one is refused rather than left to fill the memory."""
+
+_NEAREST_SHARE = 1e-9
+"""Depth, as a share of the distance, below which a corner counts as in the camera's plane."""
+
+
+def panel_corners(scene: Scene) -> FloatArray:
+    """Project the panel's corners onto the image.
+
+    The camera looks along the optical axis at the panel's centre, if that is not shifted; the
+    centre of the pixel in row ``r`` and column ``c`` has the coordinates (c, r).
+
+    Returns
+    -------
+    ndarray of float64, shape (4, 2)
+        (column, row) of each corner, in order round the panel.
+
+    Raises
+    ------
+    ProjectionError
+        Part of the panel is beside or behind the camera.
+    """
+    camera, pose = scene.camera, scene.pose
+    x = scene.transmitter.panel_width / 2
+    y = scene.transmitter.panel_height / 2
+    corners = np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])
+    rotation = _rotation(pose.yaw, pose.pitch, pose.roll)
+    shift = np.array([pose.offset_x, pose.offset_y, pose.distance])
+    nearest = float((corners @ rotation.T + shift)[:, 2].min())
+    if nearest <= pose.distance * _NEAREST_SHARE:
+        raise ProjectionError(
+            f"Turned like this at a distance of {METRE.format(pose.distance)}, part of the panel "
+            f"is {METRE.format(-nearest)} behind the camera; move it away or turn it back."
+        )
+    focal = camera.focal_length_pixels
+    matrix = np.array(
+        [[focal, 0.0, (camera.columns - 1) / 2], [0.0, focal, (camera.rows - 1) / 2], [0, 0, 1]]
+    )
+    axis_angle, _ = cv2.Rodrigues(rotation)
+    projected, _ = cv2.projectPoints(corners, axis_angle, shift, matrix, np.zeros(5))
+    return np.asarray(projected, dtype=np.float64).reshape(4, 2)
+
+
+def _rotation(yaw: float, pitch: float, roll: float) -> FloatArray:
+    """Turn about the columns axis first, then the rows axis, then the optical axis."""
+    (sx, cx), (sy, cy), (sz, cz) = ((np.sin(a), np.cos(a)) for a in (pitch, yaw, roll))
+    about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
+    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
+    about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
+    return np.asarray(about_z @ about_y @ about_x, dtype=np.float64)
+
+
+def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
+    """Say which columns of every row lie inside a convex polygon.
+
+    A pixel lies inside when its centre does. Nothing is drawn, so that corners may lie
+    any distance outside the image.
+
+    Parameters
+    ----------
+    corners : ndarray of float64, shape (corners, 2)
+        (column, row) of each, in order.
+    rows, columns
+        Size of the image.
+
+    Returns
+    -------
+    first, last : ndarray of int64, shape (rows,)
+        The first column inside and the one after the last; equal where the row has none.
+    """
+    row = np.arange(rows, dtype=np.float64)
+    left = np.full(rows, np.inf)
+    right = np.full(rows, -np.inf)
+    for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if y0 == y1:
+            continue
+        crossed = slice(_row_from(min(y0, y1), rows), _row_after(max(y0, y1), rows))
+        # Interpolated from both ends: exact at each of them, however steep the edge.
+        along = (row[crossed] - y0) / (y1 - y0)
+        x = x0 * (1.0 - along) + x1 * along
+        np.minimum(left[crossed], x, out=left[crossed])
+        np.maximum(right[crossed], x, out=right[crossed])
+    first = np.clip(np.ceil(left), 0, columns).astype(np.int64)
+    last = np.clip(np.floor(right) + 1, 0, columns).astype(np.int64)
+    return first, np.maximum(first, last)
+
+
+def _row_from(y: float, rows: int) -> int:
+    return int(min(max(np.ceil(y), 0), rows))
+
+
+def _row_after(y: float, rows: int) -> int:
+    return int(min(max(np.floor(y) + 1, 0), rows))
+
+
+def paint(enhanced: ByteArray, corners: FloatArray, rows: int, surroundings: int) -> ByteArray:
+    """Make the image: inside the panel every row carries the profile, outside the surroundings.
+
+    Parameters
+    ----------
+    enhanced : ndarray of uint8, shape (columns,)
+        The column values.
+    corners : ndarray of float64, shape (4, 2)
+        The panel's corners.
+    rows
+        Height of the image.
+    surroundings
+        Grey level outside the panel.
+
+    Returns
+    -------
+    ndarray of uint8, shape (rows, columns)
+
+    Raises
+    ------
+    ProjectionError
+        The image would have more than ``MAX_PIXELS`` pixels.
+    """
+    columns = len(enhanced)
+    if rows * columns > MAX_PIXELS:
+        raise ProjectionError(
+            f"An image of {rows} rows and {columns} columns has {rows * columns / 1e6:.0f} million "
+            f"pixels; allowed: up to {MAX_PIXELS // 1_000_000} million."
+        )
+    first, last = row_spans(corners, rows, columns)
+    image = np.empty((rows, columns), dtype=np.uint8)
+    # Rows that carry the same span are painted as one block: a level panel is a single one.
+    changes = np.flatnonzero((first[1:] != first[:-1]) | (last[1:] != last[:-1])) + 1
+    starts = [0, *changes.tolist()]
+    for top, bottom in zip(starts, [*starts[1:], rows], strict=True):
+        a, b = int(first[top]), int(last[top])
+        block = image[top:bottom]
+        block[:, :a] = surroundings
+        block[:, a:b] = enhanced[a:b]
+        block[:, b:] = surroundings
+    return image

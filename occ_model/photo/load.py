@@ -1,0 +1,152 @@
+"""Read a photograph as a grey image whose columns are the scan axis."""
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.enhancement import to_bytes
+from occ_model.errors import ParameterError, PhotoError
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as PillowImage
+
+SCAN_AXES = ("auto", "columns", "lines")
+"""Which axis of the file the rolling shutter scanned; ``"auto"`` takes the one with stripes."""
+
+_EXPOSURE_TIME, _F_NUMBER, _ISO = 0x829A, 0x829D, 0x8827
+_EXIF_IFD = 0x8769
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Photo:
+    """A photograph.
+
+    Parameters
+    ----------
+    path
+        The file.
+    image : ndarray of uint8, shape (rows, columns)
+        Luma, columns being the scan axis.
+    turned
+        Whether the file's lines became the columns.
+    exposure_time, f_number, iso
+        What the camera noted, in SI units, None where it noted nothing.
+    """
+
+    path: Path
+    image: ByteArray
+    turned: bool
+    exposure_time: float | None = None
+    f_number: float | None = None
+    iso: float | None = None
+
+    @property
+    def profile(self) -> FloatArray:
+        """Mean of each column in grey levels, shape (columns,)."""
+        return np.asarray(self.image.mean(axis=0))
+
+
+def load_photo(path: str | Path, scan_axis: str = "auto") -> Photo:
+    """Read a photograph.
+
+    Parameters
+    ----------
+    path
+        An image file that Pillow reads. Its EXIF orientation is obeyed; colours become luma, 16
+        bits become 8, transparent parts black.
+    scan_axis
+        ``"columns"`` or ``"lines"`` of the file, or ``"auto"``.
+
+    Returns
+    -------
+    Photo
+
+    Raises
+    ------
+    PhotoError
+        There is no such file, it may not be read, or it is no complete image of reasonable size.
+    ParameterError
+        ``scan_axis`` is none of these words.
+    """
+    if scan_axis not in SCAN_AXES:
+        raise ParameterError(f"scan_axis is {scan_axis!r}; allowed: {', '.join(SCAN_AXES)}.")
+    path = Path(path)
+    if path.is_dir():
+        raise PhotoError(f"{path} is a folder, not a photo.")
+    grey, notes = _read(path)
+    turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(grey))
+    image = np.ascontiguousarray(grey.T if turned else grey)
+    return Photo(path, image, turned, **notes)
+
+
+def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
+    # Pillow is slow to import, and only needed when a photo is really opened.
+    from PIL import Image, ImageOps
+
+    try:
+        with warnings.catch_warnings():
+            # Pillow warns of pictures too large to be honest, and raises only at twice that size.
+            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            warnings.filterwarnings("ignore", module="PIL")
+            with Image.open(path) as opened:
+                notes = _exif_notes(opened)
+                upright = ImageOps.exif_transpose(opened)
+                return _grey(upright), notes
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning):
+        limit = (Image.MAX_IMAGE_PIXELS or 0) / 1e6
+        raise PhotoError(f"{path} has more than {limit:.0f} million pixels.") from None
+    except Image.UnidentifiedImageError:
+        raise PhotoError(f"{path} is not an image that can be read.") from None
+    except OSError as error:
+        reason = error.strerror or f"the file is damaged ({error})"
+        raise PhotoError(f"{path} cannot be read: {reason}.") from None
+    except Exception as error:  # Pillow's decoders raise anything on damaged files.
+        raise PhotoError(f"{path} cannot be read: the file is damaged ({error}).") from None
+
+
+def _grey(picture: "PillowImage") -> ByteArray:
+    """Turn a Pillow image of any mode into luma of 8 bits."""
+    if picture.mode.startswith("I") or picture.mode == "F":
+        values = np.asarray(picture, dtype=np.float64)
+        # 16-bit files use the whole range; 32-bit ones say nothing about theirs.
+        scale = 257.0 if picture.mode.startswith("I") and values.max(initial=0) > 255 else 1.0
+        return to_bytes(values / scale)
+    if picture.has_transparency_data:
+        from PIL import Image
+
+        backed = Image.new("RGBA", picture.size, (0, 0, 0, 255))
+        picture = Image.alpha_composite(backed, picture.convert("RGBA"))
+    return np.array(picture.convert("L"), dtype=np.uint8)
+
+
+def _exif_notes(picture: "PillowImage") -> dict[str, float | None]:
+    exif = picture.getexif().get_ifd(_EXIF_IFD)
+    return {
+        "exposure_time": _positive(exif.get(_EXPOSURE_TIME)),
+        "f_number": _positive(exif.get(_F_NUMBER)),
+        "iso": _positive(exif.get(_ISO)),
+    }
+
+
+def _positive(value: Any) -> float | None:
+    """Read a number that a camera noted, None for anything that is no positive number."""
+    if isinstance(value, tuple):
+        value = value[0] if value else None
+    try:
+        number = float(value)
+    except (TypeError, ValueError, ZeroDivisionError):
+        return None
+    return number if 0.0 < number < np.inf else None
+
+
+def _stripes_are_lines(grey: ByteArray) -> bool:
+    """Whether the means of the lines differ more, from one to the next, than those of columns."""
+    roughness = [
+        float(np.abs(np.diff(grey.mean(axis=axis))).mean()) if grey.shape[1 - axis] > 1 else 0.0
+        for axis in (0, 1)
+    ]
+    return roughness[1] > roughness[0]

@@ -1,0 +1,100 @@
+"""Scenes that come with the package, each value with its source or the reason it is assumed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import lru_cache
+
+from occ_model import scene_file
+from occ_model.errors import PresetError, SceneFileError
+from occ_model.parameters import parameter_named
+from occ_model.resource_files import resource_path
+from occ_model.scene import Scene
+
+_FOLDER = "presets"
+
+
+@dataclass(frozen=True, slots=True)
+class Preset:
+    """A scene that comes with the package.
+
+    Parameters
+    ----------
+    name
+        The name that it is loaded by.
+    title
+        What it is, in a few words.
+    scene
+        The scene.
+    sources
+        Where a parameter's value comes from, by the parameter's name.
+    assumed
+        Why a parameter has the value it has where no source gives one.
+    """
+
+    name: str
+    title: str
+    scene: Scene
+    sources: Mapping[str, str]
+    assumed: Mapping[str, str]
+
+
+def presets() -> tuple[str, ...]:
+    """List the names of the presets."""
+    return tuple(sorted(path.stem for path in resource_path(_FOLDER).glob("*.toml")))
+
+
+def load_preset(name: str) -> Scene:
+    """Load the scene of a preset.
+
+    Raises
+    ------
+    PresetError
+        No preset has that name; the names there are stand in the message.
+    """
+    return preset_named(name).scene
+
+
+def preset_named(name: str) -> Preset:
+    """Load a preset with the notes on its values.
+
+    Raises
+    ------
+    PresetError
+        No preset has that name.
+    """
+    known = presets()
+    if name not in known:
+        near = get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]}? " if near else ""
+        raise PresetError(f"There is no preset {name!r}; {hint}Known are {', '.join(known)}.")
+    return _load(name)
+
+
+@lru_cache(maxsize=64)
+def _load(name: str) -> Preset:
+    """Read a preset file on top of the one that it is based on."""
+    path = resource_path(_FOLDER, f"{name}.toml")
+    try:
+        content = scene_file.from_toml(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneFileError(f"The preset file {path.name} cannot be read: {error}.") from None
+    base_name = content.pop("based_on", None)
+    base = _load(base_name) if base_name else Preset(name, "", Scene(), {}, {})
+    title = content.pop("title", base.title)
+    sources = _notes(content.pop("sources", {}))
+    assumed = _notes(content.pop("assumed", {}))
+    # A value with a source here is no longer assumed, whatever the base said of it, and vice versa.
+    return Preset(
+        name=name,
+        title=title,
+        scene=base.scene.with_tables(content),
+        sources={k: v for k, v in base.sources.items() if k not in assumed} | sources,
+        assumed={k: v for k, v in base.assumed.items() if k not in sources} | assumed,
+    )
+
+
+def _notes(table: Mapping[str, str]) -> Mapping[str, str]:
+    for name in table:
+        parameter_named(name)
+    return table

@@ -1,0 +1,90 @@
+"""The receiver's door: an image or a profile in, the code or the reason why there is none out."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.enhancement import to_bytes
+from occ_model.errors import DecodeInputError, ParameterError
+from occ_model.receiver import threshold
+from occ_model.receiver.locate import locate
+from occ_model.receiver.signal import column_means
+from occ_model.results import DecodeResult, Region
+from occ_model.scene import Scene
+
+Decoder = Callable[[FloatArray, Scene], DecodeResult]
+"""What a decoder is: a signal (columns,) in grey levels and the scene in, a result out."""
+
+DECODERS: dict[str, Decoder] = {threshold.NAME: threshold.read_signal}
+"""The decoders by name."""
+
+
+def decode(image: NDArray[Any], scene: Scene, decoder: str = threshold.NAME) -> DecodeResult:
+    """Read the code that an image shows.
+
+    Parameters
+    ----------
+    image : ndarray, shape (rows, columns) or (columns,)
+        A grey image, columns being the scan axis: uint8, uint16 (scaled to 255) or floating point
+        (grey levels 0 to 255). One dimension is taken as a profile that needs no locating.
+    scene
+        What the receiver knows.
+    decoder
+        A name from ``DECODERS``.
+
+    Returns
+    -------
+    DecodeResult
+        Its ``failure`` says in a sentence why there is no code.
+
+    Raises
+    ------
+    DecodeInputError
+        The array is no grey image or profile, is empty, or holds a value that is not a number.
+    ParameterError
+        There is no such decoder.
+    """
+    if decoder not in DECODERS:
+        raise ParameterError(f"There is no decoder {decoder!r}; known: {', '.join(DECODERS)}.")
+    _check(image)
+    read_signal = DECODERS[decoder]
+    if image.ndim == 1:
+        whole = Region(0, 1, 0, len(image))
+        return replace(read_signal(_levels(image), scene), region=whole)
+    grey = image if image.dtype == np.uint8 else to_bytes(_levels(image))
+    return _decode_grey(np.ascontiguousarray(grey), scene, decoder)
+
+
+def _decode_grey(grey: ByteArray, scene: Scene, decoder: str) -> DecodeResult:
+    region = locate(grey, scene.receiver.bright_fraction)
+    if region is None:
+        return DecodeResult(
+            decoder, failure=f"No panel found: every pixel has the grey level {grey.flat[0]}."
+        )
+    return replace(DECODERS[decoder](column_means(grey, region), scene), region=region)
+
+
+def _levels(image: NDArray[Any]) -> FloatArray:
+    """Give pixel values as grey levels 0 to 255, whatever type they are stored in."""
+    levels = image.astype(np.float64)
+    return levels / 257.0 if image.dtype == np.uint16 else levels
+
+
+def _check(image: NDArray[Any]) -> None:
+    if not isinstance(image, np.ndarray) or image.ndim not in (1, 2):
+        shape = getattr(image, "shape", type(image).__name__)
+        raise DecodeInputError(
+            f"A decoder reads a grey image (rows, columns) or a profile (columns,), not {shape}."
+        )
+    if image.size == 0:
+        raise DecodeInputError(f"The image is empty: its shape is {image.shape}.")
+    if image.dtype not in (np.uint8, np.uint16) and not np.issubdtype(image.dtype, np.floating):
+        raise DecodeInputError(
+            f"The image has pixels of type {image.dtype}; allowed: uint8, uint16, floating point."
+        )
+    if np.issubdtype(image.dtype, np.floating) and not np.isfinite(image).all():
+        raise DecodeInputError("The image holds values that are not numbers (NaN or infinity).")

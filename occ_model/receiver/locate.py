@@ -1,0 +1,100 @@
+"""Find the panel in an image, from its brightest pixels."""
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.receiver.otsu import otsu_split
+from occ_model.results import Region
+
+_GRID = 512
+"""Contours are grown on a grid of at most this many cells a side: their growth needs no pixels."""
+
+_SPECK = 0.04
+"""A cell with a smaller share of bright pixels holds a speck of noise, not part of a contour."""
+
+
+def locate(image: ByteArray, bright_fraction: float) -> Region | None:
+    """Find the rectangle round the panel, as the paper describes it.
+
+    The brightest pixels that cover ``bright_fraction`` of the area are taken; their contours are
+    grown until only one is left; its bounding rectangle is the region. Two things the paper leaves
+    open: a pixel darker than the image's Otsu threshold never counts as bright, since a panel far
+    away has fewer bright pixels than that share; and the rectangle is drawn round the bright
+    pixels inside the grown contour, so that growing does not push it into the surroundings.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (rows, columns)
+        The image.
+    bright_fraction
+        Share of the pixels.
+
+    Returns
+    -------
+    Region or None
+        None where all pixels have the same value.
+    """
+    level = _bright_level(image, bright_fraction)
+    if level is None:
+        return None
+    bright = cv2.compare(image, level, cv2.CMP_GE)
+    rows, columns = image.shape
+    cell = -(-max(rows, columns) // _GRID)
+    grid_size = (-(-columns // cell), -(-rows // cell))
+    share = cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA)
+    cells = cv2.compare(share, 255 * _SPECK, cv2.CMP_GE)
+    if not cv2.hasNonZero(cells):
+        cells = cv2.compare(share, 0, cv2.CMP_GT)
+    if not cv2.hasNonZero(cells):  # too few for the smallest share above nothing
+        return _bounds(bright, Region(0, rows, 0, columns))
+    x, y, width, height = cv2.boundingRect(cv2.bitwise_and(_grow_to_one(cells), cells))
+    scale_y, scale_x = rows / grid_size[1], columns / grid_size[0]
+    around = Region(
+        max(0, int((y - 1) * scale_y)),
+        min(rows, int((y + height + 1) * scale_y)),
+        max(0, int((x - 1) * scale_x)),
+        min(columns, int((x + width + 1) * scale_x)),
+    )
+    return _bounds(bright, around)
+
+
+def _bright_level(image: ByteArray, bright_fraction: float) -> int | None:
+    """Find the grey level from which a pixel counts as bright."""
+    counts = cv2.calcHist([image], [0], None, [256], [0, 256]).ravel().astype(np.int64)
+    split = otsu_split(counts)
+    if split is None:
+        return None
+    at_least = np.cumsum(counts[::-1])[::-1]
+    wanted = bright_fraction * counts.sum()
+    return max(int(np.flatnonzero(at_least >= wanted)[-1]), split + 1)
+
+
+def _grow_to_one(cells: ByteArray) -> ByteArray:
+    """Dilate the contours by the smallest number of cells that leaves a single one."""
+
+    def grown(reach: int) -> ByteArray:
+        kernel = np.ones((2 * reach + 1, 2 * reach + 1), dtype=np.uint8)
+        return np.asarray(cv2.dilate(cells, kernel), dtype=np.uint8)
+
+    def is_one(reach: int) -> bool:
+        return cv2.connectedComponents(grown(reach))[0] <= 2  # the background is one of them
+
+    high = 1
+    if is_one(0):
+        return cells
+    while not is_one(high):
+        high *= 2
+    low = high // 2
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if is_one(middle) else (middle, high)
+    return grown(high)
+
+
+def _bounds(bright: ByteArray, within: Region) -> Region:
+    """Draw the rectangle round the bright pixels of a part of the image."""
+    part = bright[within.first_row : within.last_row, within.first_column : within.last_column]
+    x, y, width, height = cv2.boundingRect(part)
+    top, left = within.first_row + y, within.first_column + x
+    return Region(top, top + height, left, left + width)

@@ -1,0 +1,38 @@
+"""From a region of the image to a signal, and from the signal to zeros and ones."""
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.receiver.otsu import otsu_split
+from occ_model.results import Region
+
+_BINS = 256
+
+
+def column_means(image: ByteArray, region: Region) -> FloatArray:
+    """Average each column of a region.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns of the region,)
+        Grey levels.
+    """
+    part = image[region.first_row : region.last_row, region.first_column : region.last_column]
+    sums = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)
+    return np.asarray(sums, dtype=np.float64).ravel() / region.rows
+
+
+def otsu_threshold(signal: FloatArray) -> float | None:
+    """Find the grey level that parts ones from zeros, None for a constant signal.
+
+    The histogram has 256 bins from the signal's smallest value to its largest.
+    """
+    low, high = float(signal.min()), float(signal.max())
+    if high <= low:
+        return None
+    bins = np.rint((signal - low) * ((_BINS - 1) / (high - low))).astype(np.int64)
+    split = otsu_split(np.bincount(bins, minlength=_BINS))
+    if split is None:
+        return None
+    return low + (split + 0.5) * (high - low) / (_BINS - 1)

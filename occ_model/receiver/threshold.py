@@ -1,0 +1,92 @@
+"""The paper's decoder: threshold, run lengths, headers, bits."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.receiver.framing import read_packet
+from occ_model.receiver.run_lengths import fit_chips, runs_of
+from occ_model.receiver.signal import otsu_threshold
+from occ_model.results import DecodeResult, Runs
+from occ_model.scene import Scene
+
+NAME = "threshold"
+
+_SMALLEST_SWING = 1.0
+"""Grey levels that a signal must span to hold stripes."""
+
+_FEWEST_RUNS = 3
+"""Whole runs below which nothing can be said about a chip's length."""
+
+
+def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
+    """Read the code from a signal, knowing nothing of the scene but the number of bits.
+
+    Parameters
+    ----------
+    signal : ndarray of float64, shape (columns,)
+        Mean grey level of each column.
+    scene
+        Its transmitter says how many bits a code has, or that no packets are sent.
+
+    Returns
+    -------
+    DecodeResult
+        With every step as far as it came; the region is the caller's to add.
+    """
+    result = DecodeResult(NAME, signal=signal)
+    swing = float(signal.max() - signal.min()) if signal.size else 0.0
+    threshold = otsu_threshold(signal) if swing >= _SMALLEST_SWING else None
+    if threshold is None:
+        return replace(
+            result, failure=f"No stripes: the signal spans only {swing:.2g} grey levels."
+        )
+    runs = runs_of((signal > threshold).astype(np.uint8))
+    result = replace(result, threshold=threshold, runs=runs)
+    whole = Runs(runs.values[1:-1], runs.lengths[1:-1])
+    if len(whole.lengths) < _FEWEST_RUNS:
+        return replace(
+            result,
+            failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
+            "come closer or raise the frequency.",
+        )
+    read = _read_chips(result, runs, whole)
+    if scene.transmitter.pattern:
+        return replace(
+            read,
+            failure=f"A raw chip pattern is sent, which holds no packets; {len(read.chips)} chips "
+            "were read.",
+        )
+    if not read.chips.size:
+        return read
+    framed = read_packet(read.chips, scene.transmitter.bits)
+    return replace(
+        read,
+        headers=framed.headers,
+        bits=framed.bits,
+        code=framed.code,
+        failure=framed.failure,
+    )
+
+
+def _read_chips(result: DecodeResult, runs: Runs, whole: Runs) -> DecodeResult:
+    """Turn runs into chips; the first and last run count as far as the image shows them."""
+    fit = fit_chips(whole)
+    if fit is None:
+        return replace(
+            result,
+            failure=f"The {len(whole.lengths)} stripes fit no chip length: no header of three "
+            "chips stands out from runs of one and two.",
+        )
+    counts = fit.chips_in(runs)
+    ends = np.cumsum(runs.lengths).astype(np.float64)
+    starts = ends - runs.lengths
+    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    chip_starts = np.repeat(starts, counts) + within * np.repeat(runs.lengths / counts, counts)
+    return replace(
+        result,
+        chip_length=fit.chip_length,
+        chips=np.repeat(runs.values, counts),
+        chip_starts=chip_starts,
+    )

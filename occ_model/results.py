@@ -1,0 +1,124 @@
+"""What the simulation and the receiver hand to whoever shows or stores it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.scene import Scene
+
+
+def _nothing() -> ByteArray:
+    return np.empty(0, dtype=np.uint8)
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A rectangle of an image: rows and columns from the first to before the last."""
+
+    first_row: int
+    last_row: int
+    first_column: int
+    last_column: int
+
+    @property
+    def rows(self) -> int:
+        """Height in rows."""
+        return self.last_row - self.first_row
+
+    @property
+    def columns(self) -> int:
+        """Width in columns."""
+        return self.last_column - self.first_column
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Frame:
+    """One simulated picture and what it was made of.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    image : ndarray of uint8, shape (rows, columns)
+        The picture.
+    profile : ndarray of float64, shape (columns,)
+        PV_sim in grey levels, before enhancement and rounding.
+    enhanced : ndarray of uint8, shape (columns,)
+        The column values after enhancement, as they stand in the image.
+    corners : ndarray of float64, shape (4, 2)
+        The panel's corners in the image, each as (column, row), in order round the panel.
+    timings
+        Seconds that each stage took, in the order they ran.
+    """
+
+    scene: Scene
+    image: ByteArray
+    profile: FloatArray
+    enhanced: ByteArray
+    corners: FloatArray
+    timings: Mapping[str, float]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Runs:
+    """A signal of zeros and ones, as runs of equal values.
+
+    Parameters
+    ----------
+    values : ndarray of uint8, shape (runs,)
+        0 and 1 in turn.
+    lengths : ndarray of int64, shape (runs,)
+        Columns of each.
+    """
+
+    values: ByteArray
+    lengths: IndexArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DecodeResult:
+    """What a decoder made of an image, step by step, as far as it came.
+
+    Parameters
+    ----------
+    decoder
+        Its name.
+    failure
+        None, or a sentence that says why no code was read.
+    code
+        The code, None where ``failure`` says why.
+    bits : ndarray of uint8
+        The bits read, the first sent first; empty where none were read. They can be there beside
+        a failure, when the chips break the line code.
+    region
+        The rectangle of the image that was read.
+    signal : ndarray of float64, shape (columns of the region,)
+        Mean of each column in grey levels.
+    threshold
+        The grey level that parts ones from zeros.
+    runs
+        The signal after the threshold, as runs.
+    chip_length
+        Length of one chip in columns.
+    chips : ndarray of uint8
+        The chips read, first sent first.
+    chip_starts : ndarray of float64, shape as ``chips``
+        The column of the region at which each chip starts.
+    headers
+        Where headers start among ``chips``.
+    """
+
+    decoder: str
+    failure: str | None = None
+    code: int | None = None
+    bits: ByteArray = field(default_factory=_nothing)
+    region: Region | None = None
+    signal: FloatArray | None = None
+    threshold: float | None = None
+    runs: Runs | None = None
+    chip_length: float | None = None
+    chips: ByteArray = field(default_factory=_nothing)
+    chip_starts: FloatArray | None = None
+    headers: tuple[int, ...] = ()

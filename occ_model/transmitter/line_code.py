@@ -1,0 +1,58 @@
+"""Differential Manchester, in the convention of IEEE 802.5.
+
+Every bit is two chips with a transition between them. A bit 0 has a transition at its start as
+well, a bit 1 has none. A run of equal chips is therefore never longer than two.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+
+
+def encode(bits: Sequence[int], level: int = 0) -> ByteArray:
+    """Turn bits into chips.
+
+    Parameters
+    ----------
+    bits
+        The bits, first sent first.
+    level
+        The chip that comes before.
+
+    Returns
+    -------
+    ndarray of uint8, shape (2 x bits,)
+    """
+    chips: list[int] = []
+    for bit in bits:
+        first = level if bit else 1 - level
+        level = 1 - first
+        chips += [first, level]
+    return np.array(chips, dtype=np.uint8)
+
+
+def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
+    """Turn chips back into bits.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (2 x bits,)
+        The chips, first sent first.
+    level
+        The chip that comes before.
+
+    Returns
+    -------
+    bits : ndarray of uint8, shape (bits,)
+        1 where there is no transition at a bit's start.
+    violations : list of int
+        The bits that have no transition in their middle; what stands in ``bits`` there rests on
+        the start alone.
+    """
+    first = chips[0::2]
+    second = chips[1::2]
+    before = np.concatenate([[np.uint8(level)], second[:-1]])
+    bits = (first == before).astype(np.uint8)
+    return bits, np.flatnonzero(first == second).tolist()

@@ -1,0 +1,83 @@
+"""The light as a periodic, piecewise-constant waveform, and its exact running integral.
+
+Time is counted in chips here, and split into whole chips and a fraction: what is left of a double
+after a million packets is too coarse to say where in a chip an edge falls, a fraction alone is not.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Self
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+
+
+@dataclass(frozen=True, slots=True)
+class Phases:
+    """Times within one period, one an array element: whole chips and a fraction in [0, 1)."""
+
+    chip: IndexArray
+    fraction: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Duration:
+    """A length of time: whole periods, whole chips of a period, and a fraction of a chip."""
+
+    periods: int
+    chips: int
+    fraction: float
+
+    @classmethod
+    def of(cls, chips: Fraction, period: int) -> Self:
+        """Split an exact number of chips; ``period`` is the number of chips of one period."""
+        whole = chips.numerator // chips.denominator
+        return cls(whole // period, whole % period, float(chips - whole))
+
+
+class Waveform:
+    """The light of a chip sequence that is sent over and over.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        One period.
+    """
+
+    def __init__(self, chips: ByteArray) -> None:
+        self.period = len(chips)
+        # A window that starts in one period may end in the next: two periods, and the chip after.
+        twice = np.concatenate([chips, chips, chips[:1]])
+        self._level: FloatArray = twice.astype(np.float64)
+        self._lit_before: FloatArray = np.concatenate([[0.0], np.cumsum(self._level)])
+
+    def running_integral(self, phases: Phases) -> FloatArray:
+        """Light from the period's start up to each phase, C(x), in lit chips."""
+        return self._lit_before[phases.chip] + self._level[phases.chip] * phases.fraction
+
+    def lit_chips(self, starts: Phases, duration: Duration) -> FloatArray:
+        """Light within windows, C(end) - C(start), in lit chips.
+
+        The difference is taken term by term, the whole chips first, which are exact: the error
+        stays that of the phases, about 1e-16 chips, however long or short the windows are.
+
+        Parameters
+        ----------
+        starts
+            Where the windows start.
+        duration
+            How long they all last.
+
+        Returns
+        -------
+        ndarray of float64, shape as ``starts``
+        """
+        first = starts.chip
+        carry = starts.fraction + duration.fraction >= 1.0
+        last = first + duration.chips + carry
+        whole = self._lit_before[last] - self._lit_before[first]
+        level_first, level_last = self._level[first], self._level[last]
+        part = (level_last - level_first) * starts.fraction
+        part += level_last * (duration.fraction - carry)
+        return duration.periods * self._lit_before[self.period] + (whole + part)

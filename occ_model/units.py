@@ -1,0 +1,131 @@
+"""Quantities as people write them: ``"10 kHz"``, ``"68us"``, ``"1/8000 s"``, ``"30°"``.
+
+Inside the package every value is in its SI unit; this module is the only one that knows prefixes.
+"""
+
+import math
+import re
+from dataclasses import dataclass
+
+_PREFIXES = {
+    "n": 1e-9,
+    "u": 1e-6,
+    "µ": 1e-6,  # micro sign
+    "μ": 1e-6,  # noqa: RUF001 - Greek mu, which some keyboards type instead
+    "m": 1e-3,
+    "c": 1e-2,
+    "": 1.0,
+    "k": 1e3,
+    "M": 1e6,
+    "G": 1e9,
+}
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_QUANTITY = re.compile(rf"\s*({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*?)\s*", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit of measure and the way its values are shown.
+
+    Parameters
+    ----------
+    symbol
+        The SI unit, empty for a pure number.
+    prefixes
+        The prefixes used for display, from the smallest.
+    smallest_plain
+        From this magnitude (in the unit itself) up to the next prefix no prefix is used.
+    spellings
+        Other spellings that are read, with what each is worth in the SI unit.
+    shown
+        Symbol and worth of the unit that is shown in place of the SI unit, if any.
+    """
+
+    symbol: str
+    prefixes: tuple[str, ...] = ("",)
+    smallest_plain: float = 1.0
+    spellings: tuple[tuple[str, float], ...] = ()
+    shown: tuple[str, float] | None = None
+
+    def worth(self, text: str) -> float | None:
+        """Say what one of the unit written ``text`` is worth in SI, None if it is not understood."""
+        known = dict(self.spellings)
+        if self.shown is not None:
+            known[self.shown[0]] = self.shown[1]
+        if text in known:
+            return known[text]
+        if not self.symbol:
+            return None
+        if text == self.symbol:
+            return 1.0
+        stem = text.removesuffix(self.symbol)
+        # "10k" is ten kilohertz to anyone; "5m" of a length never gets here, m being the unit.
+        return _PREFIXES.get(stem) if stem else None
+
+    def parse(self, text: str, plain: float = 1.0) -> float | None:
+        """Read a quantity.
+
+        Parameters
+        ----------
+        text
+            A number or a fraction, with or without a unit.
+        plain
+            What a number without a unit is worth in SI.
+
+        Returns
+        -------
+        float or None
+            The value in SI, None when the text is no quantity of this unit.
+        """
+        match = _QUANTITY.fullmatch(text)
+        if match is None:
+            return None
+        number, divisor, unit = match.groups()
+        factor = plain if not unit else self.worth(unit)
+        if factor is None:
+            return None
+        value = float(number)
+        if divisor is not None:
+            if float(divisor) == 0.0:
+                return None
+            value /= float(divisor)
+        return _scaled(value, factor)
+
+    def display(self, value: float) -> tuple[str, float]:
+        """Choose the unit that ``value`` is best shown in: its symbol and its worth in SI."""
+        if self.shown is not None:
+            return self.shown
+        size = abs(value)
+        chosen = ""
+        for prefix in self.prefixes:
+            start = self.smallest_plain if prefix == "" else _PREFIXES[prefix]
+            if prefix == self.prefixes[0] or size >= start * (1 - 1e-12):
+                chosen = prefix
+        if size == 0.0:
+            chosen = ""
+        return chosen + self.symbol, _PREFIXES[chosen]
+
+    def format(self, value: float, digits: int = 6) -> str:
+        """Write ``value`` with ``digits`` significant digits and its unit."""
+        symbol, factor = self.display(value)
+        number = f"{value / factor:.{digits}g}" if math.isfinite(value) else str(value)
+        if not symbol:
+            return number
+        return f"{number}{symbol}" if symbol == "°" else f"{number} {symbol}"
+
+
+def _scaled(value: float, factor: float) -> float:
+    """Multiply, dividing instead where that is exact: 68 us is 68 / 1e6, not 68 * 1e-6."""
+    if 0.0 < factor < 1.0 and round(1.0 / factor) * factor == 1.0:
+        return value / round(1.0 / factor)
+    return value * factor
+
+
+NONE = Unit("")
+SECOND = Unit("s", ("n", "µ", "m", ""), spellings=(("sec", 1.0),))
+HERTZ = Unit("Hz", ("", "k", "M", "G"))
+METRE = Unit("m", ("n", "µ", "m", "", "k"), smallest_plain=0.1)
+RADIAN = Unit("rad", shown=("°", math.pi / 180), spellings=(("deg", math.pi / 180),))
+LUX = Unit("lx")
+NIT = Unit("cd/m²", spellings=(("cd/m2", 1.0), ("nit", 1.0), ("nits", 1.0)))

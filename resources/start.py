@@ -1,0 +1,343 @@
+"""Set the project up in a virtual environment, then start the application or the checks.
+
+    python3 resources/start.py [application arguments]
+    python3 resources/start.py test [pytest arguments]
+
+Only the standard library is needed, and what is already in place is left alone, so that every
+start after the first costs a fraction of a second. The set-up speaks on standard error: standard
+output belongs to the application.
+"""
+
+import ctypes
+import hashlib
+import importlib.util
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+OLDEST, NEWEST = (3, 11), (3, 13)
+
+
+def version_problem(major: int, minor: int) -> str:
+    """Say why this Python cannot run the project; return '' where it can."""
+    if OLDEST <= (major, minor) <= NEWEST:
+        return ""
+    return (
+        f"This project needs Python 3.11, 3.12 or 3.13, and this is Python {major}.{minor}. "
+        "Start it with one of those, for example: python3.12 resources/start.py"
+    )
+
+
+# Asked before anything below is defined: an older Python 3 can read the rest of this file, but it
+# cannot evaluate the annotations in it.
+if version_problem(*sys.version_info[:2]):
+    sys.exit(version_problem(*sys.version_info[:2]))
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / ".venv"
+PROGRAMS = VENV / ("Scripts" if os.name == "nt" else "bin")
+PYTHON = PROGRAMS / ("python.exe" if os.name == "nt" else "python")
+STAMP = VENV / "start.json"
+UNFINISHED = VENV / "unfinished"
+RUNNING = "{}.{}".format(*sys.version_info)
+
+# What Qt links but its wheel leaves to the system, each with the Debian package that brings it.
+# What these link in turn is left out: where that is missing, they do not load either. Debian 13 and
+# Ubuntu 24.04 renamed libglib2.0-0; apt-get still finds it there by its old name.
+LIBRARIES = {
+    "libEGL.so.1": "libegl1",
+    "libGL.so.1": "libgl1",
+    "libdbus-1.so.3": "libdbus-1-3",
+    "libfontconfig.so.1": "libfontconfig1",
+    "libglib-2.0.so.0": "libglib2.0-0",
+    "libxkbcommon.so.0": "libxkbcommon0",
+}
+# What Qt links besides, to open windows on a display of either kind.
+DISPLAY_LIBRARIES = {
+    "xcb": {
+        "libX11-xcb.so.1": "libx11-xcb1",
+        "libxcb-cursor.so.0": "libxcb-cursor0",
+        "libxcb-icccm.so.4": "libxcb-icccm4",
+        "libxcb-keysyms.so.1": "libxcb-keysyms1",
+        "libxcb-randr.so.0": "libxcb-randr0",
+        "libxcb-shape.so.0": "libxcb-shape0",
+        "libxcb-sync.so.1": "libxcb-sync1",
+        "libxcb-xfixes.so.0": "libxcb-xfixes0",
+        "libxkbcommon-x11.so.0": "libxkbcommon-x11-0",
+    },
+    "wayland": {
+        "libwayland-client.so.0": "libwayland-client0",
+        "libwayland-cursor.so.0": "libwayland-cursor0",
+        "libwayland-egl.so.1": "libwayland-egl1",
+    },
+}
+APT_INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
+# Arguments with which the application opens no window.
+WINDOWLESS = {"--screenshot", "--help", "-h", "--version"}
+
+
+class SetUpError(Exception):
+    """The project cannot be started; the message says why, and what to do."""
+
+
+def say(message: str) -> None:
+    """Tell the user how the set-up goes."""
+    print(message, file=sys.stderr, flush=True)
+
+
+def run_visibly(command: Sequence[str], **settings: str) -> bool:
+    """Run a command with its output on standard error; return whether it succeeded."""
+    environment = {**os.environ, **settings}
+    return subprocess.run(command, cwd=ROOT, env=environment, stdout=2, check=False).returncode == 0
+
+
+def qt_platform(arguments: Iterable[str], environment: Mapping[str, str]) -> str:
+    """Name the Qt platform that this start will use; return '' where it lacks a display."""
+    if sys.platform != "linux":
+        return "native"
+    if any(argument.split("=")[0] in WINDOWLESS for argument in arguments):
+        return "offscreen"
+    # Qt's variable is a list parted by semicolons, each entry a name that options may follow.
+    chosen = environment.get("QT_QPA_PLATFORM", "").split(";")[0].split(":")[0]
+    if chosen and not chosen.startswith(("xcb", "wayland")):
+        return chosen
+    if environment.get("WAYLAND_DISPLAY") and chosen != "xcb":
+        return "wayland"
+    return "xcb" if environment.get("DISPLAY") else ""
+
+
+def loads(library: str) -> bool:
+    """Tell whether the dynamic linker finds a shared library, and all that it links."""
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+def has_font() -> bool:
+    """Tell whether there is a font in one of the folders where Qt looks for them."""
+    home = os.environ.get("HOME", "")
+    folders = (
+        "/usr/share/fonts",
+        "/usr/local/share/fonts",
+        f"{home}/.fonts",
+        f"{home}/.local/share/fonts",
+    )
+    return any(True for folder in folders for _ in Path(folder).rglob("*.[ot]t[cf]"))
+
+
+def missing_parts(platform: str, making_venv: bool) -> dict[str, str]:
+    """Map each part that the system lacks to the Debian package that brings it."""
+    libraries = {**LIBRARIES, **DISPLAY_LIBRARIES.get(platform, {})}
+    missing = {name: package for name, package in libraries.items() if not loads(name)}
+    # Systems without apt-get may keep their fonts anywhere.
+    if shutil.which("apt-get") and not has_font():
+        missing["a font"] = "fonts-dejavu-core"
+    # Debian parts this from Python itself, and without it a virtual environment has no pip.
+    importlib.invalidate_caches()
+    if making_venv and importlib.util.find_spec("ensurepip") is None:
+        missing["Python's ensurepip"] = f"python{RUNNING}-venv"
+    return missing
+
+
+def root_prefix() -> list[str] | None:
+    """Return what goes before a command for it to run as root; None where nothing would do."""
+    if os.geteuid() == 0:
+        return []
+    if shutil.which("sudo") is None:
+        return None
+    free = subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False)
+    return ["sudo"] if free.returncode == 0 or os.isatty(0) else None
+
+
+def provide_system_parts(platform: str, making_venv: bool) -> None:
+    """See that the system has what Qt and pip need, by installing it where that is allowed."""
+    missing = missing_parts(platform, making_venv) if sys.platform == "linux" else {}
+    if not missing:
+        return
+    lacks = "This system lacks " + ", ".join(missing)
+    if shutil.which("apt-get") is None:
+        raise SetUpError(f"{lacks}. Install what brings it, then start again.")
+    install = [*APT_INSTALL, *missing.values()]
+    sudo = "sudo " if shutil.which("sudo") else ""
+    by_hand = f"{sudo}apt-get update && {sudo}{shlex.join(install)}"
+    remedy = f"Run this line as root, then start again:\n    {by_hand}"
+    prefix = root_prefix()
+    if prefix is None:
+        raise SetUpError(f"{lacks}. {remedy}")
+    say(f"{lacks}. Installing {', '.join(missing.values())} ...")
+    as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
+    # An update that fails is no reason to stop: an old list often knows the packages too.
+    run_visibly([*as_root, "apt-get", "update"])
+    if not run_visibly([*as_root, *install]):
+        raise SetUpError(f"apt-get could not install what is missing; see above. {remedy}")
+    still = missing_parts(platform, making_venv)
+    if still:
+        raise SetUpError(f"apt-get ran, yet this Python still lacks {', '.join(still)}.")
+
+
+def read_stamp() -> dict[str, Any]:
+    """Return what the last finished installation noted down; {} where none did."""
+    try:
+        return dict(json.loads(STAMP.read_text()))
+    except (OSError, TypeError, ValueError):
+        return {}
+
+
+def wanted_stamp(python: str, extras: Iterable[str]) -> dict[str, Any]:
+    """Return the note of an installation that serves the project as it is now."""
+    project = hashlib.sha256((ROOT / "pyproject.toml").read_bytes()).hexdigest()
+    return {"pyproject": project, "python": python, "root": str(ROOT), "extras": sorted(extras)}
+
+
+def serves(stamp: Mapping[str, Any], wanted: Mapping[str, Any]) -> bool:
+    """Tell whether an installation is the wanted one, or that with more extras."""
+    same = {**stamp, "extras": None} == {**wanted, "extras": None}
+    return same and set(wanted["extras"]) <= set(stamp["extras"])
+
+
+def venv_version() -> str:
+    """Return the version of the virtual environment's Python; '' where it is of no use."""
+    moved = read_stamp().get("root", str(ROOT)) != str(ROOT)  # its programs name the old folder
+    if moved or UNFINISHED.exists():
+        return ""
+    question = [str(PYTHON), "-I", "-c", "import pip, sys; print(*sys.version_info[:2])"]
+    try:
+        asked = subprocess.run(question, capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    version = asked.stdout.split() if asked.returncode == 0 else []
+    supported = bool(version) and not version_problem(*map(int, version))
+    return ".".join(version) if supported else ""
+
+
+def make_venv() -> None:
+    """Make the virtual environment anew, in place of whatever was there."""
+    if VENV.is_symlink() or VENV.is_file():
+        VENV.unlink()
+    elif VENV.exists():
+        say("Making .venv anew: the one there is unfinished, moved or of an unsupported Python.")
+        shutil.rmtree(VENV)
+    VENV.mkdir()
+    UNFINISHED.touch()
+    # Not sys.executable: that may lie in the very folder that was just removed.
+    python = getattr(sys, "_base_executable", None) or sys.executable
+    venv = [python, "-m", "venv", str(VENV)]
+    made = subprocess.run(venv, capture_output=True, text=True, check=False)
+    if made.returncode != 0:
+        say((made.stdout + made.stderr).strip())
+        raise SetUpError("Python could not make the virtual environment .venv; see above.")
+    UNFINISHED.unlink()
+
+
+def install_project(python: str, extras: Iterable[str]) -> None:
+    """Have pip install the project, editable, and note it down once that is done."""
+    stamp = read_stamp()
+    extras = {*extras, *stamp.get("extras", ())}  # never take away what `test` brought
+    occasion = "something changed since the last time" if stamp else "first start only"
+    say(f"Installing the project into .venv ({occasion}, a minute or two) ...")
+    STAMP.unlink(missing_ok=True)  # a pip that is stopped half-way must run again
+    target = f".[{','.join(sorted(extras))}]" if extras else "."
+    pip = [str(PYTHON), "-m", "pip", "install", "-e", target]
+    if not run_visibly(pip, PIP_DISABLE_PIP_VERSION_CHECK="1"):
+        raise SetUpError(
+            "pip could not install the project; its own words are above. "
+            "Check the network connection and the free disk space, then start again."
+        )
+    STAMP.write_text(json.dumps(wanted_stamp(python, extras), indent=2))
+
+
+@contextmanager
+def one_at_a_time() -> Iterator[None]:
+    """Make other starts of the project wait: two of them must not write .venv at once."""
+    if sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    # The lock is on this very script, so that no lock file is left behind.
+    with Path(__file__).open("rb") as script:
+        try:
+            fcntl.flock(script, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say("Waiting for another start of the project to finish its set-up ...")
+            fcntl.flock(script, fcntl.LOCK_EX)
+        except OSError:
+            pass  # some network folders know no locks
+        yield
+
+
+def set_up(platform: str, extras: Iterable[str]) -> None:
+    """Bring whatever the start still lacks, from system libraries to the project itself."""
+    python = venv_version()
+    provide_system_parts(platform, making_venv=not python)
+    if not python:
+        make_venv()
+        python = RUNNING
+    elif python != RUNNING:
+        say(f"Using the Python {python} of .venv; remove .venv to use this Python {RUNNING}.")
+    if not serves(read_stamp(), wanted_stamp(python, extras)):
+        install_project(python, extras)
+
+
+def run_checks(pytest_arguments: Sequence[str]) -> int:
+    """Run every check of the project, whichever fail; return the exit code."""
+    pytest = shlex.join(["pytest", *pytest_arguments])
+    checks = ["ruff check .", "ruff format --check .", "mypy", "lint-imports", pytest]
+    failed = []
+    for number, check in enumerate(checks, start=1):
+        print(f"\nCheck {number} of {len(checks)}: {check}", flush=True)
+        program, *arguments = shlex.split(check)
+        command = [str(PROGRAMS / program), *arguments]
+        if subprocess.run(command, cwd=ROOT, check=False).returncode != 0:
+            failed.append(check)
+    print(f"\nFailed: {'; '.join(failed)}" if failed else "\nEvery check passed.", flush=True)
+    return 1 if failed else 0
+
+
+def start_application(arguments: Sequence[str]) -> int:
+    """Become the application, where the system can replace a process by another."""
+    command = [str(PYTHON), "-m", "occ_gui", *arguments]
+    if sys.platform == "win32":
+        return subprocess.run(command, check=False).returncode
+    os.execv(command[0], command)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Set up and start what the arguments ask for; return the exit code."""
+    testing = list(arguments[:1]) == ["test"]
+    if testing:
+        os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    platform = qt_platform(arguments, os.environ)
+    try:
+        with one_at_a_time():
+            set_up(platform, extras=["test"] if testing else [])
+        if testing:
+            return run_checks(arguments[1:])
+        if not platform:
+            raise SetUpError(
+                "There is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is "
+                "set. This draws the window into a picture instead:\n"
+                "    python3 resources/start.py --screenshot window.png"
+            )
+        return start_application(arguments)
+    except SetUpError as problem:
+        say(str(problem))
+        return 1
+    except OSError as error:
+        say(f"The set-up could not go on: {error}")
+        return 1
+    except KeyboardInterrupt:
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,18 +1,18 @@
 """Runs of ones and zeros, and the length of one chip that they tell of."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.arrays import ByteArray, IndexArray
 from occ_model.receiver.otsu import otsu_split
 from occ_model.results import Runs
 
-_LONGEST_ONES = (3, 4)
-"""Chips of the longest run of ones: the header's three, or four where the data end in a one."""
+_LONGEST = np.array([2, 4])
+"""Chips of the longest run of zeros, and of ones: a header after data that end in a one."""
 
-_LONGEST_ZEROS = 2
-"""Chips of the longest run of zeros that the line code allows."""
+_HEADER_RUNS = (3, 4)
+"""Chips of the run of ones that holds a header: its own three, or four after a one."""
 
 
 def runs_of(binary: ByteArray) -> Runs:
@@ -41,6 +41,7 @@ class ChipFit:
     chip_length: float
     widening: float
     misfit: float
+    """Root mean square distance from whole chips, plus the share of runs that are too long."""
 
     def chips_in(self, runs: Runs) -> IndexArray:
         """Count the chips of every run, at least one each."""
@@ -49,60 +50,47 @@ class ChipFit:
         return np.maximum(counts, 1.0).astype(np.int64)
 
 
-def fit_chips(runs: Runs) -> ChipFit | None:
+def fit_chips(runs: Runs) -> ChipFit:
     """Find the length of one chip from whole runs.
 
     The paper splits the histogram of the ones' run lengths, and that of the zeros', by Otsu's
-    threshold and takes the average of the short runs for one chip. That misreads a code whose
-    runs are all two chips long, such as 1023, where "short" means two. So the average is taken as
-    one chip, and as two; and what decides is the framing: every packet has one header, so that
-    the longest run of ones must come out as three chips, or as four where the data end in a one,
-    and no run of zeros as more than two. Among what is left the best fit to whole chips wins.
+    threshold and takes the average of the short runs for one chip. For zeros that always holds,
+    since every packet has single zeros. For ones it misreads a code whose short runs are two chips
+    long, such as 1023, and one whose single and double runs the split leaves together. So the
+    ones' short runs are tried as one chip and as two, and the longest run of ones, which is the
+    header's, as three chips and as four. Each trial is refined by least squares; the one whose
+    runs lie nearest to whole chips within the longest that the framing allows is taken.
 
     Parameters
     ----------
     runs
-        Runs that are not cut off by the region's edges.
+        Runs that are not cut off by the region's edges, of both kinds.
 
     Returns
     -------
-    ChipFit or None
-        None where no chip length agrees with the framing.
+    ChipFit
     """
-    sign = np.where(runs.values == 1, 1.0, -1.0)
-    shorts = [short_run(runs.lengths[runs.values == v]) for v in (0, 1) if v in runs.values]
-    fits = []
-    for candidate in (short / chips for short in shorts for chips in (1, 2, 3)):
-        fit = _refined(runs, sign, candidate)
-        if fit is not None and _agrees(runs, fit):
-            fits.append(fit)
-    return min(fits, key=lambda fit: fit.misfit, default=None)
+    zeros, ones = (runs.lengths[runs.values == value] for value in (0, 1))
+    one_zero = short_run(zeros)
+    trials = [(short_run(ones), chips) for chips in (1, 2)]
+    trials += [(float(ones.max()), chips) for chips in _HEADER_RUNS]
+    # What a threshold off the middle takes from a run of ones it gives to the run of zeros.
+    lengths = [(length + one_zero) / (chips + 1) for length, chips in trials]
+    fits = [_refined(runs, ChipFit(length, length - one_zero, 0.0)) for length in lengths]
+    return min(fits, key=lambda fit: fit.misfit)
 
 
-def _refined(runs: Runs, sign: FloatArray, chip_length: float) -> ChipFit | None:
+def _refined(runs: Runs, fit: ChipFit) -> ChipFit:
     """Improve a first guess by least squares over the runs' whole numbers of chips."""
-    lengths = runs.lengths.astype(np.float64)
-    fit = ChipFit(chip_length, 0.0, np.inf)
+    sign = np.where(runs.values == 1, 1.0, -1.0)
     for _ in range(3):
         counts = fit.chips_in(runs).astype(np.float64)
-        # Normal equations of lengths = chip_length * counts + widening * sign.
-        a, b, c = counts @ counts, counts @ sign, float(len(counts))
-        determinant = a * c - b * b
-        if determinant <= 1e-9 * a * c:  # all runs alike: nothing to part the two by
-            chip_length, widening = float(counts @ lengths) / a, 0.0
-        else:
-            x, y = counts @ lengths, sign @ lengths
-            chip_length = float(c * x - b * y) / determinant
-            widening = float(a * y - b * x) / determinant
+        terms = np.stack([counts, sign], axis=1)
+        (chip_length, widening), *_ = np.linalg.lstsq(terms, runs.lengths, rcond=None)
         if chip_length <= 0.0:
-            return None
-        residual = (lengths - chip_length * counts - widening * sign) / chip_length
-        fit = ChipFit(chip_length, widening, float(np.sqrt(np.mean(residual**2))))
-    return fit
-
-
-def _agrees(runs: Runs, fit: ChipFit) -> bool:
-    """Whether the longest runs are as long as the framing says."""
+            break
+        fit = ChipFit(float(chip_length), float(widening), 0.0)
     counts = fit.chips_in(runs)
-    longest = [int(counts[runs.values == value].max(initial=0)) for value in (0, 1)]
-    return longest[0] <= _LONGEST_ZEROS and longest[1] in _LONGEST_ONES
+    residual = (runs.lengths - sign * fit.widening) / fit.chip_length - counts
+    too_long = float(np.mean(counts > _LONGEST[runs.values]))
+    return replace(fit, misfit=float(np.sqrt(np.mean(residual**2))) + too_long)

@@ -58,8 +58,6 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure=f"A raw chip pattern is sent, which holds no packets; {len(read.chips)} chips "
             "were read.",
         )
-    if not read.chips.size:
-        return read
     framed = read_packet(read.chips, scene.transmitter.bits)
     return replace(
         read,
@@ -73,12 +71,6 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 def _read_chips(result: DecodeResult, runs: Runs, whole: Runs) -> DecodeResult:
     """Turn runs into chips; the first and last run count as far as the image shows them."""
     fit = fit_chips(whole)
-    if fit is None:
-        return replace(
-            result,
-            failure=f"The {len(whole.lengths)} stripes fit no chip length: no header of three "
-            "chips stands out from runs of one and two.",
-        )
     counts = fit.chips_in(runs)
     ends = np.cumsum(runs.lengths).astype(np.float64)
     starts = ends - runs.lengths

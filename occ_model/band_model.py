@@ -59,7 +59,7 @@ def band_profile(scene: Scene) -> FloatArray:
     if scene.model.band_reading == "charitable":
         exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
         positions, lit = _knots(chips, max(0.0, 1.0 - exposure), exposure, between_equal=exposure)
-        columns = phases.chip + phases.fraction
+        columns: FloatArray = phases.chip + phases.fraction
     else:
         positions, lit = _knots(chips, round(complete), round(transition), between_equal=0.0)
         if positions[-1] == 0:
@@ -67,7 +67,8 @@ def band_profile(scene: Scene) -> FloatArray:
                 f"The band model is undefined here: a chip of {complete + transition:.2g} columns "
                 "rounds to none."
             )
-        columns = np.arange(len(phases.chip)) + 0.5 + _literal_start(scene, chips, positions)
+        columns = np.arange(0.5, len(phases.chip))
+        columns += _literal_start(scene, chips, positions)
     dark, bright = saturate(level_values(scene))
     values = np.interp(np.mod(columns, positions[-1]), positions, lit)
     return np.asarray(dark + (bright - dark) * values)

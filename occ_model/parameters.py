@@ -11,10 +11,10 @@ from difflib import get_close_matches
 from occ_model.declarations import ChipPattern, Choice, Count, Parameter, Quantity
 from occ_model.errors import ParameterError
 from occ_model.units import (
-    NIT,
     HERTZ,
     LUX,
     METRE,
+    NIT,
     NONE,
     RADIAN,
     SECOND,
@@ -23,6 +23,8 @@ from occ_model.units import (
 MAX_BITS = 16
 
 _TURN = math.radians(89.99)
+_HALF = math.pi
+_TILT = math.radians(60.0)
 
 # fmt: off
 _DECLARED: tuple[Parameter, ...] = (
@@ -143,21 +145,21 @@ _DECLARED: tuple[Parameter, ...] = (
         "Yaw",
         "",
         "Turn of the panel about the rows axis.",
-        unit=RADIAN, low=-_TURN, high=_TURN, slider=(-math.radians(60), math.radians(60)), scale="linear", default=0.0,
+        unit=RADIAN, low=-_TURN, high=_TURN, slider=(-_TILT, _TILT), scale="linear", default=0.0,
     ),
     Quantity(
         "pitch",
         "Pitch",
         "",
         "Turn of the panel about the columns axis.",
-        unit=RADIAN, low=-_TURN, high=_TURN, slider=(-math.radians(60), math.radians(60)), scale="linear", default=0.0,
+        unit=RADIAN, low=-_TURN, high=_TURN, slider=(-_TILT, _TILT), scale="linear", default=0.0,
     ),
     Quantity(
         "roll",
         "Roll",
         "",
         "Turn of the panel about the optical axis.",
-        unit=RADIAN, low=-math.pi, high=math.pi, slider=(-math.pi / 2, math.pi / 2), scale="linear", default=0.0,
+        unit=RADIAN, low=-_HALF, high=_HALF, slider=(-_TILT, _TILT), scale="linear", default=0.0,
     ),
     # surroundings
     Quantity(

@@ -1,6 +1,5 @@
 """Scenes that come with the package, each value with its source or the reason it is assumed."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
@@ -35,8 +34,8 @@ class Preset:
     name: str
     title: str
     scene: Scene
-    sources: Mapping[str, str]
-    assumed: Mapping[str, str]
+    sources: dict[str, str]
+    assumed: dict[str, str]
 
 
 def presets() -> tuple[str, ...]:
@@ -94,7 +93,7 @@ def _load(name: str) -> Preset:
     )
 
 
-def _notes(table: Mapping[str, str]) -> Mapping[str, str]:
+def _notes(table: dict[str, str]) -> dict[str, str]:
     for name in table:
         parameter_named(name)
     return table

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Self
 
 from occ_model import scene_file
-from occ_model.errors import ParameterError, SceneFileError
 from occ_model.declarations import ParameterValue
+from occ_model.errors import ParameterError, SceneFileError
 from occ_model.parameters import PARAMETERS, parameter_named
 
 _DIAGONAL_35MM = 0.04327
@@ -15,7 +15,7 @@ _DIAGONAL_35MM = 0.04327
 
 
 def _declared(name: str) -> Any:
-    """A dataclass field whose default is the declaration's."""
+    """Make a dataclass field whose default is the declaration's."""
     return field(default=PARAMETERS[name].default)
 
 

@@ -11,7 +11,7 @@ _PREFIXES = {
     "n": 1e-9,
     "u": 1e-6,
     "µ": 1e-6,  # micro sign
-    "μ": 1e-6,  # noqa: RUF001 - Greek mu, which some keyboards type instead
+    "μ": 1e-6,
     "m": 1e-3,
     "c": 1e-2,
     "": 1.0,
@@ -49,7 +49,7 @@ class Unit:
     shown: tuple[str, float] | None = None
 
     def worth(self, text: str) -> float | None:
-        """Say what one of the unit written ``text`` is worth in SI, None if it is not understood."""
+        """Say what the unit written ``text`` is worth in SI, None if it is not understood."""
         known = dict(self.spellings)
         if self.shown is not None:
             known[self.shown[0]] = self.shown[1]

@@ -85,7 +85,7 @@ def load_photo(path: str | Path, scan_axis: str = "auto") -> Photo:
 
 def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
     # Pillow is slow to import, and only needed when a photo is really opened.
-    from PIL import Image, ImageOps
+    from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
         with warnings.catch_warnings():
@@ -99,12 +99,12 @@ def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
     except (Image.DecompressionBombError, Image.DecompressionBombWarning):
         limit = (Image.MAX_IMAGE_PIXELS or 0) / 1e6
         raise PhotoError(f"{path} has more than {limit:.0f} million pixels.") from None
-    except Image.UnidentifiedImageError:
+    except UnidentifiedImageError:
         raise PhotoError(f"{path} is not an image that can be read.") from None
     except OSError as error:
         reason = error.strerror or f"the file is damaged ({error})"
         raise PhotoError(f"{path} cannot be read: {reason}.") from None
-    except Exception as error:  # Pillow's decoders raise anything on damaged files.
+    except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
         raise PhotoError(f"{path} cannot be read: the file is damaged ({error}).") from None
 
 

@@ -50,16 +50,13 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = threshold.NAME) -> 
     """
     if decoder not in DECODERS:
         raise ParameterError(f"There is no decoder {decoder!r}; known: {', '.join(DECODERS)}.")
+    image = np.asarray(image)
     _check(image)
-    read_signal = DECODERS[decoder]
     if image.ndim == 1:
         whole = Region(0, 1, 0, len(image))
-        return replace(read_signal(_levels(image), scene), region=whole)
-    grey = image if image.dtype == np.uint8 else to_bytes(_levels(image))
-    return _decode_grey(np.ascontiguousarray(grey), scene, decoder)
-
-
-def _decode_grey(grey: ByteArray, scene: Scene, decoder: str) -> DecodeResult:
+        return replace(DECODERS[decoder](_levels(image), scene), region=whole)
+    grey: ByteArray = image if image.dtype == np.uint8 else to_bytes(_levels(image))
+    grey = np.ascontiguousarray(grey)
     region = locate(grey, scene.receiver.bright_fraction)
     if region is None:
         return DecodeResult(
@@ -75,10 +72,10 @@ def _levels(image: NDArray[Any]) -> FloatArray:
 
 
 def _check(image: NDArray[Any]) -> None:
-    if not isinstance(image, np.ndarray) or image.ndim not in (1, 2):
-        shape = getattr(image, "shape", type(image).__name__)
+    if image.ndim not in (1, 2):
         raise DecodeInputError(
-            f"A decoder reads a grey image (rows, columns) or a profile (columns,), not {shape}."
+            "A decoder reads a grey image (rows, columns) or a profile (columns,), not an array of "
+            f"shape {image.shape}."
         )
     if image.size == 0:
         raise DecodeInputError(f"The image is empty: its shape is {image.shape}.")

@@ -38,14 +38,14 @@ def locate(image: ByteArray, bright_fraction: float) -> Region | None:
     level = _bright_level(image, bright_fraction)
     if level is None:
         return None
-    bright = cv2.compare(image, level, cv2.CMP_GE)
+    bright = _above(image, level - 1)
     rows, columns = image.shape
     cell = -(-max(rows, columns) // _GRID)
     grid_size = (-(-columns // cell), -(-rows // cell))
-    share = cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA)
-    cells = cv2.compare(share, 255 * _SPECK, cv2.CMP_GE)
+    share = np.asarray(cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    cells = _above(share, 255 * _SPECK)
     if not cv2.hasNonZero(cells):
-        cells = cv2.compare(share, 0, cv2.CMP_GT)
+        cells = _above(share, 0)
     if not cv2.hasNonZero(cells):  # too few for the smallest share above nothing
         return _bounds(bright, Region(0, rows, 0, columns))
     x, y, width, height = cv2.boundingRect(cv2.bitwise_and(_grow_to_one(cells), cells))
@@ -68,6 +68,11 @@ def _bright_level(image: ByteArray, bright_fraction: float) -> int | None:
     at_least = np.cumsum(counts[::-1])[::-1]
     wanted = bright_fraction * counts.sum()
     return max(int(np.flatnonzero(at_least >= wanted)[-1]), split + 1)
+
+
+def _above(image: ByteArray, level: float) -> ByteArray:
+    """Mark the pixels above a level: 255, the others 0."""
+    return np.asarray(cv2.threshold(image, level, 255, cv2.THRESH_BINARY)[1], dtype=np.uint8)
 
 
 def _grow_to_one(cells: ByteArray) -> ByteArray:

@@ -90,7 +90,7 @@ def _refined(runs: Runs, fit: ChipFit) -> ChipFit:
         if chip_length <= 0.0:
             break
         fit = ChipFit(float(chip_length), float(widening), 0.0)
-    counts = fit.chips_in(runs)
-    residual = (runs.lengths - sign * fit.widening) / fit.chip_length - counts
-    too_long = float(np.mean(counts > _LONGEST[runs.values]))
+    chips = fit.chips_in(runs)
+    residual = (runs.lengths - sign * fit.widening) / fit.chip_length - chips
+    too_long = float(np.mean(chips > _LONGEST[runs.values]))
     return replace(fit, misfit=float(np.sqrt(np.mean(residual**2))) + too_long)

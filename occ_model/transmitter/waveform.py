@@ -54,7 +54,8 @@ class Waveform:
 
     def running_integral(self, phases: Phases) -> FloatArray:
         """Light from the period's start up to each phase, C(x), in lit chips."""
-        return self._lit_before[phases.chip] + self._level[phases.chip] * phases.fraction
+        whole: FloatArray = self._lit_before[phases.chip]
+        return whole + self._level[phases.chip] * phases.fraction
 
     def lit_chips(self, starts: Phases, duration: Duration) -> FloatArray:
         """Light within windows, C(end) - C(start), in lit chips.
@@ -76,8 +77,10 @@ class Waveform:
         first = starts.chip
         carry = starts.fraction + duration.fraction >= 1.0
         last = first + duration.chips + carry
-        whole = self._lit_before[last] - self._lit_before[first]
+        whole: FloatArray = self._lit_before[last] - self._lit_before[first]
         level_first, level_last = self._level[first], self._level[last]
-        part = (level_last - level_first) * starts.fraction
+        part: FloatArray = (level_last - level_first) * starts.fraction
         part += level_last * (duration.fraction - carry)
-        return duration.periods * self._lit_before[self.period] + (whole + part)
+        part += whole
+        part += duration.periods * float(self._lit_before[self.period])
+        return part

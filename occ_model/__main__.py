@@ -1,0 +1,5 @@
+"""``python -m occ_model``."""
+
+from occ_model.cli import main
+
+raise SystemExit(main())

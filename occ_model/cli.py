@@ -1,0 +1,156 @@
+"""``occ-model``: the model from the command line."""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import occ_model as occ
+from occ_model.output import write_image, write_whole
+from occ_model.parameters import PARAMETERS
+from occ_model.presets import preset_named
+from occ_model.receiver.decode import DECODERS
+from occ_model.results import DecodeResult
+from occ_model.scene import Scene
+from occ_model.settings import read_scene_file, with_settings
+
+_DEFAULT_PRESET = "phone-136us"
+
+EXIT_FAILURE = 1
+"""Nothing was wrong with the command, but no code could be read."""
+
+EXIT_MISUSE = 2
+"""The command asked for something that cannot be."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the process's exit code."""
+    options = _parser().parse_args(arguments)
+    try:
+        code: int = options.command(options)
+        sys.stdout.flush()
+    except occ.OccError as error:
+        print(f"occ-model: {error}", file=sys.stderr)
+        return EXIT_MISUSE
+    except BrokenPipeError:
+        # Whoever read our output has stopped; nothing is left to say, not even at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_FAILURE
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
+    )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    render = commands.add_parser("render", help="simulate a picture and write it")
+    _add_scene_options(render)
+    render.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
+    render.add_argument("--save-scene", type=Path, metavar="FILE", help="also write the scene")
+    render.set_defaults(command=_render)
+
+    decode = commands.add_parser("decode", help="read the code from a picture or photo")
+    decode.add_argument("file", type=Path, help="image file")
+    _add_scene_options(decode)
+    decode.add_argument("--decoder", choices=sorted(DECODERS), default="threshold")
+    decode.add_argument(
+        "--scan-axis",
+        choices=("auto", "columns", "lines"),
+        default="auto",
+        help="what the shutter scanned in the file; auto: across the stripes (default)",
+    )
+    decode.set_defaults(command=_decode)
+
+    presets = commands.add_parser("presets", help="list the presets, or one with its sources")
+    presets.add_argument("name", nargs="?", help="the preset to show whole")
+    presets.set_defaults(command=_presets)
+
+    parameters = commands.add_parser("parameters", help="list what --set can set")
+    parameters.set_defaults(command=_parameters)
+    return parser
+
+
+def _add_scene_options(parser: argparse.ArgumentParser) -> None:
+    start = parser.add_mutually_exclusive_group()
+    start.add_argument("--preset", default=_DEFAULT_PRESET, help="default: %(default)s")
+    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
+    parser.add_argument(
+        "--set",
+        dest="settings",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
+    )
+
+
+def _scene(options: argparse.Namespace) -> Scene:
+    scene = read_scene_file(options.scene) if options.scene else occ.load_preset(options.preset)
+    return with_settings(scene, options.settings)
+
+
+def _render(options: argparse.Namespace) -> int:
+    scene = _scene(options)
+    frame = occ.render(scene)
+    write_image(options.out, frame.image)
+    if options.save_scene:
+        write_whole(options.save_scene, scene.to_toml().encode("utf-8"))
+    rows, columns = frame.image.shape
+    milliseconds = 1e3 * sum(frame.timings.values())
+    print(f"{options.out}: {columns} columns, {rows} rows, simulated in {milliseconds:.1f} ms")
+    return 0
+
+
+def _decode(options: argparse.Namespace) -> int:
+    scene = _scene(options)
+    photo = occ.load_photo(options.file, options.scan_axis)
+    result = occ.decode(photo.image, scene, options.decoder)
+    print("\n".join(_report(result)))
+    if result.failure is not None:
+        print(result.failure, file=sys.stderr)
+        return EXIT_FAILURE
+    return 0
+
+
+def _report(result: DecodeResult) -> list[str]:
+    lines = []
+    if result.code is not None:
+        lines += [f"code         {result.code}", f"bits         {''.join(map(str, result.bits))}"]
+    if result.region is not None:
+        region = result.region
+        lines.append(
+            f"region       columns {region.first_column} to {region.last_column - 1}, "
+            f"rows {region.first_row} to {region.last_row - 1}"
+        )
+    if result.chip_length is not None:
+        lines.append(f"chip length  {result.chip_length:.2f} columns")
+    if result.chips.size:
+        lines.append(f"chips        {''.join(map(str, result.chips))}")
+    return lines
+
+
+def _presets(options: argparse.Namespace) -> int:
+    if options.name is None:
+        for name in occ.presets():
+            print(f"{name:14}{preset_named(name).title}")
+        return 0
+    preset = preset_named(options.name)
+    print(preset.title)
+    for name, declaration in PARAMETERS.items():
+        value = declaration.format(preset.scene.value(name))  # type: ignore[arg-type]
+        note = preset.sources.get(name, "")
+        if name in preset.assumed:
+            note = f"assumed: {preset.assumed[name]}"
+        print(f"{name:26}{value:16}{note}".rstrip())
+    return 0
+
+
+def _parameters(_options: argparse.Namespace) -> int:
+    for name, declaration in PARAMETERS.items():
+        print(f"{name:26}{declaration.meaning}")
+        print(f"{'':26}allowed: {declaration.allowed}")
+    return 0

@@ -1,0 +1,45 @@
+"""Scenes as a user asks for them: from a file, and by ``name=value``."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from occ_model.declarations import ParameterValue
+from occ_model.errors import ParameterError, SceneFileError
+from occ_model.parameters import parameter_named
+from occ_model.scene import Scene
+
+
+def read_scene_file(path: Path) -> Scene:
+    """Read a scene file.
+
+    Raises
+    ------
+    SceneFileError
+        It cannot be read, or is no scene file.
+    ParameterError
+        A value in it is not of its kind or out of range.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise SceneFileError(f"{path} cannot be read: {error.strerror or error}.") from None
+    except UnicodeDecodeError:
+        raise SceneFileError(f"{path} is not a scene file: it is not text.") from None
+    return Scene.from_toml(text)
+
+
+def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
+    """Change a scene by texts such as ``"switching_frequency=10kHz"``.
+
+    Raises
+    ------
+    ParameterError
+        A text has no ``=``, its name is unknown, or its value cannot be read or is out of range.
+    """
+    changes: dict[str, ParameterValue] = {}
+    for setting in settings:
+        name, equals, text = setting.partition("=")
+        if not equals:
+            raise ParameterError(f"{setting!r} is no setting; write NAME=VALUE.")
+        changes[name.strip()] = parameter_named(name.strip()).parse(text)
+    return scene.replace(**changes)

@@ -22,8 +22,7 @@ from occ_model.units import (
 
 MAX_BITS = 16
 
-_TURN = math.radians(89.99)
-_HALF = math.pi
+_STEEP = math.radians(89.99)
 _TILT = math.radians(60.0)
 
 # fmt: off
@@ -145,21 +144,22 @@ _DECLARED: tuple[Parameter, ...] = (
         "Yaw",
         "",
         "Turn of the panel about the rows axis.",
-        unit=RADIAN, low=-_TURN, high=_TURN, slider=(-_TILT, _TILT), scale="linear", default=0.0,
+        unit=RADIAN, low=-_STEEP, high=_STEEP, slider=(-_TILT, _TILT), scale="linear", default=0.0,
     ),
     Quantity(
         "pitch",
         "Pitch",
         "",
         "Turn of the panel about the columns axis.",
-        unit=RADIAN, low=-_TURN, high=_TURN, slider=(-_TILT, _TILT), scale="linear", default=0.0,
+        unit=RADIAN, low=-_STEEP, high=_STEEP, slider=(-_TILT, _TILT), scale="linear", default=0.0,
     ),
     Quantity(
         "roll",
         "Roll",
         "",
         "Turn of the panel about the optical axis.",
-        unit=RADIAN, low=-_HALF, high=_HALF, slider=(-_TILT, _TILT), scale="linear", default=0.0,
+        unit=RADIAN, low=-math.pi, high=math.pi,
+        slider=(-_TILT, _TILT), scale="linear", default=0.0,
     ),
     # surroundings
     Quantity(

@@ -1,0 +1,105 @@
+"""``occ-gui``: read the command line and open the window."""
+
+import argparse
+import os
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import occ_model as occ
+from occ_model.output import write_whole
+from occ_model.scene import Scene
+from occ_model.settings import read_scene_file, with_settings
+
+if TYPE_CHECKING:
+    from occ_gui.application import Application
+
+_PATIENCE_MS = 60_000
+"""How long a screenshot waits for the picture before it gives up."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the application; return the process's exit code."""
+    options = _parser().parse_args(arguments)
+    try:
+        return _run(options, _scene(options))
+    except occ.OccError as error:
+        print(f"occ-gui: {error}", file=sys.stderr)  # noqa: T201 - this is the command line
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="occ-gui", description="Explore optical camera communication."
+    )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
+    start = parser.add_mutually_exclusive_group()
+    start.add_argument("--preset", default="phone-68us", help="default: %(default)s")
+    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
+    parser.add_argument(
+        "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
+        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
+    )  # fmt: skip
+    parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
+    parser.add_argument(
+        "--screenshot", type=Path, metavar="FILE",
+        help="draw the window, without a display, into this picture, and end",
+    )  # fmt: skip
+    parser.add_argument(
+        "--size", type=_size, metavar="WIDTHxHEIGHT", help="the window's size, such as 1280x800"
+    )
+    return parser
+
+
+def _size(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{2,5})[xX](\d{2,5})", text)
+    if match is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is no size; write it as 1280x800")
+    return int(match[1]), int(match[2])
+
+
+def _scene(options: argparse.Namespace) -> Scene:
+    scene = read_scene_file(options.scene) if options.scene else occ.load_preset(options.preset)
+    return with_settings(scene, options.settings)
+
+
+def _run(options: argparse.Namespace, scene: Scene) -> int:
+    if options.screenshot:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+        # A photo that cannot be read must fail here, not show as an empty pane in the picture.
+        if options.photo:
+            occ.load_photo(options.photo)
+    # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
+    from PySide6.QtWidgets import QApplication
+
+    from occ_gui.application import Application
+
+    qt = QApplication.instance() or QApplication(sys.argv[:1])
+    application = Application(scene)
+    if options.size:
+        application.window.resize(*options.size)
+    if options.photo:
+        application.open_photo(options.photo)
+    application.window.show()
+    if options.screenshot:
+        _take_screenshot(application, options.screenshot)
+        return 0
+    return qt.exec()
+
+
+def _take_screenshot(application: "Application", path: Path) -> None:
+    """Wait until all work is done and shown, and write a picture of the window."""
+    from PySide6.QtCore import QBuffer, QDeadlineTimer, QIODevice
+    from PySide6.QtWidgets import QApplication
+
+    deadline = QDeadlineTimer(_PATIENCE_MS)
+    while not (application.is_idle or deadline.hasExpired()):
+        QApplication.processEvents()
+    QApplication.processEvents()
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    application.window.grab().save(buffer, "PNG")
+    application.window.close()
+    write_whole(path, bytes(buffer.data().data()))

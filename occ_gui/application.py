@@ -1,0 +1,127 @@
+"""The one place where parts are put together."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMessageBox
+
+import occ_model as occ
+from occ_gui.controllers.files import FileController
+from occ_gui.controllers.photo import PhotoController
+from occ_gui.controllers.simulation import SimulationController
+from occ_gui.main_window import MainWindow
+from occ_gui.state.gesture import new_gesture
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.decode_view import DecodeView
+from occ_gui.views.image_view import ImageView
+from occ_gui.views.profile_view import ProfileView
+from occ_gui.widgets.control_panel import ControlPanel
+from occ_model.declarations import ParameterValue
+from occ_model.photo.load import Photo
+from occ_model.presets import preset_named
+from occ_model.scene import Scene
+
+
+class Application(QObject):
+    """Store, controllers, views and window, connected.
+
+    Parameters
+    ----------
+    scene
+        The scene to begin with.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        super().__init__()
+        self._preset_names = {occ.load_preset(name): name for name in occ.presets()}
+        self.store = SceneStore(scene)
+        self.controls = ControlPanel([(n, preset_named(n).title) for n in occ.presets()])
+        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
+        self.window = MainWindow(
+            self.controls, self.image, self.profile, self.decode, self.store.undo_stack
+        )
+        self.photos = PhotoController([self.image, self.profile])
+        self.files = FileController(self.window, self.store, self.photos)
+        self.simulation = SimulationController(
+            self.store, [self.image, self.profile, self.decode, self.files]
+        )
+        self._connect_scene()
+        self._connect_menus()
+        self._show_scene(scene)
+
+    def _connect_scene(self) -> None:
+        self.controls.edited.connect(self._edit)
+        self.controls.preset_chosen.connect(self._load_preset)
+        self.store.changed.connect(self._show_scene)
+        self.store.refused.connect(self._refuse)
+        self.controls.refused.connect(self.window.say)
+        self.simulation.shown.connect(self._on_shown)
+        self.simulation.failed.connect(self.window.say)
+        self.photos.failed.connect(self.window.say)
+        self.photos.opened.connect(self._on_photo)
+        self.files.said.connect(self.window.say)
+        self.window.closing.connect(self.stop)
+
+    def _connect_menus(self) -> None:
+        for name, slot in {
+            "open_photo": self.files.ask_for_photo,
+            "close_photo": self.photos.close,
+            "open_scene": self.files.ask_for_scene,
+            "save_scene": self.files.ask_to_save_scene,
+            "save_picture": self.files.ask_to_save_picture,
+            "about": self._tell_about,
+        }.items():
+            self.window.actions_by_name[name].triggered.connect(slot)
+        self.window.scan_axes.triggered.connect(self._scan_along)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that was asked for is shown."""
+        return self.simulation.runner.is_idle and self.photos.runner.is_idle
+
+    def open_photo(self, path: Path) -> None:
+        """Open a photo."""
+        self.photos.open(path)
+
+    def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
+        self.window.statusBar().clearMessage()
+        self.store.change(gesture, **{name: value})
+
+    def _load_preset(self, name: str) -> None:
+        self.store.put(occ.load_preset(name), f"preset {name}", new_gesture())
+
+    def _show_scene(self, scene: Scene) -> None:
+        self.controls.show_scene(scene)
+        self.controls.show_preset(self._preset_names.get(scene))
+
+    def _refuse(self, sentence: str) -> None:
+        # The control that asked shows what was asked for: let it show again what holds.
+        self.controls.show_scene(self.store.scene)
+        self.window.say(sentence)
+
+    def _on_shown(self, snapshot: Snapshot) -> None:
+        self.window.show_timing(snapshot.seconds)
+
+    def _on_photo(self, photo: Photo | None) -> None:
+        self.window.statusBar().clearMessage()
+        self.window.show_photo_name(None if photo is None else photo.path.name)
+
+    def _scan_along(self, action: QAction) -> None:
+        self.photos.scan_along(action.data())
+
+    def _tell_about(self) -> None:
+        QMessageBox.about(
+            self.window,
+            self.tr("About"),
+            self.tr(
+                "Optical Camera Communication {version}\n\nSimulates the pictures that a rolling-"
+                "shutter camera takes of a blinking LED panel, and reads the code from them."
+            ).format(version=occ.__version__),
+        )
+
+    def stop(self) -> None:
+        """Let the work in the background end."""
+        self.simulation.stop()
+        self.photos.stop()

@@ -1,0 +1,80 @@
+"""Read photos off the window's thread and hand them to the views."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject, Signal
+
+import occ_model as occ
+from occ_gui.tasks.latest_wins import LatestWins
+from occ_model.photo.load import Photo
+
+
+class PhotoView(Protocol):
+    """A pane that shows a photo."""
+
+    def show_photo(self, photo: Photo | None) -> None:
+        """Show this photo in place of the last one, or none."""
+
+
+def _read(request: tuple[Path, str]) -> Photo:
+    path, scan_axis = request
+    return occ.load_photo(path, scan_axis)
+
+
+class PhotoController(QObject):
+    """Opens photos, turns them, and closes them.
+
+    Parameters
+    ----------
+    views
+        The panes that show the photo.
+    """
+
+    opened = Signal(object)
+    """The photo that the views have just been given, or None."""
+
+    failed = Signal(str)
+    """Why a photo could not be read; the last one stays."""
+
+    def __init__(self, views: Sequence[PhotoView]) -> None:
+        super().__init__()
+        self._views = views
+        self._wanted: Path | None = None
+        self._path: Path | None = None
+        self._scan_axis = "auto"
+        self.runner: LatestWins[tuple[Path, str], Photo] = LatestWins(_read, "reading of the photo")
+        self.runner.finished.connect(self._show)
+        self.runner.failed.connect(self.failed)
+
+    def open(self, path: Path) -> None:
+        """Read a photo and show it."""
+        self._wanted = path
+        self.runner.submit((path, self._scan_axis))
+
+    def scan_along(self, scan_axis: str) -> None:
+        """Say which axis of the file the shutter scanned, and turn the photo that is open."""
+        self._scan_axis = scan_axis
+        if self._path is not None:
+            self.open(self._path)
+
+    def close(self) -> None:
+        """Show no photo any more."""
+        self._wanted = self._path = None
+        self._hand_over(None)
+
+    def _show(self, photo: Photo) -> None:
+        if photo.path != self._wanted:  # closed, or another one asked for, meanwhile
+            return
+        self._path = photo.path
+        self._hand_over(photo)
+
+    def _hand_over(self, photo: Photo | None) -> None:
+        for view in self._views:
+            view.show_photo(photo)
+        self.opened.emit(photo)
+
+    def stop(self) -> None:
+        """Stop reading."""
+        self.runner.stop()

@@ -1,0 +1,78 @@
+"""Simulate the store's scene whenever it changes, and hand the results to the views."""
+
+from collections.abc import Sequence
+from time import perf_counter
+from typing import Protocol
+
+from PySide6.QtCore import QObject, Signal
+
+import occ_model as occ
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.tasks.latest_wins import LatestWins
+from occ_model.scene import Scene
+from occ_model.transmitter.packet import bits_of
+
+
+class SnapshotView(Protocol):
+    """A pane that shows the results for a scene."""
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Show these results in place of the last ones."""
+
+
+def simulate(scene: Scene) -> Snapshot:
+    """Make everything that the views show of a scene.
+
+    Raises
+    ------
+    ProjectionError
+        The panel has no picture in this pose.
+    """
+    start = perf_counter()
+    frame = occ.render(scene)
+    decoded = occ.decode(frame.image, scene)
+    band, undefined = None, ""
+    try:
+        band = occ.band_profile(scene)
+    except occ.BandModelUndefined as reason:
+        undefined = str(reason)
+    transmitter = scene.transmitter
+    sent = () if transmitter.pattern else bits_of(transmitter.code, transmitter.bits)
+    return Snapshot(frame, decoded, sent, band, undefined, perf_counter() - start)
+
+
+class SimulationController(QObject):
+    """Connects the store, the simulation's thread and the views.
+
+    Parameters
+    ----------
+    store
+        Its scene is simulated, at once and after every change.
+    views
+        The panes that show the results.
+    """
+
+    shown = Signal(object)
+    """The snapshot that the views have just been given."""
+
+    failed = Signal(str)
+    """Why the scene has no picture; the views keep the last one."""
+
+    def __init__(self, store: SceneStore, views: Sequence[SnapshotView]) -> None:
+        super().__init__()
+        self._views = views
+        self.runner: LatestWins[Scene, Snapshot] = LatestWins(simulate, "simulation")
+        self.runner.finished.connect(self._show)
+        self.runner.failed.connect(self.failed)
+        store.changed.connect(self.runner.submit)
+        self.runner.submit(store.scene)
+
+    def _show(self, snapshot: Snapshot) -> None:
+        for view in self._views:
+            view.show_snapshot(snapshot)
+        self.shown.emit(snapshot)
+
+    def stop(self) -> None:
+        """Stop simulating."""
+        self.runner.stop()

@@ -1,0 +1,1 @@
+"""What the window shows, as values that can be watched."""

@@ -1,0 +1,83 @@
+"""The scene that the window shows: one frozen value, changed in one place, with undo."""
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QUndoCommand, QUndoStack
+
+from occ_gui.state.gesture import NO_GESTURE
+from occ_model.declarations import ParameterValue
+from occ_model.errors import OccError
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+
+
+class SceneStore(QObject):
+    """Holds the scene and tells when it changes.
+
+    Parameters
+    ----------
+    scene
+        The scene to begin with.
+    """
+
+    changed = Signal(object)
+    """The new scene."""
+
+    refused = Signal(str)
+    """Why a change was not made; the scene is as it was."""
+
+    def __init__(self, scene: Scene) -> None:
+        super().__init__()
+        self._scene = scene
+        self.undo_stack = QUndoStack(self)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as it is now."""
+        return self._scene
+
+    def change(self, gesture: int = NO_GESTURE, **changes: ParameterValue) -> None:
+        """Change parameters; what cannot be is refused with a sentence."""
+        try:
+            scene = self._scene.replace(**changes)
+        except OccError as error:
+            self.refused.emit(str(error))
+            return
+        labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
+        self.put(scene, f"change of {labels}", gesture)
+
+    def put(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
+        """Replace the whole scene; ``title`` names the step in the undo menu."""
+        if scene != self._scene:
+            self.undo_stack.push(_Step(self, self._scene, scene, title, gesture))
+
+    def _show(self, scene: Scene) -> None:
+        self._scene = scene
+        self.changed.emit(scene)
+
+
+class _Step(QUndoCommand):
+    """One step from a scene to another."""
+
+    def __init__(
+        self, store: SceneStore, before: Scene, after: Scene, title: str, gesture: int
+    ) -> None:
+        super().__init__(title)
+        self._store = store
+        self._before = before
+        self._after = after
+        self._gesture = gesture
+
+    def redo(self) -> None:
+        self._store._show(self._after)
+
+    def undo(self) -> None:
+        self._store._show(self._before)
+
+    def id(self) -> int:
+        return self._gesture
+
+    def mergeWith(self, other: QUndoCommand) -> bool:  # noqa: N802 - Qt's name
+        if not isinstance(other, _Step):
+            return False
+        self._after = other._after
+        return True

@@ -1,0 +1,34 @@
+"""What one simulation gives the views to show."""
+
+from dataclasses import dataclass
+
+from occ_model.arrays import FloatArray
+from occ_model.results import DecodeResult, Frame
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Snapshot:
+    """The results for one scene.
+
+    Parameters
+    ----------
+    frame
+        The simulated picture.
+    decoded
+        What the receiver made of it.
+    sent
+        The bits sent, the first sent first; empty where a raw pattern is sent.
+    band : ndarray of float64, shape (columns,), or None
+        The band model's profile, None where ``band_undefined`` says why there is none.
+    band_undefined
+        A sentence, empty where there is a profile.
+    seconds
+        Time that all of it took.
+    """
+
+    frame: Frame
+    decoded: DecodeResult
+    sent: tuple[int, ...]
+    band: FloatArray | None
+    band_undefined: str
+    seconds: float

@@ -1,0 +1,1 @@
+"""Panes that show results and know no physics."""

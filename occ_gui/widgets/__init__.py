@@ -1,0 +1,1 @@
+"""Controls and small displays, made from parameter declarations."""

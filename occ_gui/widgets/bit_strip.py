@@ -1,0 +1,97 @@
+"""Sent and received bits under one another, wrong ones marked by shape and colour."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+_CELL = 24
+_GAP = 3
+_LABEL = 66
+
+_RIGHT = QColor("#0072B2")
+_WRONG = QColor("#D55E00")
+
+
+class BitStrip(QWidget):
+    """Two rows of cells, the sent bits over the received ones.
+
+    A right bit is a filled square; a wrong one is larger by its thick frame, crossed out, and
+    orange; one that was not received is a dashed outline.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._sent: tuple[int, ...] = ()
+        self._received: tuple[int, ...] = ()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(self.tr("Sent and received bits"))
+
+    def show_bits(self, sent: Sequence[int], received: Sequence[int]) -> None:
+        """Show bits, the first sent first; what was not received may be missing at the end."""
+        self._sent = tuple(int(bit) for bit in sent)
+        self._received = tuple(int(bit) for bit in received)[: len(self._sent)]
+        wrong = self.wrong_places()
+        sent_text, received_text = ("".join(map(str, b)) for b in (self._sent, self._received))
+        self.setAccessibleDescription(
+            self.tr("sent {sent}, received {received}, {wrong} wrong").format(
+                sent=sent_text, received=received_text or self.tr("nothing"), wrong=len(wrong)
+            )
+        )
+        self.setToolTip(self.accessibleDescription())
+        self.update()
+
+    def wrong_places(self) -> list[int]:
+        """Say which of the received bits differ from those sent."""
+        pairs = zip(self._sent, self._received, strict=False)
+        return [place for place, (sent, received) in enumerate(pairs) if sent != received]
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Two rows of cells."""
+        return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Cells can shrink, rows cannot."""
+        return QSize(_LABEL + 10 * 12, self.sizeHint().height())
+
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw both rows."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        rows = ((self.tr("sent"), self._sent), (self.tr("received"), self._received))
+        count = max(1, len(self._sent))
+        width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)
+        wrong = set(self.wrong_places())
+        for row, (label, bits) in enumerate(rows):
+            top = _GAP + row * (_CELL + _GAP)
+            painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+            painter.drawText(QRectF(0, top, _LABEL, _CELL), Qt.AlignmentFlag.AlignVCenter, label)
+            for place in range(len(self._sent)):
+                cell = QRectF(_LABEL + place * (width + _GAP), top, width, _CELL)
+                if place >= len(bits):
+                    self._draw_missing(painter, cell)
+                else:
+                    self._draw_bit(painter, cell, bits[place], row == 1 and place in wrong)
+
+    def _draw_missing(self, painter: QPainter, cell: QRectF) -> None:
+        painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Mid), 1, Qt.PenStyle.DashLine))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(cell.adjusted(1, 1, -1, -1))
+
+    def _draw_bit(self, painter: QPainter, cell: QRectF, bit: int, wrong: bool) -> None:
+        colour = _WRONG if wrong else _RIGHT
+        inner = cell.adjusted(1, 1, -1, -1)
+        painter.setPen(QPen(colour, 2))
+        painter.setBrush(colour if bit else Qt.BrushStyle.NoBrush)
+        painter.drawRect(inner)
+        text = QColor("white") if bit else self.palette().color(QPalette.ColorRole.WindowText)
+        if wrong:
+            painter.setPen(QPen(text, 1.5))
+            for corner, opposite in (
+                (inner.topLeft(), inner.bottomRight()),
+                (inner.topRight(), inner.bottomLeft()),
+            ):
+                painter.drawLine(QPointF(corner), QPointF(opposite))
+        painter.setPen(text)
+        painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, str(bit))

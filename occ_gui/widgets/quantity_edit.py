@@ -1,0 +1,103 @@
+"""A field for a number with its unit, read as people write it."""
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QValidator
+from PySide6.QtWidgets import QAbstractSpinBox, QWidget
+
+from occ_model.declarations import Quantity
+from occ_model.errors import ParameterError
+
+_STEP = 0.01
+"""Share of the slider's way that one step of the arrows goes."""
+
+_WIDEST = "888.888 cd/m²"
+
+
+class QuantityEdit(QAbstractSpinBox):
+    """Shows a quantity with its unit; takes ``10 kHz``, ``68us``, ``1/8000 s`` or a plain number.
+
+    A plain number is taken in the unit that is shown. The value itself keeps every digit; only
+    what is shown is rounded.
+
+    Parameters
+    ----------
+    quantity
+        The declaration.
+    parent
+        The parent widget.
+    """
+
+    edited = Signal(float)
+    """The value that the user entered, in SI units."""
+
+    refused = Signal(str)
+    """Why what was entered is not taken; the field shows the last value again."""
+
+    def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._quantity = quantity
+        self._value = quantity.default
+        self.setKeyboardTracking(False)
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.lineEdit().textEdited.connect(self._note_typing)
+        self.editingFinished.connect(self._read)
+        self._typed = False
+        self._show()
+
+    def value(self) -> float:
+        """Return the value in SI units."""
+        return self._value
+
+    def set_value(self, value: float) -> None:
+        """Show a value in SI units."""
+        self._value = value
+        self._show()
+
+    def _show(self) -> None:
+        self._typed = False
+        self.lineEdit().setText(self._quantity.format(self._value))
+
+    def _note_typing(self) -> None:
+        self._typed = True
+
+    def _read(self) -> None:
+        if not self._typed:  # leaving the field must not round the value to what is shown
+            return
+        plain = self._quantity.unit.display(self._value)[1]
+        try:
+            value = self._quantity.parse(self.lineEdit().text(), plain)
+        except ParameterError as error:
+            self._show()
+            self.refused.emit(str(error))
+            return
+        self.set_value(value)
+        self.edited.emit(value)
+
+    def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
+        """Move along the slider's scale, which is logarithmic where the slider is."""
+        fraction = self._quantity.fraction(self._value) + steps * _STEP
+        self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
+        self.edited.emit(self._value)
+
+    def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:  # noqa: N802 - Qt's name
+        """Allow steps as far as the slider goes."""
+        enabled = QAbstractSpinBox.StepEnabledFlag.StepNone
+        low, high = self._quantity.slider
+        if self._value > low:
+            enabled |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
+        if self._value < high:
+            enabled |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
+        return enabled
+
+    def validate(self, text: str, position: int) -> object:
+        """Let everything be typed: what cannot be read is refused with a sentence, not a beep."""
+        return QValidator.State.Acceptable, text, position
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Make room for the widest value."""
+        width = self.fontMetrics().horizontalAdvance(_WIDEST) + 28
+        return QSize(width, super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Never be so narrow that a value is cut off."""
+        return self.sizeHint()

@@ -75,7 +75,9 @@ def _run(options: argparse.Namespace, scene: Scene) -> int:
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
+    from occ_gui.qt_messages import log_qt_messages
 
+    log_qt_messages()
     qt = QApplication.instance() or QApplication(sys.argv[:1])
     application = Application(scene)
     if options.size:

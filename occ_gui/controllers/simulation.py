@@ -39,7 +39,18 @@ def simulate(scene: Scene) -> Snapshot:
         undefined = str(reason)
     transmitter = scene.transmitter
     sent = () if transmitter.pattern else bits_of(transmitter.code, transmitter.bits)
-    return Snapshot(frame, decoded, sent, band, undefined, perf_counter() - start)
+    chip_columns = transmitter.switching_period / scene.camera.readout_time
+    left, top = frame.corners.min(axis=0).tolist()
+    return Snapshot(
+        frame=frame,
+        decoded=decoded,
+        sent=sent,
+        packet_columns=chip_columns * len(occ.packet(scene)),
+        panel_origin=(max(left, 0.0), max(top, 0.0)),
+        band=band,
+        band_undefined=undefined,
+        seconds=perf_counter() - start,
+    )
 
 
 class SimulationController(QObject):

@@ -18,6 +18,11 @@ class Snapshot:
         What the receiver made of it.
     sent
         The bits sent, the first sent first; empty where a raw pattern is sent.
+    packet_columns
+        Columns that one period of what is sent spans in the picture.
+    panel_origin
+        Column and row of the panel's upper left corner in the picture, or of the picture's where
+        the panel reaches beyond it.
     band : ndarray of float64, shape (columns,), or None
         The band model's profile, None where ``band_undefined`` says why there is none.
     band_undefined
@@ -29,6 +34,8 @@ class Snapshot:
     frame: Frame
     decoded: DecodeResult
     sent: tuple[int, ...]
+    packet_columns: float
+    panel_origin: tuple[float, float]
     band: FloatArray | None
     band_undefined: str
     seconds: float

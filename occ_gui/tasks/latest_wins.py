@@ -106,5 +106,5 @@ class _Worker(QObject):
             failure = str(error)
         except Exception as error:  # noqa: BLE001 - the window must outlive a mistake of ours
             _log.exception("%s failed for %r", self._name, request)
-            failure = f"The {self._name} failed: {error or type(error).__name__}."
+            failure = f"The {self._name} failed: {type(error).__name__}: {error}."
         self.done.emit(result, failure)

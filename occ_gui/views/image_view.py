@@ -7,6 +7,7 @@ from PySide6.QtWidgets import (
     QGraphicsRectItem,
     QHBoxLayout,
     QLabel,
+    QSizePolicy,
     QSlider,
     QSplitter,
     QVBoxLayout,
@@ -36,6 +37,8 @@ class PicturePane(QWidget):
     def __init__(self, caption: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.caption = QLabel(caption)
+        # A long name is cut off rather than pushing the pictures apart.
+        self.caption.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._graphics = pg.GraphicsView()
         self._graphics.setBackground(self.palette().dark().color())
         self._graphics.setAccessibleName(caption)
@@ -62,11 +65,20 @@ class PicturePane(QWidget):
             self._shape = image.shape
             self.fit()
 
-    def show_over(self, image: ByteArray | None) -> None:
-        """Lay a picture over the other, stretched to its size, or take it away."""
+    def show_over(self, image: ByteArray | None, origin: tuple[float, float]) -> None:
+        """Lay a picture over the other, pixel on pixel, or take it away.
+
+        Parameters
+        ----------
+        image : ndarray of uint8, shape (rows, columns), or None
+            The picture.
+        origin
+            Column and row of the other on which its first pixel lies.
+        """
         self._over.setVisible(image is not None)
         if image is not None:
-            self._over.set_image(image, self._picture.boundingRect())
+            rows, columns = image.shape
+            self._over.set_image(image, QRectF(origin[0] - 0.5, origin[1] - 0.5, columns, rows))
 
     def set_over_opacity(self, opacity: float) -> None:
         """Let the picture that lies over the other be seen through."""
@@ -97,6 +109,7 @@ class ImageView(QWidget):
         super().__init__(parent)
         self._photo: Photo | None = None
         self._over = False
+        self._origin = (0.0, 0.0)
         self.simulation = PicturePane(self.tr("Simulated picture"))
         self.photo = PicturePane(self.tr("Photo"))
         panes = QSplitter(Qt.Orientation.Horizontal)
@@ -131,6 +144,7 @@ class ImageView(QWidget):
         """Show these results in place of the last ones."""
         self.simulation.show_picture(snapshot.frame.image)
         self.simulation.show_region(snapshot.decoded.region)
+        self._origin = snapshot.panel_origin
         self._arrange()
 
     def show_photo(self, photo: Photo | None) -> None:
@@ -145,7 +159,7 @@ class ImageView(QWidget):
         self._arrange()
 
     def set_over(self, over: bool) -> None:
-        """Show the photo over the simulation, or beside it."""
+        """Show the photo over the simulated panel, pixel on pixel, or beside the picture."""
         self._over = over
         self._arrange()
 
@@ -158,4 +172,4 @@ class ImageView(QWidget):
         over = self._photo is not None and self._over
         self.photo.setVisible(self._photo is not None and not self._over)
         self._opacity_row.setVisible(over)
-        self.simulation.show_over(self._photo.image if over and self._photo else None)
+        self.simulation.show_over(self._photo.image if over and self._photo else None, self._origin)

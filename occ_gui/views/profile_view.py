@@ -1,12 +1,15 @@
 """The column profile beside the band model's and a photo's."""
 
+from collections.abc import Iterable
+
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import FloatArray
 from occ_model.photo.load import Photo
 
@@ -21,54 +24,77 @@ _THRESHOLD = QColor("#CC79A7")
 class ProfileView(QWidget):
     """Grey level over column: the simulation, the band model or why there is none, and the photo.
 
-    The plot follows the panel's columns until the user moves it.
+    The plot follows the panel's first packets, or the whole panel, until the user moves it.
+    A photo's first column is drawn at the panel's, as its picture is laid over the panel.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
-        self._follows = True
-        self.enhanced = QCheckBox(self.tr("After contrast enhancement"))
-        self.enhanced.setToolTip(
-            self.tr("Show the simulated column values as they stand in the picture.")
-        )
-        self.enhanced.toggled.connect(self._redraw)
-        self.follow = QPushButton(self.tr("Show the panel"))
-        self.follow.setToolTip(self.tr("Show the columns that the panel covers, and follow it."))
-        self.follow.clicked.connect(self._follow_again)
+        self._photo: Photo | None = None
+        self.plot = _plot(self.tr("column"), self.tr("grey level"), self.palette())
+        self.legend = LineLegend()
+        self._make_curves()
         self.reason = QLabel()
         self.reason.setWordWrap(True)
         self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
-        self.plot = _plot(self.tr("column"), self.tr("grey level"))
-        self._make_curves()
+        self._make_controls()
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
         self._lay_out()
 
     def _make_curves(self) -> None:
         line = Qt.PenStyle
         # Pens of width one: wider ones cost hundreds of milliseconds on a noisy profile.
-        self.simulation = self.plot.plot(pen=pg.mkPen(_SIMULATION), name=self.tr("simulation"))
-        self.band = self.plot.plot(
-            pen=pg.mkPen(_BAND, style=line.DashLine), name=self.tr("band model")
-        )
-        self.photo = self.plot.plot(pen=pg.mkPen(_PHOTO, style=line.DotLine), name=self.tr("photo"))
+        pens = {
+            "simulation": (self.tr("simulation"), pg.mkPen(_SIMULATION)),
+            "band": (self.tr("band model"), pg.mkPen(_BAND, style=line.DashLine)),
+            "photo": (self.tr("photo, from the panel's first column"), pg.mkPen(_PHOTO)),
+            "threshold": (self.tr("threshold"), pg.mkPen(_THRESHOLD, style=line.DashDotLine)),
+        }
+        for key, (text, pen) in pens.items():
+            self.legend.add_line(key, pen, text)
+        self.simulation = self.plot.plot(pen=pens["simulation"][1])
+        self.band = self.plot.plot(pen=pens["band"][1])
+        self.photo = self.plot.plot(pen=pens["photo"][1])
+        self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
         self._region = pg.LinearRegionItem(brush=_REGION, pen=pg.mkPen(None), movable=False)
         self._region.setZValue(-10)
-        self._threshold = pg.InfiniteLine(
-            angle=0, pen=pg.mkPen(_THRESHOLD, style=line.DashDotLine), label=self.tr("threshold")
-        )
-        for item in (self._region, self._threshold):
+        for item in (self._region, self.threshold):
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
 
+    def _make_controls(self) -> None:
+        self.enhanced = QCheckBox(self.tr("After enhancement"))
+        self.enhanced.setToolTip(
+            self.tr("Show the simulated column values as they stand in the picture.")
+        )
+        self.enhanced.toggled.connect(self._redraw)
+        self._packets = self._range_button(
+            self.tr("Two packets"), self.tr("Show the panel's first two packets, and follow them.")
+        )
+        self._panel = self._range_button(
+            self.tr("Whole panel"), self.tr("Show all columns of the panel, and follow it.")
+        )
+        self._packets.setChecked(True)
+
+    def _range_button(self, text: str, tip: str) -> QPushButton:
+        button = QPushButton(text)
+        button.setCheckable(True)
+        button.setToolTip(tip)
+        button.clicked.connect(lambda: self._follow(button))
+        return button
+
     def _lay_out(self) -> None:
         row = QHBoxLayout()
-        row.addWidget(self.reason, 1)
-        row.addWidget(self.enhanced)
-        row.addWidget(self.follow)
+        row.addWidget(self.legend)
+        row.addStretch(1)
+        for control in (self.enhanced, self._packets, self._panel):
+            row.addWidget(control)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
+        layout.setSpacing(2)
         layout.addLayout(row)
+        layout.addWidget(self.reason)
         layout.addWidget(self.plot, 1)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -78,9 +104,8 @@ class ProfileView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo's profile in place of the last one, or none."""
-        self.photo.setVisible(photo is not None)
-        _draw(self.photo, photo.profile if photo is not None else None)
-        self._fit_levels()
+        self._photo = photo
+        self._redraw()
 
     def _redraw(self) -> None:
         snapshot = self._snapshot
@@ -88,50 +113,66 @@ class ProfileView(QWidget):
             return
         frame, decoded = snapshot.frame, snapshot.decoded
         enhanced = self.enhanced.isChecked()
-        _draw(self.simulation, frame.enhanced.astype(np.float64) if enhanced else frame.profile)
+        profile = frame.enhanced.astype(np.float64) if enhanced else frame.profile
+        photo = None if self._photo is None else self._photo.profile
+        _draw(self.simulation, profile)
         _draw(self.band, snapshot.band)
+        _draw(self.photo, photo, round(snapshot.panel_origin[0]))
         self.reason.setText(snapshot.band_undefined)
+        self.reason.setVisible(bool(snapshot.band_undefined))
         self._region.setVisible(decoded.region is not None)
         if decoded.region is not None:
             self._region.setRegion((decoded.region.first_column, decoded.region.last_column))
-        self._threshold.setVisible(enhanced and decoded.threshold is not None)
+        self.threshold.setVisible(enhanced and decoded.threshold is not None)
         if decoded.threshold is not None:
-            self._threshold.setValue(decoded.threshold)
-        self._fit_levels()
-        if self._follows:
-            self._show_panel(snapshot)
+            self.threshold.setValue(decoded.threshold)
+        for key, visible in {
+            "band": snapshot.band is not None,
+            "photo": photo is not None,
+            "threshold": self.threshold.isVisible(),
+        }.items():
+            self.legend.show_line(key, visible)
+        self._fit_levels([profile, snapshot.band, photo])
+        self._fit_columns(snapshot)
 
-    def _fit_levels(self) -> None:
+    def _fit_levels(self, profiles: Iterable[FloatArray | None]) -> None:
         """Show from black to the largest value, in steps, so that the axis does not tremble."""
-        curves = (self.simulation, self.band, self.photo)
-        values = [c.getOriginalDataset()[1] for c in curves if c.isVisible()]
-        largest = max((float(v.max()) for v in values if v is not None and len(v)), default=255.0)
+        largest = max(float(p.max()) for p in profiles if p is not None)
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.02)
 
-    def _show_panel(self, snapshot: Snapshot) -> None:
+    def _fit_columns(self, snapshot: Snapshot) -> None:
+        if not (self._packets.isChecked() or self._panel.isChecked()):
+            return
         last_column = len(snapshot.frame.profile) - 1
-        columns = np.clip(snapshot.frame.corners[:, 0], 0, last_column)
-        first, last = float(columns.min()), float(columns.max())
+        panel = np.clip(snapshot.frame.corners[:, 0], 0, last_column)
+        first, last = float(panel.min()), float(panel.max())
         if last - first < 1.0:  # the panel is out of the picture
             first, last = 0.0, float(last_column)
-        self.plot.setXRange(first, last, padding=0.01)
+        if self._packets.isChecked():
+            last = min(last, first + 2.0 * snapshot.packet_columns)
+        self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
     def _stop_following(self) -> None:
-        self._follows = False
+        for button in (self._packets, self._panel):
+            button.setChecked(False)
 
-    def _follow_again(self) -> None:
-        self._follows = True
+    def _follow(self, clicked: QPushButton) -> None:
+        self._stop_following()
+        clicked.setChecked(True)
         self._redraw()
 
 
-def _plot(x: str, y: str) -> pg.PlotWidget:
+def _plot(x: str, y: str, palette: QPalette) -> pg.PlotWidget:
     plot = pg.PlotWidget()
-    plot.setBackground(None)
+    plot.setBackground(palette.color(QPalette.ColorRole.Base))
+    for side in ("bottom", "left"):
+        axis = plot.getAxis(side)
+        axis.setPen(palette.color(QPalette.ColorRole.Mid))
+        axis.setTextPen(palette.color(QPalette.ColorRole.Text))
     plot.setMinimumHeight(120)
     plot.setLabel("bottom", x)
     plot.setLabel("left", y)
-    plot.addLegend(offset=(-10, 5), colCount=3)
     plot.setMenuEnabled(False)
     plot.hideButtons()
     # Where several columns share a pixel their extremes are drawn, not one of them by chance.
@@ -141,8 +182,8 @@ def _plot(x: str, y: str) -> pg.PlotWidget:
     return plot
 
 
-def _draw(curve: pg.PlotDataItem, values: FloatArray | None) -> None:
+def _draw(curve: pg.PlotDataItem, values: FloatArray | None, first_column: int = 0) -> None:
     if values is None:
         curve.setData([], [])
     else:
-        curve.setData(np.arange(len(values), dtype=np.float64), values)
+        curve.setData(first_column + np.arange(len(values), dtype=np.float64), values)

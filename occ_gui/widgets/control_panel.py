@@ -66,7 +66,8 @@ class ControlPanel(QWidget):
             self.tr("Model"): ParameterPanel(model),
         }
         self._lay_out()
-        for part in (self.code, *self.panels.values()):
+        parts: tuple[CodeEntry | ParameterPanel, ...] = (self.code, *self.panels.values())
+        for part in parts:
             part.edited.connect(self.edited)
             part.refused.connect(self.refused)
 

@@ -89,7 +89,7 @@ class QuantityEdit(QAbstractSpinBox):
             enabled |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
         return enabled
 
-    def validate(self, text: str, position: int) -> object:
+    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
         """Let everything be typed: what cannot be read is refused with a sentence, not a beep."""
         return QValidator.State.Acceptable, text, position
 

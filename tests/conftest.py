@@ -1,0 +1,41 @@
+"""What all tests share."""
+
+import os
+from collections.abc import Generator
+from pathlib import Path
+
+# Before Qt is imported anywhere: no test opens a window on a real screen.
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+import pytest
+from hypothesis import settings
+
+settings.register_profile("everyday", deadline=None, print_blob=True)
+settings.load_profile("everyday")
+
+_PHOTOS = Path(__file__).parents[2] / "shared" / "photos"
+
+
+@pytest.fixture(scope="session")
+def photos() -> Path:
+    """The folder of the real photographs; where it is missing outside CI its tests are left out."""
+    if not _PHOTOS.is_dir() and not os.environ.get("CI"):
+        pytest.skip("the real photographs are not here")
+    assert _PHOTOS.is_dir(), "CI needs the real photographs beside the project"
+    return _PHOTOS
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item, call: pytest.CallInfo[None]
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Make an unexpected skip an error: a test that does not run proves nothing."""
+    report = yield
+    if (
+        report.skipped
+        and item.get_closest_marker("photos") is None
+        and not hasattr(report, "wasxfail")
+    ):
+        report.outcome = "failed"
+        report.longrepr = f"{item.nodeid} was skipped, which only tests of real photos may be"
+    return report

@@ -308,7 +308,7 @@ def start_application(arguments: Sequence[str]) -> int:
     command = [str(PYTHON), "-m", "occ_gui", *arguments]
     if sys.platform == "win32":
         return subprocess.run(command, check=False).returncode
-    os.execv(command[0], command)
+    return os.execv(command[0], command)
 
 
 def main(arguments: Sequence[str]) -> int:

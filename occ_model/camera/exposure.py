@@ -61,13 +61,12 @@ def lit_fraction(scene: Scene) -> FloatArray:
     -------
     ndarray of float64, shape (columns,), from 0 to 1
     """
-    chips = sent_chips(scene.transmitter)
+    waveform = Waveform(sent_chips(scene.transmitter))
     frequency = Fraction(scene.transmitter.switching_frequency)
-    exposure = Fraction(scene.camera.exposure_time) * frequency
-    waveform = Waveform(chips)
-    starts = column_phases(scene, waveform.period)
-    lit = waveform.lit_chips(starts, Duration.of(exposure, waveform.period))
-    return np.clip(lit / float(exposure), 0.0, 1.0, out=lit)
+    exposure = Duration.of(Fraction(scene.camera.exposure_time) * frequency, waveform.period)
+    lit = waveform.lit_chips(column_phases(scene, waveform.period), exposure)
+    lit /= exposure.in_chips(waveform.period)
+    return np.clip(lit, 0.0, 1.0, out=lit)
 
 
 def on_time(scene: Scene) -> FloatArray:

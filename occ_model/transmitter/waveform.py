@@ -35,6 +35,10 @@ class Duration:
         whole = chips.numerator // chips.denominator
         return cls(whole // period, whole % period, float(chips - whole))
 
+    def in_chips(self, period: int) -> float:
+        """Give the number of chips, rounded as :meth:`Waveform.lit_chips` rounds its sums."""
+        return self.chips + self.fraction + float(self.periods * period)
+
 
 class Waveform:
     """The light of a chip sequence that is sent over and over.
@@ -77,10 +81,10 @@ class Waveform:
         first = starts.chip
         carry = starts.fraction + duration.fraction >= 1.0
         last = first + duration.chips + carry
-        whole: FloatArray = self._lit_before[last] - self._lit_before[first]
         level_first, level_last = self._level[first], self._level[last]
-        part: FloatArray = (level_last - level_first) * starts.fraction
-        part += level_last * (duration.fraction - carry)
+        whole: FloatArray = self._lit_before[last] - self._lit_before[first] - level_last * carry
+        part: FloatArray = level_last * duration.fraction
+        part += (level_last - level_first) * starts.fraction
         part += whole
         part += duration.periods * float(self._lit_before[self.period])
         return part

@@ -1,0 +1,118 @@
+"""Laws of the band model, the peer that the paper compares itself with."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.camera.photometry import level_values
+from occ_model.scene import Scene
+
+
+@pytest.mark.parametrize(
+    ("period", "exposure", "readout", "complete", "transition", "last_digit"),
+    [
+        (500e-6, 62.5e-6, 14.58e-6, 30.01, 4.29, 0.01),
+        (1e-3, 0.488e-3, 3.377e-6, 151.6, 144.5, 0.1),
+        (100e-6, 68e-6, 8e-6, 4.0, 8.5, 1e-9),
+    ],
+)
+def test_bands_are_as_long_as_published(
+    period: float,
+    exposure: float,
+    readout: float,
+    complete: float,
+    transition: float,
+    last_digit: float,
+) -> None:
+    scene = Scene().replace(
+        switching_frequency=1 / period, exposure_time=exposure, readout_time=readout
+    )
+    assert occ.band_lengths(scene) == pytest.approx(
+        (complete, transition), abs=last_digit / 2
+    )
+
+
+@given(period=st.floats(1e-5, 1e-2), share=st.floats(0.01, 1.0), readout=st.floats(1e-6, 1e-4))
+def test_a_band_and_a_transition_make_a_chip(period: float, share: float, readout: float) -> None:
+    scene = Scene().replace(
+        switching_frequency=1 / period,
+        exposure_time=share / (1 / period) * (1 - 1e-12),
+        readout_time=readout,
+    )
+    assert sum(occ.band_lengths(scene)) == pytest.approx(period / readout, rel=1e-9)
+
+
+def test_an_exposure_longer_than_the_period_is_refused_with_both_times() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3)
+    with pytest.raises(occ.BandModelUndefined, match=r"136 µs.*100 µs"):
+        occ.band_profile(scene)
+
+
+def test_an_exposure_of_exactly_one_period_is_the_last_defined() -> None:
+    scene = Scene().replace(switching_frequency=8192.0, exposure_time=1 / 8192)
+    assert occ.band_lengths(scene)[0] == 0.0
+    assert occ.band_profile(scene).shape == (scene.camera.columns,)
+
+
+@given(
+    share=st.floats(0.02, 1.0),
+    code=st.integers(0, 1023),
+    start=st.floats(0.0, 0.01),
+    readout=st.floats(1e-6, 2e-4),
+)
+def test_the_charitable_reading_is_the_exact_profile_wherever_it_is_defined(
+    share: float, code: int, start: float, readout: float
+) -> None:
+    scene = Scene().replace(
+        code=code,
+        exposure_time=share * 1e-4,
+        start_time=start,
+        readout_time=readout,
+        columns=400,
+        band_reading="charitable",
+    )
+    np.testing.assert_allclose(occ.band_profile(scene), occ.column_profile(scene), atol=1e-9)
+
+
+def test_the_literal_reading_gives_each_chip_and_each_change_whole_columns() -> None:
+    # h_c = 4, h_t = 3: one packet of 01 has two chips and two changes, 14 columns.
+    scene = Scene().replace(
+        pattern="01", switching_frequency=1e5, exposure_time=3e-6, readout_time=1e-6, columns=70
+    )
+    scene = scene.replace(switching_frequency=1 / 7e-6)
+    dark, bright = level_values(scene)
+    profile = occ.band_profile(scene)
+    np.testing.assert_allclose(profile[:14], profile[14:28])
+    assert (profile[:4] == dark).all()
+    assert (profile[7:11] == bright).all()
+    assert ((profile[4:7] > dark) & (profile[4:7] < bright)).all()
+
+
+def test_the_literal_reading_drifts_by_one_transition_at_every_pair_of_equal_chips() -> None:
+    # 0011: four chips of seven columns are 28; read literally, 4 x 4 + 2 x 3 = 22.
+    scene = Scene().replace(
+        pattern="0011",
+        switching_frequency=1 / 7e-6,
+        exposure_time=3e-6,
+        readout_time=1e-6,
+        columns=44,
+    )
+    literal = occ.band_profile(scene)
+    np.testing.assert_allclose(literal[:22], literal[22:])
+    exact = occ.column_profile(scene)
+    assert not np.allclose(exact[:22], exact[22:])
+
+
+def test_a_packet_that_rounds_to_no_column_is_refused() -> None:
+    scene = Scene().replace(
+        switching_frequency=1e6, exposure_time=0.5e-6, readout_time=100e-6, columns=10
+    )
+    with pytest.raises(occ.BandModelUndefined, match="rounds to none"):
+        occ.band_profile(scene)
+
+
+def test_a_saturated_panel_is_white_and_no_brighter() -> None:
+    scene = Scene().replace(iso=1e6, exposure_time=50e-6)
+    assert occ.band_profile(scene).max() == 255.0

@@ -1,0 +1,196 @@
+"""Laws of the rolling shutter's exposure, against exact rational arithmetic."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.camera.exposure import column_phases, lit_fraction
+from occ_model.scene import Scene
+
+PATTERNS = st.text(alphabet="01", min_size=1, max_size=40)
+
+
+def exact_on_time(scene: Scene, column: int) -> Fraction:
+    """t_on of one column in exact arithmetic: the chips' overlaps with the window, summed."""
+    chips = [int(chip) for chip in occ.packet(scene)]
+    frequency = Fraction(scene.transmitter.switching_frequency)
+    start = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
+    end = start + Fraction(scene.camera.exposure_time)
+
+    def lit_until(time: Fraction) -> Fraction:
+        position = time * frequency
+        periods, within = divmod(position, len(chips))
+        whole = int(within)
+        return periods * sum(chips) + sum(chips[:whole]) + (within - whole) * chips[whole]
+
+    return (lit_until(end) - lit_until(start)) / frequency
+
+
+def random_scene(rng: np.random.Generator) -> Scene:
+    """A scene with t / t_LED from 0.01 to 1000 and every other time over decades."""
+    frequency = float(10 ** rng.uniform(0, 6))
+    ratio = float(10 ** rng.uniform(-2, 3))
+    return Scene().replace(
+        switching_frequency=frequency,
+        exposure_time=min(max(ratio / frequency, 1e-9), 1e6),
+        readout_time=float(10 ** rng.uniform(-9, -2)),
+        start_time=float(rng.uniform(-1, 1) * 10 ** rng.uniform(-6, 3)),
+        code=int(rng.integers(1024)),
+        columns=int(rng.integers(1, 5000)),
+    )
+
+
+def test_on_time_is_that_of_exact_arithmetic_to_1e_12_of_the_exposure() -> None:
+    rng = np.random.default_rng(20)
+    worst = 0.0
+    for _ in range(3000):
+        scene = random_scene(rng)
+        on_time = occ.on_time(scene)
+        last = scene.camera.columns - 1
+        for column in {0, last, int(rng.integers(last + 1))}:
+            error = Fraction(float(on_time[column])) - exact_on_time(scene, column)
+            worst = max(worst, float(abs(error)) / scene.camera.exposure_time)
+    assert worst <= 1e-12
+
+
+@given(
+    pattern=PATTERNS,
+    chips=st.floats(0.01, 1000),
+    start=st.floats(-1.0, 1.0),
+    readout=st.floats(1e-9, 1e-3),
+)
+def test_on_time_is_never_negative_nor_above_the_exposure(
+    pattern: str, chips: float, start: float, readout: float
+) -> None:
+    exposure = chips * 1e-4
+    scene = Scene().replace(
+        pattern=pattern,
+        switching_frequency=1e4,
+        exposure_time=exposure,
+        start_time=start,
+        readout_time=readout,
+        columns=50,
+    )
+    on_time = occ.on_time(scene)
+    assert on_time.min() >= 0.0
+    assert on_time.max() <= exposure
+
+
+@given(pattern=PATTERNS, chips=st.floats(0.01, 1000), start=st.floats(-1.0, 1.0))
+def test_on_and_off_time_fill_the_exposure(pattern: str, chips: float, start: float) -> None:
+    scene = Scene().replace(exposure_time=chips * 1e-4, start_time=start, columns=50)
+    opposite = pattern.translate(str.maketrans("01", "10"))
+    on_time = occ.on_time(scene.replace(pattern=pattern))
+    off_time = occ.on_time(scene.replace(pattern=opposite))
+    np.testing.assert_allclose(on_time + off_time, chips * 1e-4, rtol=4e-16 * 10)
+
+
+@given(packets=st.integers(-1000, 1000), code=st.integers(0, 1023))
+def test_a_start_whole_packets_later_changes_nothing(packets: int, code: int) -> None:
+    # 8192 Hz: 24 chips last a binary fraction of a second, so that the shift is exact.
+    scene = Scene().replace(code=code, switching_frequency=8192.0, start_time=0.0, columns=100)
+    later = scene.replace(start_time=packets * 24 / 8192)
+    np.testing.assert_array_equal(occ.on_time(later), occ.on_time(scene))
+
+
+@given(columns=st.integers(0, 500), code=st.integers(0, 1023))
+def test_a_start_some_columns_later_shows_the_same_columns_earlier(columns: int, code: int) -> None:
+    # 2^-17 s: any number of columns lasts an exact number of seconds.
+    scene = Scene().replace(code=code, readout_time=2.0**-17, start_time=0.0, columns=600)
+    later = scene.replace(start_time=columns * 2.0**-17)
+    np.testing.assert_allclose(
+        occ.on_time(later)[: 600 - columns], occ.on_time(scene)[columns:], rtol=0, atol=1e-19
+    )
+
+
+@pytest.mark.parametrize(
+    ("exposure", "eps", "taps"),
+    [
+        (1.0, 0.25, [0.75, 0.25]),
+        (1.5, 0.0, [2 / 3, 1 / 3]),
+        (1.5, 0.75, [1 / 6, 2 / 3, 1 / 6]),
+        (2.5, 0.5, [0.2, 0.4, 0.4]),
+    ],
+)
+def test_exposure_is_a_moving_average_with_the_published_taps(
+    exposure: float, eps: float, taps: list[float]
+) -> None:
+    period = 8
+    found = []
+    for lit in range(period):
+        pattern = "".join("1" if chip == lit else "0" for chip in range(period))
+        scene = Scene().replace(
+            pattern=pattern,
+            switching_frequency=1.0,
+            exposure_time=exposure,
+            start_time=eps,
+            columns=1,
+        )
+        found.append(float(lit_fraction(scene)[0]))
+    assert found == pytest.approx(taps + [0.0] * (period - len(taps)), abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "exposure", "response"),
+    [
+        (2000.0, 100e-6, 0.9355),
+        (2000.0, 250e-6, 0.6366),
+        (2000.0, 500e-6, 0.0),
+        (500.0, 488e-6, 0.9049),
+        (500.0, 977e-6, 0.6512),
+    ],
+)
+def test_exposure_damps_a_frequency_by_its_sinc(
+    frequency: float, exposure: float, response: float
+) -> None:
+    samples = 4096
+    scene = Scene().replace(
+        pattern="01",
+        switching_frequency=2 * frequency,
+        exposure_time=exposure,
+        readout_time=1.0 / frequency / samples,
+        columns=samples,
+    )
+    # A square wave's fundamental has the amplitude 2/pi; the exposure leaves |sinc(F t)| of it.
+    fundamental = abs(np.fft.rfft(lit_fraction(scene))[1]) / (samples / 2)
+    assert fundamental / (2 / np.pi) == pytest.approx(response, abs=6e-5)
+
+
+@pytest.mark.parametrize("denominator", [25, 30, 50, 60, 100])
+def test_whole_periods_of_a_square_wave_leave_no_bands(denominator: int) -> None:
+    scene = Scene().replace(
+        pattern="01", switching_frequency=600.0, exposure_time=1 / denominator, columns=3000
+    )
+    assert np.ptp(lit_fraction(scene)) < 1e-12
+
+
+def test_columns_do_not_drift_over_a_million_of_them() -> None:
+    scene = Scene().replace(columns=1_000_000, readout_time=7.77e-6, exposure_time=1e-7)
+    on_time = occ.on_time(scene)
+    for column in (1, 999, 123_456, 999_999):
+        error = abs(Fraction(float(on_time[column])) - exact_on_time(scene, column))
+        assert float(error) <= 1e-12 * scene.camera.exposure_time
+
+
+@given(start=st.floats(-1e3, 1e3), readout=st.floats(1e-9, 1.0), frequency=st.floats(1.0, 1e6))
+def test_phases_lie_within_the_period(start: float, readout: float, frequency: float) -> None:
+    scene = Scene().replace(
+        start_time=start, readout_time=readout, switching_frequency=frequency, columns=64
+    )
+    phases = column_phases(scene, 24)
+    assert phases.chip.min() >= 0
+    assert phases.chip.max() < 24
+    assert phases.fraction.min() >= 0.0
+    assert phases.fraction.max() < 1.0
+
+
+def test_exposure_longer_than_the_period_still_shows_every_run_at_the_papers_10_khz() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3)
+    lit = lit_fraction(scene)
+    assert scene.camera.exposure_time > scene.transmitter.switching_period
+    assert lit.max() == 1.0  # the header's three ones outlast the exposure
+    assert lit.min() == 0.0  # and so do two zeros

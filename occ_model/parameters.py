@@ -29,7 +29,7 @@ _TILT = math.radians(60.0)
 _DECLARED: tuple[Parameter, ...] = (
     # transmitter
     Count("code", "Code", "", "The number sent, from 0 to 2^bits - 1.", 0, 2**MAX_BITS - 1, 718),
-    Count("bits", "Bits", "", "How many bits the code has.", 1, MAX_BITS, 10),
+    Count("bits", "Bits", "", "How many bits the code has.", 2, MAX_BITS, 10),
     ChipPattern(
         "pattern",
         "Raw chip pattern",

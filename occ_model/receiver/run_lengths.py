@@ -14,6 +14,19 @@ _LONGEST = np.array([2, 4])
 _HEADER_RUNS = (3, 4)
 """Chips of the run of ones that holds a header: its own three, or four after a one."""
 
+_DOUBLE_ZEROS = 0.05
+"""How much better, in chips, a fit must be that leaves no single zeros.
+
+The header's zero stands alone, or with one more before a data bit 1. Only where there are an odd
+number of bits, all of them 1, does a packet hold no single zero.
+"""
+
+_NO_HEADER = 0.1
+"""How much better, in chips, a fit must be that finds no header: the picture may show none."""
+
+_VANISHED = 1.0
+"""What speaks against a widening of a whole chip: single chips of the other kind would vanish."""
+
 
 def runs_of(binary: ByteArray) -> Runs:
     """Split zeros and ones into runs of equal values."""
@@ -41,7 +54,7 @@ class ChipFit:
     chip_length: float
     widening: float
     misfit: float
-    """Root mean square distance from whole chips, plus the share of runs that are too long."""
+    """Root mean square distance from whole chips, and what else speaks against the fit."""
 
     def chips_in(self, runs: Runs) -> IndexArray:
         """Count the chips of every run, at least one each."""
@@ -54,12 +67,12 @@ def fit_chips(runs: Runs) -> ChipFit:
     """Find the length of one chip from whole runs.
 
     The paper splits the histogram of the ones' run lengths, and that of the zeros', by Otsu's
-    threshold and takes the average of the short runs for one chip. For zeros that always holds,
-    since every packet has single zeros. For ones it misreads a code whose short runs are two chips
-    long, such as 1023, and one whose single and double runs the split leaves together. So the
-    ones' short runs are tried as one chip and as two, and the longest run of ones, which is the
-    header's, as three chips and as four. Each trial is refined by least squares; the one whose
-    runs lie nearest to whole chips within the longest that the framing allows is taken.
+    threshold and takes the average of the short runs for one chip. That misreads a code whose
+    short runs are two chips long, such as 1023, and one whose single and double runs the split
+    leaves together. So the ones' short runs are tried as one chip and as two, the longest run of
+    ones, which holds the header, as three chips and as four, and the zeros' short runs as one chip
+    and, with less trust, as two. Each trial is refined by least squares. The one is taken whose
+    runs lie nearest to whole chips, are no longer than the framing allows, and hold a header.
 
     Parameters
     ----------
@@ -71,12 +84,16 @@ def fit_chips(runs: Runs) -> ChipFit:
     ChipFit
     """
     zeros, ones = (runs.lengths[runs.values == value] for value in (0, 1))
-    one_zero = short_run(zeros)
+    short_zero = short_run(zeros)
     trials = [(short_run(ones), chips) for chips in (1, 2)]
     trials += [(float(ones.max()), chips) for chips in _HEADER_RUNS]
-    # What a threshold off the middle takes from a run of ones it gives to the run of zeros.
-    lengths = [(length + one_zero) / (chips + 1) for length, chips in trials]
-    fits = [_refined(runs, ChipFit(length, length - one_zero, 0.0)) for length in lengths]
+    fits = []
+    for zero_chips, distrust in ((1, 0.0), (2, _DOUBLE_ZEROS)):
+        for length, chips in trials:
+            # What a threshold off the middle takes from a run of ones it gives to one of zeros.
+            chip_length = (length + short_zero) / (chips + zero_chips)
+            fit = ChipFit(chip_length, length - chips * chip_length, distrust)
+            fits.append(_refined(runs, fit))
     return min(fits, key=lambda fit: fit.misfit)
 
 
@@ -89,8 +106,13 @@ def _refined(runs: Runs, fit: ChipFit) -> ChipFit:
         (chip_length, widening), *_ = np.linalg.lstsq(terms, runs.lengths, rcond=None)
         if chip_length <= 0.0:
             break
-        fit = ChipFit(float(chip_length), float(widening), 0.0)
+        fit = replace(fit, chip_length=float(chip_length), widening=float(widening))
     chips = fit.chips_in(runs)
     residual = (runs.lengths - sign * fit.widening) / fit.chip_length - chips
-    too_long = float(np.mean(chips > _LONGEST[runs.values]))
-    return replace(fit, misfit=float(np.sqrt(np.mean(residual**2))) + too_long)
+    misfit = float(np.sqrt(np.mean(residual**2)))
+    misfit += float(np.mean(chips > _LONGEST[runs.values]))
+    if abs(fit.widening) >= fit.chip_length:
+        misfit += _VANISHED
+    if not np.isin(chips[runs.values == 1], _HEADER_RUNS).any():
+        misfit += _NO_HEADER
+    return replace(fit, misfit=fit.misfit + misfit)

@@ -29,9 +29,7 @@ def test_bands_are_as_long_as_published(
     scene = Scene().replace(
         switching_frequency=1 / period, exposure_time=exposure, readout_time=readout
     )
-    assert occ.band_lengths(scene) == pytest.approx(
-        (complete, transition), abs=last_digit / 2
-    )
+    assert occ.band_lengths(scene) == pytest.approx((complete, transition), abs=last_digit / 2)
 
 
 @given(period=st.floats(1e-5, 1e-2), share=st.floats(0.01, 1.0), readout=st.floats(1e-6, 1e-4))

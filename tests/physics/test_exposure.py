@@ -86,7 +86,9 @@ def test_on_and_off_time_fill_the_exposure(pattern: str, chips: float, start: fl
     opposite = pattern.translate(str.maketrans("01", "10"))
     on_time = occ.on_time(scene.replace(pattern=pattern))
     off_time = occ.on_time(scene.replace(pattern=opposite))
-    np.testing.assert_allclose(on_time + off_time, chips * 1e-4, rtol=4e-16 * 10)
+    # Each rounds a fraction of a chip a few times, by half an ulp of one chip or less.
+    rounding = 4 * 2.0**-53 * 1e-4
+    np.testing.assert_allclose(on_time + off_time, chips * 1e-4, rtol=1e-15, atol=rounding)
 
 
 @given(packets=st.integers(-1000, 1000), code=st.integers(0, 1023))

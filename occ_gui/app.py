@@ -14,6 +14,8 @@ from occ_model.scene import Scene
 from occ_model.settings import read_scene_file, with_settings
 
 if TYPE_CHECKING:
+    from PySide6.QtWidgets import QApplication
+
     from occ_gui.application import Application
 
 _PATIENCE_MS = 60_000
@@ -71,15 +73,7 @@ def _run(options: argparse.Namespace, scene: Scene) -> int:
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
             occ.load_photo(options.photo)
-    # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
-    from PySide6.QtWidgets import QApplication
-
-    from occ_gui.application import Application
-    from occ_gui.qt_messages import log_qt_messages
-
-    log_qt_messages()
-    qt = QApplication.instance() or QApplication(sys.argv[:1])
-    application = Application(scene)
+    qt, application = start(scene, sys.argv[:1])
     if options.size:
         application.window.resize(*options.size)
     if options.photo:
@@ -89,6 +83,27 @@ def _run(options: argparse.Namespace, scene: Scene) -> int:
         _take_screenshot(application, options.screenshot)
         return 0
     return qt.exec()
+
+
+def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Application]":
+    """Put the application together, its window not yet shown.
+
+    Parameters
+    ----------
+    scene
+        The scene to begin with.
+    arguments
+        What Qt may read from the command line.
+    """
+    # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
+    from PySide6.QtWidgets import QApplication
+
+    from occ_gui.application import Application
+    from occ_gui.qt_messages import log_qt_messages
+
+    log_qt_messages()
+    qt = QApplication(arguments)
+    return qt, Application(scene)
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:

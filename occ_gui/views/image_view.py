@@ -7,7 +7,6 @@ from PySide6.QtWidgets import (
     QGraphicsRectItem,
     QHBoxLayout,
     QLabel,
-    QSizePolicy,
     QSlider,
     QSplitter,
     QVBoxLayout,
@@ -16,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.averaged_image import AveragedImage
+from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.arrays import ByteArray
 from occ_model.photo.load import Photo
 from occ_model.results import Region
@@ -36,9 +36,7 @@ class PicturePane(QWidget):
 
     def __init__(self, caption: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.caption = QLabel(caption)
-        # A long name is cut off rather than pushing the pictures apart.
-        self.caption.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.caption = ElidedLabel(caption)
         self._graphics = pg.GraphicsView()
         self._graphics.setBackground(self.palette().dark().color())
         self._graphics.setAccessibleName(caption)
@@ -153,7 +151,7 @@ class ImageView(QWidget):
         if photo is not None:
             self.photo.show_picture(photo.image)
             turned = self.tr(", its lines shown as columns") if photo.turned else ""
-            self.photo.caption.setText(
+            self.photo.caption.set_full_text(
                 self.tr("Photo {name}{turned}").format(name=photo.path.name, turned=turned)
             )
         self._arrange()

@@ -31,6 +31,8 @@ class Photo:
         The file.
     image : ndarray of uint8, shape (rows, columns)
         Luma, columns being the scan axis.
+    profile : ndarray of float64, shape (columns,)
+        Mean of each column in grey levels.
     turned
         Whether the file's lines became the columns.
     exposure_time, f_number, iso
@@ -39,15 +41,11 @@ class Photo:
 
     path: Path
     image: ByteArray
+    profile: FloatArray
     turned: bool
     exposure_time: float | None = None
     f_number: float | None = None
     iso: float | None = None
-
-    @property
-    def profile(self) -> FloatArray:
-        """Mean of each column in grey levels, shape (columns,)."""
-        return np.asarray(self.image.mean(axis=0))
 
 
 def load_photo(path: str | Path, scan_axis: str = "auto") -> Photo:
@@ -80,7 +78,7 @@ def load_photo(path: str | Path, scan_axis: str = "auto") -> Photo:
     grey, notes = _read(path)
     turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(grey))
     image = np.ascontiguousarray(grey.T if turned else grey)
-    return Photo(path, image, turned, **notes)
+    return Photo(path, image, image.mean(axis=0), turned, **notes)
 
 
 def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.output import write_image, write_whole
 from occ_model.parameters import PARAMETERS
 from occ_model.presets import preset_named
-from occ_model.receiver.decode import DECODERS
+from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import DecodeResult
 from occ_model.scene import Scene
 from occ_model.settings import read_scene_file, with_settings
@@ -56,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     decode = commands.add_parser("decode", help="read the code from a picture or photo")
     decode.add_argument("file", type=Path, help="image file")
     _add_scene_options(decode)
-    decode.add_argument("--decoder", choices=sorted(DECODERS), default="threshold")
+    decode.add_argument("--decoder", choices=tuple(DECODERS), default=PAPERS)
     decode.add_argument(
         "--scan-axis",
         choices=("auto", "columns", "lines"),

@@ -92,6 +92,7 @@ class DecodeResult:
     bits : ndarray of uint8
         The bits read, the first sent first; empty where none were read. They can be there beside
         a failure, when the chips break the line code.
+
     region
         The rectangle of the image that was read.
     signal : ndarray of float64, shape (columns of the region,)
@@ -108,6 +109,14 @@ class DecodeResult:
         The column of the region at which each chip starts.
     headers
         Where headers start among ``chips``.
+    correlation
+        Of the best code's forward model with the signal.
+    confidence
+        How far the best code is ahead of the second best, 0 to 1.
+    folded : ndarray of float64, shape (bins,)
+        The signal folded over one packet.
+    model : ndarray of float64, shape (bins,)
+        The best code's forward model, beside ``folded``.
     """
 
     decoder: str
@@ -122,3 +131,7 @@ class DecodeResult:
     chips: ByteArray = field(default_factory=_nothing)
     chip_starts: FloatArray | None = None
     headers: tuple[int, ...] = ()
+    correlation: float | None = None
+    confidence: float | None = None
+    folded: FloatArray | None = None
+    model: FloatArray | None = None

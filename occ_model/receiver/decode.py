@@ -1,6 +1,5 @@
 """The receiver's door: an image or a profile in, the code or the reason why there is none out."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -10,20 +9,14 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import to_bytes
 from occ_model.errors import DecodeInputError, ParameterError
-from occ_model.receiver import threshold
+from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Region
 from occ_model.scene import Scene
 
-Decoder = Callable[[FloatArray, Scene], DecodeResult]
-"""What a decoder is: a signal (columns,) in grey levels and the scene in, a result out."""
 
-DECODERS: dict[str, Decoder] = {threshold.NAME: threshold.read_signal}
-"""The decoders by name."""
-
-
-def decode(image: NDArray[Any], scene: Scene, decoder: str = threshold.NAME) -> DecodeResult:
+def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeResult:
     """Read the code that an image shows.
 
     Parameters
@@ -54,7 +47,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = threshold.NAME) -> 
     _check(image)
     if image.ndim == 1:
         whole = Region(0, 1, 0, len(image))
-        return replace(DECODERS[decoder](_levels(image), scene), region=whole)
+        return replace(DECODERS[decoder].read(_levels(image), scene), region=whole)
     grey: ByteArray = image if image.dtype == np.uint8 else to_bytes(_levels(image))
     grey = np.ascontiguousarray(grey)
     region = locate(grey, scene.receiver.bright_fraction)
@@ -62,7 +55,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = threshold.NAME) -> 
         return DecodeResult(
             decoder, failure=f"No panel found: every pixel has the grey level {grey.flat[0]}."
         )
-    return replace(DECODERS[decoder](column_means(grey, region), scene), region=region)
+    return replace(DECODERS[decoder].read(column_means(grey, region), scene), region=region)
 
 
 def _levels(image: NDArray[Any]) -> FloatArray:

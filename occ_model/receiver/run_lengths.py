@@ -1,10 +1,10 @@
 """Runs of ones and zeros, and the length of one chip that they tell of."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, IndexArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.otsu import otsu_split
 from occ_model.results import Runs
 
@@ -26,6 +26,9 @@ _NO_HEADER = 0.1
 
 _VANISHED = 1.0
 """What speaks against a widening of a whole chip: single chips of the other kind would vanish."""
+
+_IMPROVEMENTS = 3
+"""Rounds of least squares; the whole numbers of chips do not change after the second."""
 
 
 def runs_of(binary: ByteArray) -> Runs:
@@ -85,34 +88,53 @@ def fit_chips(runs: Runs) -> ChipFit:
     """
     zeros, ones = (runs.lengths[runs.values == value] for value in (0, 1))
     short_zero = short_run(zeros)
-    trials = [(short_run(ones), chips) for chips in (1, 2)]
+    short_one = short_run(ones)
+    trials = [(short_one, chips) for chips in (1, 2)]
     trials += [(float(ones.max()), chips) for chips in _HEADER_RUNS]
-    fits = []
-    for zero_chips, distrust in ((1, 0.0), (2, _DOUBLE_ZEROS)):
-        for length, chips in trials:
-            # What a threshold off the middle takes from a run of ones it gives to one of zeros.
-            chip_length = (length + short_zero) / (chips + zero_chips)
-            fit = ChipFit(chip_length, length - chips * chip_length, distrust)
-            fits.append(_refined(runs, fit))
-    return min(fits, key=lambda fit: fit.misfit)
+    one_length, one_chips, zero_chips, distrust = np.array(
+        [
+            (length, chips, zeros_in, mistrust)
+            for zeros_in, mistrust in ((1, 0.0), (2, _DOUBLE_ZEROS))
+            for length, chips in trials
+        ]
+    ).T
+    # What a threshold off the middle takes from a run of ones it gives to one of zeros.
+    chip_length = (one_length + short_zero) / (one_chips + zero_chips)
+    return _best_fit(runs, chip_length, one_length - one_chips * chip_length, distrust)
 
 
-def _refined(runs: Runs, fit: ChipFit) -> ChipFit:
-    """Improve a first guess by least squares over the runs' whole numbers of chips."""
-    sign = np.where(runs.values == 1, 1.0, -1.0)
-    for _ in range(3):
-        counts = fit.chips_in(runs).astype(np.float64)
-        terms = np.stack([counts, sign], axis=1)
-        (chip_length, widening), *_ = np.linalg.lstsq(terms, runs.lengths, rcond=None)
-        if chip_length <= 0.0:
-            break
-        fit = replace(fit, chip_length=float(chip_length), widening=float(widening))
-    chips = fit.chips_in(runs)
-    residual = (runs.lengths - sign * fit.widening) / fit.chip_length - chips
-    misfit = float(np.sqrt(np.mean(residual**2)))
-    misfit += float(np.mean(chips > _LONGEST[runs.values]))
-    if abs(fit.widening) >= fit.chip_length:
-        misfit += _VANISHED
-    if not np.isin(chips[runs.values == 1], _HEADER_RUNS).any():
-        misfit += _NO_HEADER
-    return replace(fit, misfit=fit.misfit + misfit)
+def _best_fit(
+    runs: Runs, chip_length: FloatArray, widening: FloatArray, distrust: FloatArray
+) -> ChipFit:
+    """Improve first guesses by least squares over the runs' whole chips, and take the best.
+
+    All guesses, shape (guesses,), are improved at once, and equal runs are counted, not repeated.
+    """
+    kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
+    values, lengths = kinds % 2, (kinds // 2).astype(np.float64)
+    sign = np.where(values == 1, 1.0, -1.0)
+
+    def chips() -> FloatArray:
+        counts = np.rint((lengths - sign * widening[:, None]) / chip_length[:, None])
+        return np.asarray(np.maximum(counts, 1.0))
+
+    for _ in range(_IMPROVEMENTS):
+        n = chips()
+        # Normal equations of lengths = chip_length * n + widening * sign.
+        nn, ns, ss = (n * n) @ repeats, n @ (repeats * sign), float(repeats.sum())
+        nl, sl = n @ (repeats * lengths), float((sign * lengths) @ repeats)
+        determinant = nn * ss - ns**2  # never 0: ones and zeros differ in sign
+        better = (ss * nl - ns * sl) / determinant
+        usable = better > 0.0
+        widening = np.where(usable, (nn * sl - ns * nl) / determinant, widening)
+        chip_length = np.where(usable, better, chip_length)
+
+    n = chips()
+    residual = (lengths - sign * widening[:, None]) / chip_length[:, None] - n
+    misfit = distrust + np.sqrt((residual**2) @ repeats / repeats.sum())
+    misfit += (n > _LONGEST[values]) @ repeats / repeats.sum()
+    misfit += np.where(np.abs(widening) >= chip_length, _VANISHED, 0.0)
+    has_header = (np.isin(n, _HEADER_RUNS) & (values == 1)).any(axis=1)
+    misfit += np.where(has_header, 0.0, _NO_HEADER)
+    best = int(misfit.argmin())
+    return ChipFit(float(chip_length[best]), float(widening[best]), float(misfit[best]))

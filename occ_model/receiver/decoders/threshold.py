@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.framing import read_packet
 from occ_model.receiver.run_lengths import fit_chips, runs_of
 from occ_model.receiver.signal import otsu_threshold
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene import Scene
-
-NAME = "threshold"
 
 _SMALLEST_SWING = 1.0
 """Grey levels that a signal must span to hold stripes."""
@@ -35,7 +34,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     DecodeResult
         With every step as far as it came; the region is the caller's to add.
     """
-    result = DecodeResult(NAME, signal=signal)
+    result = DecodeResult(DECODER.name, signal=signal)
     swing = float(signal.max() - signal.min()) if signal.size else 0.0
     threshold = otsu_threshold(signal) if swing >= _SMALLEST_SWING else None
     if threshold is None:
@@ -82,3 +81,6 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs) -> DecodeResult:
         chips=np.repeat(runs.values, counts),
         chip_starts=chip_starts,
     )
+
+
+DECODER = Decoder("threshold", "The paper's: threshold and run lengths", read_signal)

@@ -1,0 +1,23 @@
+"""The decoders: every module of this folder holds one, as ``DECODER``."""
+
+import pkgutil
+from importlib import import_module
+
+from occ_model.receiver.decoder import Decoder
+
+
+def _found() -> dict[str, Decoder]:
+    modules = (
+        import_module(f"{__name__}.{entry.name}") for entry in pkgutil.iter_modules(__path__)
+    )
+    decoders: list[Decoder] = [module.DECODER for module in modules]
+    # The paper's first, the others by name.
+    decoders.sort(key=lambda decoder: (decoder.name != PAPERS, decoder.name))
+    return {decoder.name: decoder for decoder in decoders}
+
+
+PAPERS = "threshold"
+"""The name of the paper's decoder, which is the default."""
+
+DECODERS: dict[str, Decoder] = _found()
+"""The decoders by name."""

@@ -1,0 +1,151 @@
+"""Beyond the paper: a decoder that knows the exposure and correlates with every code.
+
+It knows the switching frequency, the exposure time and the readout time. The signal is folded over
+one packet and correlated with the forward model of every code at every phase. An exposure of
+several chips is no obstacle: each code still has a profile of its own.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.camera.exposure import column_phases
+from occ_model.receiver.code_book import BINS_PER_CHIP, CodeBook, code_book
+from occ_model.receiver.decoder import Decoder
+from occ_model.results import DecodeResult
+from occ_model.scene import Scene
+from occ_model.transmitter.packet import bits_of, packet_length
+
+_SMALLEST_SWING = 1.0
+"""Grey levels that a signal must span to hold stripes."""
+
+_LEAST_CORRELATION = 0.7
+"""A code whose profile explains less than half of the signal's variance explains nothing."""
+
+_LEAST_CONFIDENCE = 0.05
+"""A code that leaves nearly as much unexplained as the second best was picked by chance."""
+
+_LIKELY = 16
+"""Codes that are compared more closely."""
+
+_CODES_AT_ONCE = 4096
+"""Codes compared in one product, so that codes of 16 bits need no gigabytes."""
+
+
+def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
+    """Read the code whose forward model is most like the signal.
+
+    The confidence is the share of what the second best code leaves unexplained that the best one
+    explains, 1 - (1 - r1^2) / (1 - r2^2), with r1 and r2 their correlations with the signal: 0
+    when both explain the same, 1 when the best explains everything.
+
+    Parameters
+    ----------
+    signal : ndarray of float64, shape (columns,)
+        Mean grey level of each column.
+    scene
+        Its number of bits, switching frequency, exposure time and readout time are used.
+
+    Returns
+    -------
+    DecodeResult
+        With correlation and confidence, the folded signal and the best code's profile.
+    """
+    result = DecodeResult(DECODER.name, signal=signal)
+    if scene.transmitter.pattern:
+        return replace(result, failure="A raw chip pattern is sent, which holds no packets.")
+    swing = float(signal.max() - signal.min())
+    if swing < _SMALLEST_SWING:
+        return replace(
+            result, failure=f"No stripes: the signal spans only {swing:.2g} grey levels."
+        )
+    bits = scene.transmitter.bits
+    frequency = scene.transmitter.switching_frequency
+    chips_seen = len(signal) * scene.camera.readout_time * frequency
+    if chips_seen < packet_length(bits):
+        return replace(
+            result,
+            failure=f"Less than one packet: {int(chips_seen)} of {packet_length(bits)} chips fit "
+            "the panel's image; come closer or raise the frequency.",
+        )
+    book = code_book(bits, Fraction(scene.camera.exposure_time) * Fraction(frequency))
+    return _best_code(result, _fold(signal, scene, packet_length(bits)), book, bits)
+
+
+def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
+    """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
+    bins = period * BINS_PER_CHIP
+    phases = column_phases(scene.replace(start_time=0.0, columns=len(signal)), period)
+    nearest = np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
+    counts = np.bincount(nearest, minlength=bins)
+    sums = np.bincount(nearest, signal, minlength=bins)
+    seen = np.flatnonzero(counts)
+    # Where no column starts, the neighbours tell: a profile has no jumps.
+    return np.interp(np.arange(bins), seen, sums[seen] / counts[seen], period=bins)
+
+
+def _best_code(result: DecodeResult, folded: FloatArray, book: CodeBook, bits: int) -> DecodeResult:
+    """Compare the folded signal with every code, and with the most likely ones more closely."""
+    # What the camera did to the grey levels kept their order. So a bin's rank says which lit
+    # fraction it stands for, and no gamma or enhancement needs to be known.
+    rank = folded.argsort(kind="stable").argsort()
+    likely, shifts = _most_likely(book.levels[rank], book)
+    models = book.profiles(likely)
+    # Each code has levels of its own, which say so more exactly than those of all codes.
+    signals = np.sort(models, axis=1)[:, rank]
+    places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
+    models = np.take_along_axis(models, places, axis=1)
+    correlations = _row_correlations(signals, models)
+    second, best = np.argsort(correlations)[-2:].tolist()
+    r1, r2 = float(correlations[best]), float(correlations[second])
+    confidence = 1.0 - (1.0 - r1**2) / (1.0 - r2**2) if r2 < 1.0 else 0.0
+    code = int(likely[best])
+    result = replace(
+        result, correlation=r1, confidence=confidence, folded=signals[best], model=models[best]
+    )
+    if r1 < _LEAST_CORRELATION or confidence < _LEAST_CONFIDENCE:
+        return replace(
+            result,
+            failure=f"No code stands out: the best, {code}, correlates by {r1:.3f} with the "
+            f"signal, the second best, {likely[second]}, by {r2:.3f}.",
+        )
+    return replace(result, code=code, bits=np.array(bits_of(code, bits), dtype=np.uint8))
+
+
+def _most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexArray]:
+    """Find the codes that correlate best with the signal over all phases, and their phases.
+
+    Returns
+    -------
+    codes, phases : ndarray of int64, shape (_LIKELY,) or fewer
+        A phase is the bin at which a code's packet starts.
+    """
+    bins, period = len(signal), book.chips.shape[1]
+    about_mean = signal - signal.mean()
+    spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(book.response))
+    with_response = np.fft.irfft(spectrum, bins)
+    places = np.arange(period)[:, None] * BINS_PER_CHIP + np.arange(bins)
+    with_chips = with_response[places % bins]
+    best, phase = [], []
+    for start in range(0, len(book.chips), _CODES_AT_ONCE):
+        products = book.chips[start : start + _CODES_AT_ONCE] @ with_chips
+        phases = products.argmax(axis=1)
+        best.append(np.take_along_axis(products, phases[:, None], axis=1)[:, 0])
+        phase.append(phases)
+    scores = np.concatenate(best) / np.sqrt(book.energy)
+    count = min(_LIKELY, len(scores))
+    likely = np.argpartition(scores, -count)[-count:]
+    return likely, np.concatenate(phase)[likely]
+
+
+def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Correlate each row of one array with the same row of another."""
+    a = a - a.mean(axis=1, keepdims=True)
+    b = b - b.mean(axis=1, keepdims=True)
+    energy = (a**2).sum(axis=1) * (b**2).sum(axis=1)
+    return np.asarray(np.minimum((a * b).sum(axis=1) / np.sqrt(energy), 1.0))
+
+
+DECODER = Decoder("matched", "Matched: correlates with every code", read_signal)

@@ -30,6 +30,7 @@ from occ_model.receiver.decode import decode
 from occ_model.results import DecodeResult, Frame, Region
 from occ_model.scene import Scene
 from occ_model.simulation import render
+from occ_model.study.success_rate import success_rate
 from occ_model.transmitter.packet import packet
 
 __version__ = "0.1.0"
@@ -60,4 +61,5 @@ __all__ = [
     "panel_corners",
     "presets",
     "render",
+    "success_rate",
 ]

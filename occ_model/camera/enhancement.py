@@ -1,5 +1,7 @@
 """Contrast enhancement and rounding to 8 bits."""
 
+from collections.abc import Callable
+
 import cv2
 import numpy as np
 
@@ -15,8 +17,8 @@ def to_bytes(values: FloatArray) -> ByteArray:
     return np.clip(np.rint(values), 0.0, WHITE).astype(np.uint8)
 
 
-def enhance(profile: FloatArray, method: str) -> ByteArray:
-    """Enhance the contrast of column values and round them.
+def enhancement_of(profile: FloatArray, method: str) -> Callable[[FloatArray], ByteArray]:
+    """Make the contrast enhancement that a picture with these column values gets.
 
     Parameters
     ----------
@@ -28,14 +30,41 @@ def enhance(profile: FloatArray, method: str) -> ByteArray:
 
     Returns
     -------
-    ndarray of uint8, shape (columns,)
-        A profile that spans less than one grey level comes back rounded only.
+    callable
+        Takes grey levels, those of the profile or others, of any shape; gives them enhanced and
+        rounded. A profile that spans less than one grey level gets rounding only.
     """
-    rounded = to_bytes(profile)
     low, high = float(profile.min()), float(profile.max())
     if method == "none" or high - low < _SMALLEST_SWING:
-        return rounded
+        return to_bytes
     if method == "stretch":
-        return to_bytes((profile - low) * (WHITE / (high - low)))
+        return lambda values: to_bytes((values - low) * (WHITE / (high - low)))
+    curve = _equalization(to_bytes(profile))
+    return lambda values: curve[to_bytes(values)]
+
+
+def _equalization(rounded: ByteArray) -> ByteArray:
+    """Give what each of the 256 grey levels becomes."""
     # One row, given as such: a one-dimensional array means different shapes to OpenCV 4 and 5.
-    return np.asarray(cv2.equalizeHist(rounded[None, :])[0], dtype=np.uint8)
+    equalized = cv2.equalizeHist(rounded[None, :])[0]
+    levels, where = np.unique(rounded, return_index=True)
+    # A level that no column has becomes what the next darker one does: no more are below it.
+    at_or_below = np.searchsorted(levels, np.arange(256), side="right") - 1
+    return np.asarray(equalized[where][np.maximum(at_or_below, 0)], dtype=np.uint8)
+
+
+def enhance(profile: FloatArray, method: str) -> ByteArray:
+    """Enhance the contrast of column values and round them.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
+    method
+        As for :func:`enhancement_of`.
+
+    Returns
+    -------
+    ndarray of uint8, shape (columns,)
+    """
+    return enhancement_of(profile, method)(profile)

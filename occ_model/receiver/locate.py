@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, IndexArray
 from occ_model.receiver.otsu import otsu_split
 from occ_model.results import Region
 
@@ -35,7 +35,8 @@ def locate(image: ByteArray, bright_fraction: float) -> Region | None:
     Region or None
         None where all pixels have the same value.
     """
-    level = _bright_level(image, bright_fraction)
+    counts = cv2.calcHist([image], [0], None, [256], [0, 256]).ravel().astype(np.int64)
+    level = bright_level(counts, bright_fraction)
     if level is None:
         return None
     bright = _above(image, level - 1)
@@ -59,9 +60,21 @@ def locate(image: ByteArray, bright_fraction: float) -> Region | None:
     return _bounds(bright, around)
 
 
-def _bright_level(image: ByteArray, bright_fraction: float) -> int | None:
-    """Find the grey level from which a pixel counts as bright."""
-    counts = cv2.calcHist([image], [0], None, [256], [0, 256]).ravel().astype(np.int64)
+def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
+    """Find the grey level from which a pixel counts as bright.
+
+    Parameters
+    ----------
+    counts : ndarray of int64, shape (256,)
+        How many pixels the image has of each grey level.
+    bright_fraction
+        Share of the pixels.
+
+    Returns
+    -------
+    int or None
+        None where all pixels have the same value.
+    """
     split = otsu_split(counts)
     if split is None:
         return None

@@ -32,8 +32,7 @@ from occ_model.scene import Scene
 from occ_model.simulation import render
 from occ_model.study.success_rate import success_rate
 from occ_model.transmitter.packet import packet
-
-__version__ = "0.1.0"
+from occ_model.version import __version__
 
 __all__ = [
     "BandModelUndefined",
@@ -50,6 +49,7 @@ __all__ = [
     "Region",
     "Scene",
     "SceneFileError",
+    "__version__",
     "band_lengths",
     "band_profile",
     "column_profile",

@@ -14,6 +14,8 @@ from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import DecodeResult
 from occ_model.scene import Scene
 from occ_model.settings import read_scene_file, with_settings
+from occ_model.study.paper_grid import DEVICES, IMAGES, GridPoint, ceases_at, measure, point_count
+from occ_model.units import HERTZ
 
 _DEFAULT_PRESET = "phone-136us"
 
@@ -64,6 +66,16 @@ def _parser() -> argparse.ArgumentParser:
         help="what the shutter scanned in the file; auto: across the stripes (default)",
     )
     decode.set_defaults(command=_decode)
+
+    figures = commands.add_parser("figures", help="write the paper's figures 2 to 6")
+    figures.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder to fill")
+    figures.add_argument("--images", type=int, default=IMAGES, help="a point; default: %(default)s")
+    figures.add_argument("--seed", type=int, default=1, help="default: %(default)s")
+    for exposure in ("68us", "136us"):
+        figures.add_argument(
+            f"--photo-{exposure}", type=Path, metavar="FILE", help="its profile is drawn too"
+        )
+    figures.set_defaults(command=_figures)
 
     presets = commands.add_parser("presets", help="list the presets, or one with its sources")
     presets.add_argument("name", nargs="?", help="the preset to show whole")
@@ -131,6 +143,40 @@ def _report(result: DecodeResult) -> list[str]:
     if result.chips.size:
         lines.append(f"chips        {''.join(map(str, result.chips))}")
     return lines
+
+
+def _figures(options: argparse.Namespace) -> int:
+    # matplotlib takes half a second to import: only for those who want a figure.
+    from tqdm import tqdm
+
+    from occ_model.export import paper_figures
+
+    photos = [
+        occ.load_photo(path) if path else None for path in (options.photo_68us, options.photo_136us)
+    ]
+    paper_figures.make_folder(options.out)
+    paper_figures.write_process_figure(options.out)
+    paper_figures.write_profile_figure(options.out, 3, "phone-68us", photos[0])
+    paper_figures.write_profile_figure(options.out, 4, "phone-136us", photos[1])
+    decoders = tuple(DECODERS)
+    total = sum(point_count(presets, decoders) for presets in DEVICES.values())
+    with tqdm(total=total, unit="point", file=sys.stderr) as bar:
+        for number, (device, presets) in enumerate(DEVICES.items(), start=5):
+            bar.set_description(device)
+            points = list(measure(presets, decoders, options.images, options.seed, bar.update))
+            paper_figures.write_rate_figure(options.out, number, device, points, options.seed)
+            for preset in presets:
+                print(_ceasing(preset, points))
+    print(f"{options.out}: figures 2 to 6 as PDF, PNG and CSV")
+    return 0
+
+
+def _ceasing(preset: str, points: list[GridPoint]) -> str:
+    mine = [p for p in points if p.preset == preset and p.decoder == PAPERS]
+    frequency = ceases_at(mine)
+    if frequency is None:
+        return f"{preset}: detection goes on to the highest frequency"
+    return f"{preset}: detection ceases at {HERTZ.format(frequency)}"
 
 
 def _presets(options: argparse.Namespace) -> int:

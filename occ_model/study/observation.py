@@ -129,5 +129,6 @@ def _noisy_means(
     variance = np.convolve(enhanced**2, weights, mode="valid") - mean**2
     inner = levels[reach : len(levels) - reach]
     spread = np.sqrt(np.maximum(np.interp(panel, inner, variance), 0.0) / rows)
-    expected: FloatArray = np.interp(panel, inner, mean)
-    return expected + random.normal(0.0, 1.0, len(panel)) * spread
+    means: FloatArray = np.interp(panel, inner, mean)
+    means += random.normal(0.0, 1.0, len(panel)) * spread
+    return means

@@ -1,0 +1,1 @@
+"""Figures and tables for print; the only part that draws."""

@@ -1,0 +1,51 @@
+"""What all figures share: their look, and how they become files."""
+
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from occ_model.export.provenance import Provenance
+from occ_model.output import write_whole
+
+# Okabe and Ito's colours, told apart by any eye; with line styles, also in grey print.
+SIMULATION = {"color": "#0072B2", "linestyle": "-"}
+BAND = {"color": "#D55E00", "linestyle": "--"}
+PHOTO = {"color": "#009E73", "linestyle": ":"}
+
+_LOOK: dict[Any, Any] = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 200,
+    "pdf.fonttype": 42,
+}
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Make an empty figure of a size in inches."""
+    with rc_context(_LOOK):
+        return Figure(figsize=(width, height))
+
+
+def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
+    """Write a figure as PDF and as PNG, its provenance inside.
+
+    Raises
+    ------
+    OutputError
+        A file cannot be written.
+    """
+    text = provenance.text()
+    metadata = {
+        "pdf": {"Title": provenance.title, "Subject": text, "CreationDate": None},
+        "png": {"Title": provenance.title, "Description": text},
+    }
+    for ending, fields in metadata.items():
+        buffer = BytesIO()
+        with rc_context(_LOOK):
+            figure.savefig(buffer, format=ending, metadata=fields)
+        write_whole(folder / f"{name}.{ending}", buffer.getvalue())

@@ -9,6 +9,7 @@ from pathlib import Path
 import occ_model as occ
 from occ_model.output import write_image, write_whole
 from occ_model.parameters import PARAMETERS
+from occ_model.photo.load import Photo
 from occ_model.presets import preset_named
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import DecodeResult
@@ -147,14 +148,24 @@ def _report(result: DecodeResult) -> list[str]:
 
 def _figures(options: argparse.Namespace) -> int:
     # matplotlib takes half a second to import: only for those who want a figure.
-    from tqdm import tqdm
-
     from occ_model.export import paper_figures
+    from occ_model.export.drawing import house_style
 
     photos = [
         occ.load_photo(path) if path else None for path in (options.photo_68us, options.photo_136us)
     ]
     paper_figures.make_folder(options.out)
+    with house_style():
+        _draw_figures(options, photos)
+    print(f"{options.out}: figures 2 to 6 as PDF, PNG and CSV")
+    return 0
+
+
+def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> None:
+    from tqdm import tqdm
+
+    from occ_model.export import paper_figures
+
     paper_figures.write_process_figure(options.out)
     paper_figures.write_profile_figure(options.out, 3, "phone-68us", photos[0])
     paper_figures.write_profile_figure(options.out, 4, "phone-136us", photos[1])
@@ -167,8 +178,6 @@ def _figures(options: argparse.Namespace) -> int:
             paper_figures.write_rate_figure(options.out, number, device, points, options.seed)
             for preset in presets:
                 print(_ceasing(preset, points))
-    print(f"{options.out}: figures 2 to 6 as PDF, PNG and CSV")
-    return 0
 
 
 def _ceasing(preset: str, points: list[GridPoint]) -> str:

@@ -78,6 +78,22 @@ class Runs:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class RunHistogram:
+    """How often each run length occurs among the whole runs of one value.
+
+    Parameters
+    ----------
+    counts : ndarray of int64, shape (longest + 1,)
+        Runs of each length in columns.
+    split
+        The longest of the short runs by Otsu's threshold, None where all are alike.
+    """
+
+    counts: IndexArray
+    split: int | None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class DecodeResult:
     """What a decoder made of an image, step by step, as far as it came.
 
@@ -101,6 +117,8 @@ class DecodeResult:
         The grey level that parts ones from zeros.
     runs
         The signal after the threshold, as runs.
+    histograms
+        The run lengths of zeros, and of ones.
     chip_length
         Length of one chip in columns.
     chips : ndarray of uint8
@@ -127,6 +145,7 @@ class DecodeResult:
     signal: FloatArray | None = None
     threshold: float | None = None
     runs: Runs | None = None
+    histograms: tuple[RunHistogram, RunHistogram] | None = None
     chip_length: float | None = None
     chips: ByteArray = field(default_factory=_nothing)
     chip_starts: FloatArray | None = None

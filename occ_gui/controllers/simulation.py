@@ -1,6 +1,7 @@
 """Simulate the store's scene whenever it changes, and hand the results to the views."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from time import perf_counter
 from typing import Protocol
 
@@ -10,6 +11,8 @@ import occ_model as occ
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.tasks.latest_wins import LatestWins
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results import DecodeResult
 from occ_model.scene import Scene
 from occ_model.transmitter.packet import bits_of
 
@@ -32,6 +35,7 @@ def simulate(scene: Scene) -> Snapshot:
     start = perf_counter()
     frame = occ.render(scene)
     decoded = occ.decode(frame.image, scene)
+    others = tuple(_read_alike(decoded, scene))
     band, undefined = None, ""
     try:
         band = occ.band_profile(scene)
@@ -50,7 +54,19 @@ def simulate(scene: Scene) -> Snapshot:
         band=band,
         band_undefined=undefined,
         seconds=perf_counter() - start,
+        others=others,
     )
+
+
+def _read_alike(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
+    """Let the other decoders read the signal that one has taken from the picture."""
+    for name, decoder in DECODERS.items():
+        if name == decoded.decoder:
+            continue
+        if decoded.signal is None:  # no panel found: the same for all
+            yield DecodeResult(name, failure=decoded.failure)
+        else:
+            yield replace(decoder.read(decoded.signal, scene), region=decoded.region)
 
 
 class SimulationController(QObject):

@@ -15,7 +15,9 @@ class Snapshot:
     frame
         The simulated picture.
     decoded
-        What the receiver made of it.
+        What the paper's decoder made of it.
+    others
+        What the other decoders made of the same signal.
     sent
         The bits sent, the first sent first; empty where a raw pattern is sent.
     packet_columns
@@ -39,3 +41,4 @@ class Snapshot:
     band: FloatArray | None
     band_undefined: str
     seconds: float
+    others: tuple[DecodeResult, ...] = ()

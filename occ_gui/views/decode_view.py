@@ -1,11 +1,14 @@
 """What the receiver read: the verdict, the bits, and the steps behind them."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
 
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.widgets.bit_strip import BitStrip
 from occ_model.results import DecodeResult
+
+_STEPS = ("region", "threshold", "chip", "chips", "correlation", "confidence")
 
 
 class DecodeView(QWidget):
@@ -13,6 +16,12 @@ class DecodeView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._snapshot: Snapshot | None = None
+        self.decoders = QTabBar()
+        self.decoders.setDrawBase(False)
+        self.decoders.setAccessibleName(self.tr("Decoder"))
+        self.decoders.setToolTip(self.tr("Whose result and steps are shown."))
+        self.decoders.currentChanged.connect(self._show_chosen)
         self.verdict = QLabel()
         self.verdict.setWordWrap(True)
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
@@ -24,21 +33,26 @@ class DecodeView(QWidget):
         self.reason.setWordWrap(True)
         self.reason.setTextFormat(Qt.TextFormat.PlainText)
         self.reason.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self._steps = {name: QLabel() for name in ("region", "threshold", "chip", "chips")}
+        self._steps = {name: QLabel() for name in _STEPS}
+        self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
         layout = QVBoxLayout(self)
-        for widget in (self.verdict, self.strip, self.reason):
+        for widget in (self.decoders, self.verdict, self.strip, self.reason):
             layout.addWidget(widget)
         layout.addLayout(self._make_form())
-        layout.addStretch(1)
+        layout.addWidget(self.signal, 1)
+        layout.addWidget(self.run_lengths, 1)
+        layout.addStretch()
 
     def _make_form(self) -> QFormLayout:
-        form = QFormLayout()
+        self._form = form = QFormLayout()
         form.setVerticalSpacing(2)
         titles = {
             "region": self.tr("Region"),
             "threshold": self.tr("Threshold"),
             "chip": self.tr("Chip length"),
             "chips": self.tr("Chips read"),
+            "correlation": self.tr("Correlation"),
+            "confidence": self.tr("Confidence"),
         }
         for name, title in titles.items():
             self._steps[name].setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -47,38 +61,66 @@ class DecodeView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
-        decoded = snapshot.decoded
+        self._snapshot = snapshot
+        results = (snapshot.decoded, *snapshot.others)
+        with QSignalBlocker(self.decoders):
+            while self.decoders.count() < len(results):
+                self.decoders.addTab("")
+            while self.decoders.count() > len(results):
+                self.decoders.removeTab(self.decoders.count() - 1)
+            for place, result in enumerate(results):
+                mark = "✓" if self._is_right(result) else "✗"
+                self.decoders.setTabText(place, f"{result.decoder} {mark}")
         self.strip.setVisible(bool(snapshot.sent))
+        self._show_chosen()
+
+    def _show_chosen(self) -> None:
+        snapshot = self._snapshot
+        if snapshot is None:
+            return
+        decoded = (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
         self.strip.show_bits(snapshot.sent, decoded.bits.tolist())
-        self.verdict.setText(self._verdict(snapshot))
+        self.verdict.setText(self._verdict(decoded))
         self.reason.setText(decoded.failure or "")
         self.reason.setVisible(decoded.failure is not None)
         for name, text in self._measured(decoded).items():
             self._steps[name].setText(text)
+            self._form.setRowVisible(self._steps[name], bool(text))
+        self.signal.show_result(decoded, snapshot.packet_columns)
+        self.run_lengths.show_result(decoded)
 
-    def _verdict(self, snapshot: Snapshot) -> str:
-        decoded = snapshot.decoded
-        if not snapshot.sent:
+    def _is_right(self, decoded: DecodeResult) -> bool:
+        sent = self._snapshot.sent if self._snapshot is not None else ()
+        return decoded.code is not None and tuple(decoded.bits.tolist()) == sent
+
+    def _verdict(self, decoded: DecodeResult) -> str:
+        sent = self._snapshot.sent if self._snapshot is not None else ()
+        if not sent:
             return self.tr("No code is sent")
         if decoded.code is None:
             return self.tr("✗ No code read")
         wrong = len(self.strip.wrong_places())
         if wrong:
             return self.tr("✗ Code {code} read, {wrong} of {bits} bits wrong").format(
-                code=decoded.code, wrong=wrong, bits=len(snapshot.sent)
+                code=decoded.code, wrong=wrong, bits=len(sent)
             )
         return self.tr("✓ Code {code} read, all bits right").format(code=decoded.code)
 
     def _measured(self, decoded: DecodeResult) -> dict[str, str]:
-        none = "–"  # noqa: RUF001 - a dash is what stands for nothing
+        """Say what was measured on the way; nothing for a step that was not taken."""
         region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
-        return {
-            "region": none
+        found: dict[str, str | None] = {
+            "region": None
             if region is None
             else self.tr("{columns} x {rows} px").format(columns=region.columns, rows=region.rows),
-            "threshold": none
-            if level is None
-            else self.tr("{level:.1f} grey levels").format(level=level),
-            "chip": none if chip is None else self.tr("{chip:.2f} columns").format(chip=chip),
-            "chips": str(decoded.chips.size) if decoded.chips.size else none,
+            "threshold": _number(self.tr("{:.1f} grey levels"), level),
+            "chip": _number(self.tr("{:.2f} columns"), chip),
+            "chips": str(decoded.chips.size) if decoded.chips.size else None,
+            "correlation": _number("{:.4f}", decoded.correlation),
+            "confidence": _number("{:.3f}", decoded.confidence),
         }
+        return {name: text or "" for name, text in found.items()}
+
+
+def _number(text: str, value: float | None) -> str | None:
+    return None if value is None else text.format(value)

@@ -5,20 +5,13 @@ from collections.abc import Iterable
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.plots import BAND, PHOTO, REGION, SIMULATION, THRESHOLD, new_plot, thin
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import FloatArray
 from occ_model.photo.load import Photo
-
-# Okabe and Ito's colours, told apart by any eye; in grey print the kind of line tells.
-_SIMULATION = QColor("#0072B2")
-_BAND = QColor("#D55E00")
-_PHOTO = QColor("#009E73")
-_REGION = QColor(230, 159, 0, 40)
-_THRESHOLD = QColor("#CC79A7")
 
 
 class ProfileView(QWidget):
@@ -32,7 +25,10 @@ class ProfileView(QWidget):
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
         self._photo: Photo | None = None
-        self.plot = _plot(self.tr("column"), self.tr("grey level"), self.palette())
+        self.plot = new_plot(self.tr("column"), self.tr("grey level"), self.palette())
+        # Where several columns share a pixel their extremes are drawn, not one of them by chance.
+        self.plot.setDownsampling(auto=True, mode="peak")
+        self.plot.setClipToView(True)
         self.legend = LineLegend()
         self._make_curves()
         self.reason = QLabel()
@@ -44,12 +40,11 @@ class ProfileView(QWidget):
 
     def _make_curves(self) -> None:
         line = Qt.PenStyle
-        # Pens of width one: wider ones cost hundreds of milliseconds on a noisy profile.
         pens = {
-            "simulation": (self.tr("simulation"), pg.mkPen(_SIMULATION)),
-            "band": (self.tr("band model"), pg.mkPen(_BAND, style=line.DashLine)),
-            "photo": (self.tr("photo, from the panel's first column"), pg.mkPen(_PHOTO)),
-            "threshold": (self.tr("threshold"), pg.mkPen(_THRESHOLD, style=line.DashDotLine)),
+            "simulation": (self.tr("simulation"), thin(SIMULATION)),
+            "band": (self.tr("band model"), thin(BAND, line.DashLine)),
+            "photo": (self.tr("photo, from the panel's first column"), thin(PHOTO)),
+            "threshold": (self.tr("threshold"), thin(THRESHOLD, line.DashDotLine)),
         }
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
@@ -57,7 +52,7 @@ class ProfileView(QWidget):
         self.band = self.plot.plot(pen=pens["band"][1])
         self.photo = self.plot.plot(pen=pens["photo"][1])
         self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
-        self._region = pg.LinearRegionItem(brush=_REGION, pen=pg.mkPen(None), movable=False)
+        self._region = pg.LinearRegionItem(brush=REGION, pen=pg.mkPen(None), movable=False)
         self._region.setZValue(-10)
         for item in (self._region, self.threshold):
             item.hide()
@@ -139,7 +134,7 @@ class ProfileView(QWidget):
         """Show from black to the largest value, in steps, so that the axis does not tremble."""
         largest = max(float(p.max()) for p in profiles if p is not None)
         step = 20.0
-        self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.02)
+        self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
 
     def _fit_columns(self, snapshot: Snapshot) -> None:
         if not (self._packets.isChecked() or self._panel.isChecked()):
@@ -161,25 +156,6 @@ class ProfileView(QWidget):
         self._stop_following()
         clicked.setChecked(True)
         self._redraw()
-
-
-def _plot(x: str, y: str, palette: QPalette) -> pg.PlotWidget:
-    plot = pg.PlotWidget()
-    plot.setBackground(palette.color(QPalette.ColorRole.Base))
-    for side in ("bottom", "left"):
-        axis = plot.getAxis(side)
-        axis.setPen(palette.color(QPalette.ColorRole.Mid))
-        axis.setTextPen(palette.color(QPalette.ColorRole.Text))
-    plot.setMinimumHeight(120)
-    plot.setLabel("bottom", x)
-    plot.setLabel("left", y)
-    plot.setMenuEnabled(False)
-    plot.hideButtons()
-    # Where several columns share a pixel their extremes are drawn, not one of them by chance.
-    plot.setDownsampling(auto=True, mode="peak")
-    plot.setClipToView(True)
-    plot.getViewBox().disableAutoRange()
-    return plot
 
 
 def _draw(curve: pg.PlotDataItem, values: FloatArray | None, first_column: int = 0) -> None:

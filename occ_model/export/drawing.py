@@ -1,5 +1,6 @@
 """What all figures share: their look, and how they become files."""
 
+from contextlib import AbstractContextManager
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -25,14 +26,15 @@ _LOOK: dict[Any, Any] = {
 }
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """Make an empty figure of a size in inches."""
-    with rc_context(_LOOK):
-        return Figure(figsize=(width, height))
+def house_style() -> AbstractContextManager[None]:
+    """Give all figures drawn within the same look."""
+    return rc_context(_LOOK)
 
 
 def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
     """Write a figure as PDF and as PNG, its provenance inside.
+
+    To be called within the house style, in which the figure was drawn.
 
     Raises
     ------
@@ -46,6 +48,5 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
     }
     for ending, fields in metadata.items():
         buffer = BytesIO()
-        with rc_context(_LOOK):
-            figure.savefig(buffer, format=ending, metadata=fields)
+        figure.savefig(buffer, format=ending, metadata=fields)
         write_whole(folder / f"{name}.{ending}", buffer.getvalue())

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import Polygon
 
@@ -12,7 +13,7 @@ from occ_model.arrays import FloatArray
 from occ_model.band_model import band_profile
 from occ_model.camera.projection import row_spans
 from occ_model.errors import BandModelUndefined, OutputError
-from occ_model.export.drawing import BAND, PHOTO, SIMULATION, new_figure, save_figure
+from occ_model.export.drawing import BAND, PHOTO, SIMULATION, save_figure
 from occ_model.export.provenance import Provenance
 from occ_model.export.tables import write_table
 from occ_model.photo.load import Photo
@@ -33,7 +34,7 @@ def write_process_figure(folder: Path) -> None:
     """Write figure 2: corners, mask, calculated values, simulated picture."""
     scene = load_preset("phone-68us")
     frame = render(scene)
-    figure = new_figure(7.2, 3.0)
+    figure = Figure(figsize=(7.2, 2.5))
     axes = figure.subplots(1, 4)
     rows, columns = frame.image.shape
     mask = np.zeros((rows, columns), dtype=np.uint8)
@@ -87,7 +88,7 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
         "simulation, enhanced": frame.enhanced[first:last].astype(np.float64),
         "photo": None if photo is None else _padded(photo.profile, last - first),
     }
-    figure = new_figure(7.2, 2.8)
+    figure = Figure(figsize=(7.2, 2.8))
     ax = figure.subplots()
     styles = (BAND, {**SIMULATION, "alpha": 0.45}, SIMULATION, PHOTO)
     for (name, values), style in zip(shown.items(), styles, strict=True):
@@ -125,7 +126,7 @@ def write_rate_figure(
     """Write figure 5 or 6: success rate over frequency and distance, at both exposure times."""
     presets = DEVICES[device]
     decoders = list(dict.fromkeys(point.decoder for point in points))
-    figure = new_figure(7.2, 2.6 * len(decoders) + 0.6)
+    figure = Figure(figsize=(7.2, 2.6 * len(decoders) + 0.6))
     axes = figure.subplots(len(decoders), len(presets), squeeze=False, sharex=True, sharey=True)
     for row, decoder in enumerate(decoders):
         for column, preset in enumerate(presets):

@@ -60,8 +60,7 @@ def code_book(bits: int, exposure: Fraction) -> CodeBook:
         The exposure time in chips, exactly.
     """
     period = packet_length(bits)
-    codes = range(2**bits)
-    chips = np.stack([sent_chips(Transmitter(code=code, bits=bits)) for code in codes])
+    packets = _packets(bits)
     first_chip = np.zeros(period, dtype=np.uint8)
     first_chip[0] = 1
     bins = np.arange(period * BINS_PER_CHIP)
@@ -69,11 +68,19 @@ def code_book(bits: int, exposure: Fraction) -> CodeBook:
     duration = Duration.of(exposure, period)
     lit = Waveform(first_chip).lit_chips(starts, duration)
     response = lit / duration.in_chips(period)
-    packets = chips.astype(np.float64)
     some = packets[:: max(1, len(packets) // _TONE_CODES)]
     shares = (bins + 0.5) / len(bins)
     levels = np.quantile(_profiles(some, response), shares)
     return CodeBook(packets, response, _energies(packets, response), levels)
+
+
+@lru_cache(maxsize=4)
+def _packets(bits: int) -> FloatArray:
+    """Give the chips of every code's packet, shape (codes, chips); they need no exposure."""
+    codes = range(2**bits)
+    return np.stack([sent_chips(Transmitter(code=code, bits=bits)) for code in codes]).astype(
+        np.float64
+    )
 
 
 def _profiles(packets: FloatArray, response: FloatArray) -> FloatArray:

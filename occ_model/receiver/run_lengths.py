@@ -6,7 +6,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.otsu import otsu_split
-from occ_model.results import Runs
+from occ_model.results import RunHistogram, Runs
 
 _LONGEST = np.array([2, 4])
 """Chips of the longest run of zeros, and of ones: a header after data that end in a one."""
@@ -39,11 +39,16 @@ def runs_of(binary: ByteArray) -> Runs:
     return Runs(binary[starts], lengths)
 
 
-def short_run(lengths: IndexArray) -> float:
-    """Average the short runs: those below the Otsu split of the histogram of run lengths."""
-    split = otsu_split(np.bincount(lengths))
-    short = lengths if split is None else lengths[lengths <= split]
-    return float(short.mean())
+def run_histogram(runs: Runs, value: int) -> RunHistogram:
+    """Count the run lengths of zeros or of ones, and split them by Otsu's threshold."""
+    counts = np.bincount(runs.lengths[runs.values == value]).astype(np.int64)
+    return RunHistogram(counts, otsu_split(counts))
+
+
+def short_run(histogram: RunHistogram) -> float:
+    """Average the short runs: those up to the histogram's split, or all where there is none."""
+    counts = histogram.counts[: None if histogram.split is None else histogram.split + 1]
+    return float(counts @ np.arange(len(counts)) / counts.sum())
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +71,7 @@ class ChipFit:
         return np.maximum(counts, 1.0).astype(np.int64)
 
 
-def fit_chips(runs: Runs) -> ChipFit:
+def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> ChipFit:
     """Find the length of one chip from whole runs.
 
     The paper splits the histogram of the ones' run lengths, and that of the zeros', by Otsu's
@@ -81,16 +86,17 @@ def fit_chips(runs: Runs) -> ChipFit:
     ----------
     runs
         Runs that are not cut off by the region's edges, of both kinds.
+    histograms
+        Their lengths, of zeros and of ones.
 
     Returns
     -------
     ChipFit
     """
-    zeros, ones = (runs.lengths[runs.values == value] for value in (0, 1))
-    short_zero = short_run(zeros)
-    short_one = short_run(ones)
+    short_zero, short_one = (short_run(histogram) for histogram in histograms)
+    longest_one = float(len(histograms[1].counts) - 1)
     trials = [(short_one, chips) for chips in (1, 2)]
-    trials += [(float(ones.max()), chips) for chips in _HEADER_RUNS]
+    trials += [(longest_one, chips) for chips in _HEADER_RUNS]
     one_length, one_chips, zero_chips, distrust = np.array(
         [
             (length, chips, zeros_in, mistrust)

@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.framing import read_packet
-from occ_model.receiver.run_lengths import fit_chips, runs_of
+from occ_model.receiver.run_lengths import fit_chips, run_histogram, runs_of
 from occ_model.receiver.signal import otsu_threshold
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene import Scene
@@ -69,7 +69,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 def _read_chips(result: DecodeResult, runs: Runs, whole: Runs) -> DecodeResult:
     """Turn runs into chips; the first and last run count as far as the image shows them."""
-    fit = fit_chips(whole)
+    histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
+    fit = fit_chips(whole, histograms)
     counts = fit.chips_in(runs)
     ends = np.cumsum(runs.lengths).astype(np.float64)
     starts = ends - runs.lengths
@@ -77,6 +78,7 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs) -> DecodeResult:
     chip_starts = np.repeat(starts, counts) + within * np.repeat(runs.lengths / counts, counts)
     return replace(
         result,
+        histograms=histograms,
         chip_length=fit.chip_length,
         chips=np.repeat(runs.values, counts),
         chip_starts=chip_starts,

@@ -1,0 +1,43 @@
+"""How plots look: one place for their axes, pens and colours."""
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPalette, QPen
+
+# Okabe and Ito's colours, told apart by any eye; in grey print the kind of line tells.
+SIMULATION = QColor("#0072B2")
+BAND = QColor("#D55E00")
+PHOTO = QColor("#009E73")
+THRESHOLD = QColor("#CC79A7")
+REGION = QColor(230, 159, 0, 40)
+
+
+def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
+    """Make a pen of width one: wider ones cost hundreds of milliseconds on a noisy curve."""
+    return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
+
+
+def new_plot(x: str, y: str, palette: QPalette, least_height: int = 120) -> pg.PlotWidget:
+    """Make an empty plot that ranges itself only when told to.
+
+    Parameters
+    ----------
+    x, y
+        What the axes show.
+    palette
+        Whose colours it takes.
+    least_height
+        In pixels.
+    """
+    plot = pg.PlotWidget()
+    plot.setBackground(palette.color(QPalette.ColorRole.Base))
+    for side, label in (("bottom", x), ("left", y)):
+        axis = plot.getAxis(side)
+        axis.setPen(palette.color(QPalette.ColorRole.Mid))
+        axis.setTextPen(palette.color(QPalette.ColorRole.Text))
+        plot.setLabel(side, label)
+    plot.setMinimumHeight(least_height)
+    plot.setMenuEnabled(False)
+    plot.hideButtons()
+    plot.getViewBox().disableAutoRange()
+    return plot

@@ -1,0 +1,136 @@
+"""What the matched decoder must read, past where thresholds end."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.camera.exposure import lit_fraction
+from occ_model.receiver.code_book import BINS_PER_CHIP, code_book
+from occ_model.scene import Scene
+from occ_model.study.success_rate import success_rate
+from occ_model.transmitter.packet import packet_length
+
+HIGH_CONFIDENCE = 0.5
+
+
+@pytest.mark.parametrize("frequency", range(4000, 40001, 2000))
+def test_every_code_is_read_at_136_us_from_4_to_40_khz_with_a_grey_level_of_noise(
+    frequency: int,
+) -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=frequency, distance=1.0)
+    rng = np.random.default_rng(frequency)
+    for code in rng.integers(0, 1024, 8).tolist():
+        assert success_rate(scene.replace(code=code), 2, "matched", seed=code) == 100.0
+
+
+def test_it_reads_where_one_packet_fits_and_says_so_where_none_does() -> None:
+    scene = occ.load_preset("phone-136us").replace(distance=0.6)
+    # 3456 columns of 8 us: at 1 kHz they last 27.6 chips, a packet has 24.
+    assert success_rate(scene.replace(switching_frequency=1e3), 5, "matched") == 100.0
+    slow = scene.replace(switching_frequency=850.0)
+    result = occ.decode(occ.render(slow).image, slow, "matched")
+    assert result.failure is not None
+    assert "Less than one packet" in result.failure
+
+
+def test_all_codes_are_read_at_three_chips_an_exposure() -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        switching_frequency=3.2 / 136e-6, distance=0.1, rows=16
+    )
+    wrong = [
+        code
+        for code in range(1024)
+        if occ.decode(occ.render(scene.replace(code=code)).enhanced, scene, "matched").code != code
+    ]
+    assert wrong == []
+
+
+@pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])
+@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
+def test_no_tone_curve_needs_to_be_known(enhancement: str, averaging: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        enhancement=enhancement, averaging=averaging, switching_frequency=20e3
+    )
+    for code in (0, 5, 341, 682, 1000, 1023):
+        assert success_rate(scene.replace(code=code), 1, "matched") == 100.0
+
+
+def test_the_code_book_holds_the_forward_model_of_every_code() -> None:
+    frequency, exposure = 10e3, 237e-6
+    book = code_book(10, Fraction(exposure) * Fraction(frequency))
+    for code in (0, 3, 718, 1023):
+        scene = Scene().replace(
+            code=code,
+            switching_frequency=frequency,
+            exposure_time=exposure,
+            readout_time=1 / frequency / BINS_PER_CHIP,
+            columns=packet_length(10) * BINS_PER_CHIP,
+        )
+        np.testing.assert_allclose(
+            book.profiles(np.array([code]))[0], lit_fraction(scene), atol=1e-9
+        )
+        about_mean = lit_fraction(scene) - lit_fraction(scene).mean()
+        assert book.energy[code] == pytest.approx(about_mean @ about_mean)
+
+
+def test_confidence_is_near_one_for_a_clear_picture_and_near_none_for_noise() -> None:
+    scene = occ.load_preset("phone-136us")
+    clear = occ.decode(occ.render(scene).image, scene, "matched")
+    assert clear.confidence is not None
+    assert clear.confidence > 0.9
+    rng = np.random.default_rng(5)
+    for _ in range(200):
+        noise = occ.decode(rng.normal(100.0, 5.0, 1730), scene, "matched")
+        assert noise.code is None
+        assert noise.failure is not None
+        assert noise.confidence is not None
+        assert noise.confidence < HIGH_CONFIDENCE
+
+
+def test_a_wrong_code_never_comes_with_high_confidence() -> None:
+    rng = np.random.default_rng(6)
+    wrong_and_sure, wrong = 0, 0
+    base = occ.load_preset("phone-136us").replace(enhancement="none")
+    for _ in range(1000):
+        scene = base.replace(
+            code=int(rng.integers(1024)),
+            switching_frequency=float(rng.uniform(4e3, 60e3)),
+            start_time=float(rng.uniform(0, 0.02)),
+            columns=int(rng.integers(300, 1800)),
+        )
+        profile = occ.column_profile(scene)
+        noisy = profile + rng.normal(0, float(10 ** rng.uniform(-2, 1.5)), len(profile))
+        result = occ.decode(noisy, scene, "matched")
+        if result.code is not None and result.code != scene.transmitter.code:
+            wrong += 1
+            assert result.confidence is not None
+            wrong_and_sure += result.confidence >= HIGH_CONFIDENCE
+    assert wrong_and_sure == 0
+    assert wrong > 0  # else the trials were too easy to prove anything
+
+
+def test_codes_of_sixteen_bits_are_read_too() -> None:
+    scene = occ.load_preset("phone-136us").replace(bits=16, code=54321, switching_frequency=20e3)
+    result = occ.decode(occ.render(scene.replace(rows=64, distance=0.1)).image, scene, "matched")
+    assert result.code == 54321
+
+
+@pytest.mark.parametrize(
+    "image",
+    [
+        np.zeros((20, 30), dtype=np.uint8),
+        np.full((20, 30), 255, dtype=np.uint8),
+        np.full((20, 1), 9, dtype=np.uint8),
+        np.arange(30, dtype=np.uint8)[None, :],
+        np.tile(np.array([[0, 255]], dtype=np.uint8), (20, 2000)),
+        np.full(4000, 3.5),
+    ],
+    ids=["black", "white", "column", "row", "finest stripes", "flat profile"],
+)
+def test_pictures_without_a_code_give_a_sentence(image: np.ndarray) -> None:
+    result = occ.decode(image, Scene(), "matched")
+    assert result.code is None
+    assert result.failure is not None
+    assert result.failure.endswith(".")

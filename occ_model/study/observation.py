@@ -26,21 +26,21 @@ _REACH = 5.0
 """Standard deviations after which the noise's distribution is cut off."""
 
 
-def decode_image(
-    scene: Scene, decoder: str, noise: float, random: np.random.Generator
-) -> DecodeResult:
-    """Decode the whole image, each pixel with noise of its own.
+def noisy_image(scene: Scene, noise: float, random: np.random.Generator) -> ByteArray:
+    """Make the image with noise of its own in each pixel, before the enhancement.
 
     Parameters
     ----------
     scene
         The scene.
-    decoder
-        The decoder's name.
     noise
-        Standard deviation of a pixel's noise in grey levels, before enhancement.
+        Standard deviation of a pixel's noise in grey levels.
     random
         Where the noise comes from.
+
+    Returns
+    -------
+    ndarray of uint8, shape (rows, columns)
     """
     corners = panel_corners(scene)
     profile = column_profile(scene)
@@ -54,7 +54,7 @@ def decode_image(
         panel = slice(int(first[row]), int(last[row]))
         image[row] = to_bytes(dark + deviations)
         image[row, panel] = curve(profile[panel] + deviations[panel])
-    return decode(image, scene, decoder)
+    return image
 
 
 def decode_profile(
@@ -66,8 +66,12 @@ def decode_profile(
 
     Parameters
     ----------
-    scene, decoder, noise, random
-        As for :func:`decode_image`.
+    scene
+        The scene.
+    decoder
+        The decoder's name.
+    noise, random
+        As for :func:`noisy_image`.
 
     Returns
     -------

@@ -5,10 +5,11 @@ from typing import Literal
 import numpy as np
 
 from occ_model.errors import ParameterError
+from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import DecodeResult
 from occ_model.scene import Scene
-from occ_model.study.observation import decode_image, decode_profile
+from occ_model.study.observation import decode_profile, noisy_image
 from occ_model.transmitter.packet import bits_of, packet_length
 
 PIXEL_NOISE = 1.0
@@ -83,7 +84,7 @@ def _decode(
             return result
         if path == "profile":
             raise ParameterError("path is 'profile'; a panel that is not level needs 'image'.")
-    return decode_image(scene, decoder, noise, random)
+    return decode(noisy_image(scene, noise, random), scene, decoder)
 
 
 def _check(scene: Scene, images: int, decoder: str, noise: float, path: Path) -> None:

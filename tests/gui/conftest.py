@@ -1,0 +1,145 @@
+"""A whole application, pictures of widgets, and results to show, for the tests of the window."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QAction, QImage
+from PySide6.QtWidgets import QApplication, QMenu, QWidget
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_gui.controllers.simulation import simulate
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
+from occ_model.photo.load import Photo
+from occ_model.scene import Scene
+
+Grey = NDArray[np.uint8]
+
+
+@pytest.fixture
+def small_scene() -> Scene:
+    """Give a scene that is simulated in a few milliseconds and whose code is read."""
+    return occ.load_preset("phone-68us").replace(rows=200)
+
+
+@pytest.fixture
+def snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
+    """Simulate the small scene with some parameters changed."""
+    return lambda **changes: simulate(small_scene.replace(**changes))
+
+
+@pytest.fixture
+def application(qtbot: QtBot, small_scene: Scene) -> Iterator[Application]:
+    """Show a whole application that has come to rest, and see that nothing of it is left behind."""
+    before = QApplication.topLevelWidgets()
+    application = Application(small_scene)
+    application.window.show()
+    qtbot.waitUntil(lambda: application.is_idle)
+    yield application
+    application.window.close()
+    application.stop()
+    application.window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    QApplication.processEvents()
+    # pyqtgraph's menus have no parent: they go when Python forgets the plot, as another test sees.
+    leaked = [
+        widget
+        for widget in QApplication.topLevelWidgets()
+        if widget not in before and not isinstance(widget, QMenu)
+    ]
+    assert not leaked, f"top-level widgets outlive the window: {leaked}"
+
+
+class User:
+    """Somebody at the window: types, chooses from menus, waits and looks."""
+
+    def __init__(self, qtbot: QtBot, application: Application) -> None:
+        self._qtbot = qtbot
+        self._application = application
+
+    def rest(self) -> None:
+        """Wait until all that was asked of the application is shown."""
+        self._qtbot.waitUntil(lambda: self._application.is_idle)
+
+    def row(self, name: str) -> QuantityRow | CountRow:
+        """Find the controls of a number."""
+        panels = self._application.controls.panels.values()
+        (row,) = [panel.rows[name] for panel in panels if name in panel.rows]
+        assert isinstance(row, QuantityRow | CountRow)
+        return row
+
+    def enter(self, name: str, text: str) -> None:
+        """Type a number, press Enter, and wait."""
+        field = self.row(name).field
+        field.selectAll()
+        self._qtbot.keyClicks(field, text)
+        self._qtbot.keyClick(field, Qt.Key.Key_Return)
+        self.rest()
+
+    def choose(self, text: str) -> None:
+        """Choose the menu entry whose text starts like this, and wait."""
+        self.entry(text).trigger()
+        self.rest()
+
+    def entry(self, text: str) -> QAction:
+        """Find the menu entry whose text starts like this."""
+        actions = self._application.window.findChildren(QAction)
+        (found,) = [action for action in actions if action.text().startswith(text)]
+        return found
+
+    def choose_next_preset(self) -> str:
+        """Move on in the list of presets, wait, and return the name that it shows."""
+        self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)
+        self.rest()
+        return self._application.controls.preset.currentText()
+
+    @property
+    def message(self) -> str:
+        """What the status line says."""
+        return self._application.window.statusBar().currentMessage()
+
+
+@pytest.fixture
+def user(qtbot: QtBot, application: Application) -> User:
+    """Let somebody sit down at the application."""
+    return User(qtbot, application)
+
+
+@pytest.fixture
+def grey_picture() -> Callable[[QWidget], Grey]:
+    """Take the picture of a widget in grey levels, shape (height, width)."""
+
+    def take(widget: QWidget) -> Grey:
+        image = widget.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
+        rows = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), -1)
+        return rows[:, : image.width()].copy()
+
+    return take
+
+
+@pytest.fixture
+def stripes() -> Grey:
+    """Draw upright stripes, shape (60, 100): a photo whose columns were scanned."""
+    columns = np.where(np.arange(100) % 20 < 10, 40, 200).astype(np.uint8)
+    return np.tile(columns, (60, 1))
+
+
+@pytest.fixture
+def photo_file(tmp_path: Path, stripes: Grey) -> Path:
+    """Write the stripes to a file."""
+    path = tmp_path / "stripes.png"
+    Image.fromarray(stripes).save(path)
+    return path
+
+
+@pytest.fixture
+def photo(photo_file: Path) -> Photo:
+    """Read the stripes as a photo."""
+    return occ.load_photo(photo_file)

@@ -1,0 +1,127 @@
+"""``occ-gui`` from the command line: pictures of the window, and mistakes answered in sentences."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from occ_gui.app import main
+
+PROJECT = Path(__file__).resolve().parents[2]
+ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
+
+COLD_START = """
+import sys
+from occ_gui.app import main
+code = main(["--screenshot", sys.argv[1]])
+heavy = {"matplotlib", "scipy", "skimage"} & set(sys.modules)
+sys.exit(f"imported at start: {heavy}" if heavy else code)
+"""
+
+
+def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *map(str, arguments)],
+        cwd=PROJECT, env=ENVIRONMENT, capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+
+
+def occ_gui(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return run("-m", "occ_gui", *arguments)
+
+
+def is_one_sentence(text: str) -> bool:
+    return text.startswith("occ-gui: ") and text.endswith(".\n") and text.count("\n") == 1
+
+
+def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_file: Path) -> None:
+    picture = tmp_path / "window.png"
+    ended = occ_gui("--screenshot", picture, "--size", "1920x1080", "--photo", photo_file)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
+    with Image.open(picture) as image:
+        assert image.format == "PNG"
+        assert image.size == (1920, 1080)
+        assert len(image.getcolors(2**24) or []) > 10
+
+
+def test_the_first_picture_is_shown_without_importing_what_is_slow(tmp_path: Path) -> None:
+    picture = tmp_path / "window.png"
+    ended = run("-c", COLD_START, picture)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    with Image.open(picture) as image:
+        assert image.size == (1280, 800)
+
+
+def test_a_photo_that_is_missing_is_answered_in_a_sentence(tmp_path: Path) -> None:
+    ended = occ_gui("--screenshot", tmp_path / "w.png", "--photo", tmp_path / "missing.jpg")
+    assert ended.returncode == 2
+    assert is_one_sentence(ended.stderr)
+    assert "missing.jpg" in ended.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_that_cannot_be_written_is_answered_in_a_sentence(tmp_path: Path) -> None:
+    ended = occ_gui("--screenshot", tmp_path)
+    assert ended.returncode == 2
+    assert is_one_sentence(ended.stderr)
+    assert str(tmp_path) in ended.stderr
+    assert list(tmp_path.iterdir()) == []
+    assert list(tmp_path.parent.glob(f".{tmp_path.name}*")) == []
+
+
+def test_an_unknown_preset_is_answered_in_a_sentence(tmp_path: Path) -> None:
+    ended = occ_gui("--screenshot", tmp_path / "window.png", "--preset", "fone-68us")
+    assert ended.returncode == 2
+    assert is_one_sentence(ended.stderr)
+    assert "phone-68us" in ended.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["--set", "iso=lots"], "iso"),
+        (["--set", "iso"], "'iso'"),
+        (["--set", "shutter=1"], "shutter"),
+        (["--set", "distance=-1 m"], "distance"),
+        (["--scene", "missing.toml"], "missing.toml"),
+    ],
+)
+def test_a_mistake_in_the_scene_is_answered_before_any_window(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], named: str
+) -> None:
+    assert main(arguments) == 2
+    told = capsys.readouterr()
+    assert told.err.startswith("occ-gui: ")
+    assert named in told.err
+    assert told.out == ""
+
+
+@pytest.mark.parametrize("size", ["big", "1280", "0x0", "1280x800x3", "99999x99999", "-5x100"])
+def test_a_size_that_is_none_is_answered_by_how_to_write_one(
+    capsys: pytest.CaptureFixture[str], size: str
+) -> None:
+    # An unknown preset ends the program, should the size be let through.
+    with pytest.raises(SystemExit) as ended:
+        main([f"--size={size}", "--preset", "none at all"])
+    assert ended.value.code == 2
+    assert repr(size) in capsys.readouterr().err
+
+
+def test_preset_and_scene_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--preset", "phone-68us", "--scene", "mine.toml"])
+    assert ended.value.code == 2
+    assert "not allowed with" in capsys.readouterr().err
+
+
+def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--help"])
+    assert ended.value.code == 0
+    told = capsys.readouterr().out
+    for option in ("--preset", "--scene", "--set", "--photo", "--screenshot", "--size"):
+        assert option in told

@@ -1,0 +1,138 @@
+"""What the user does with the real widgets arrives in the scene, the picture and every view."""
+
+import gc
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QApplication, QLabel, QMessageBox, QWidget
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_model.scene import Scene
+
+Picture = Callable[[QWidget], NDArray[np.uint8]]
+User = Any  # the fixture of that name
+
+
+def test_a_key_on_a_slider_changes_scene_field_and_picture(
+    qtbot: QtBot, application: Application, user: User, grey_picture: Picture
+) -> None:
+    row = user.row("distance")
+    assert isinstance(row, QuantityRow)
+    before = grey_picture(application.image)
+    qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
+    user.rest()
+    assert application.store.scene.pose.distance == row.field.value() > 1.2
+    assert not np.array_equal(grey_picture(application.image), before)
+
+
+def test_a_number_typed_arrives_in_the_profile_and_the_band_models_sentence(
+    application: Application, user: User
+) -> None:
+    user.enter("exposure_time", "136 us")
+    scene = application.store.scene
+    assert scene.camera.exposure_time == 136e-6
+    _, profile = application.profile.simulation.getOriginalDataset()
+    assert np.array_equal(profile, occ.column_profile(scene))
+    assert "136 µs" in application.profile.reason.text()
+
+
+def test_bits_typed_arrive_in_the_decode_result(
+    qtbot: QtBot, application: Application, user: User
+) -> None:
+    bits = application.controls.code.bits
+    bits.clear()
+    qtbot.keyClicks(bits, "0000000101")
+    qtbot.keyClick(bits, Qt.Key.Key_Return)
+    user.rest()
+    assert application.controls.code.number.value() == 5
+    assert application.decode.strip.accessibleDescription().startswith("sent 0000000101")
+
+
+def test_a_drag_of_a_slider_is_undone_as_one_step(
+    application: Application, user: User, small_scene: Scene
+) -> None:
+    slider = user.row("iso").slider
+    slider.setSliderDown(True)
+    for position in range(200, 700, 100):
+        slider.setValue(position)
+    slider.setSliderDown(False)
+    user.rest()
+    assert application.store.scene != small_scene
+    user.choose("&Undo")
+    assert application.store.scene == small_scene
+
+
+def test_a_preset_is_loaded_shown_and_no_longer_shown_once_edited(
+    application: Application, user: User
+) -> None:
+    preset = application.controls.preset
+    assert preset.currentIndex() == -1
+    name = user.choose_next_preset()
+    assert application.store.scene == occ.load_preset(name)
+    user.enter("iso", "123")
+    assert preset.currentIndex() == -1
+    user.choose("&Undo")
+    assert preset.currentText() == name
+
+
+def test_undo_and_redo_bring_the_controls_and_the_picture_back(
+    application: Application, user: User, grey_picture: Picture
+) -> None:
+    pictures = [grey_picture(application.image)]
+    user.enter("distance", "2 m")
+    pictures.append(grey_picture(application.image))
+    assert not np.array_equal(*pictures)
+    for text, distance, picture in (("&Undo", 1.2, pictures[0]), ("&Redo", 2.0, pictures[1])):
+        assert "distance" in user.entry(text).text()
+        user.choose(text)
+        assert user.row("distance").field.value() == distance
+        assert np.array_equal(grey_picture(application.image), picture)
+
+
+def test_the_window_tells_how_long_the_simulation_took(application: Application) -> None:
+    texts = [label.text() for label in application.window.statusBar().findChildren(QLabel)]
+    assert any(text.startswith("simulated in ") and text.endswith(" ms") for text in texts)
+
+
+def test_about_tells_the_version(
+    user: User, application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(QMessageBox, "about", lambda *texts: told.append(texts[2]))
+    user.choose("&About")
+    assert occ.__version__ in told[0]
+
+
+def open_and_close(qtbot: QtBot, scene: Scene) -> None:
+    application = Application(scene)
+    application.window.show()
+    qtbot.waitUntil(lambda: application.is_idle)
+    application.window.close()
+    application.window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+def test_nothing_of_an_application_outlives_it(qtbot: QtBot, small_scene: Scene) -> None:
+    gc.collect()
+    before = QApplication.topLevelWidgets()
+    open_and_close(qtbot, small_scene)
+    gc.collect()
+    assert [widget for widget in QApplication.topLevelWidgets() if widget not in before] == []
+
+
+def test_closing_while_a_simulation_runs_lets_nothing_arrive_in_the_closed_window(
+    application: Application,
+) -> None:
+    arrived: list[int] = []
+    application.simulation.shown.connect(lambda shown: arrived.append(shown.frame.image.size))
+    application.store.change(rows=4608)
+    application.window.close()
+    QApplication.processEvents()
+    assert arrived == []

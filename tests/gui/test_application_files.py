@@ -1,0 +1,71 @@
+"""Photos and pictures, from the menu to the views and back to a file."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import occ_model as occ
+from occ_gui.application import Application
+
+User = Any  # the fixture of that name
+
+TITLE = "Optical Camera Communication"
+
+
+def test_an_open_photo_stands_in_the_title_until_it_is_closed(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    close = user.entry("&Close photo")
+    assert application.window.windowTitle() == TITLE
+    assert not close.isEnabled()
+    application.open_photo(photo_file)
+    user.rest()
+    assert application.window.windowTitle() == f"stripes.png – {TITLE}"  # noqa: RUF001
+    assert application.image.photo.isVisible()
+    close.trigger()
+    assert application.window.windowTitle() == TITLE
+    assert not application.image.photo.isVisible()
+    assert not close.isEnabled()
+
+
+def test_the_menu_turns_the_photo_and_lays_it_over_the_simulation(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    application.open_photo(photo_file)
+    user.rest()
+    user.choose("&Line by line")
+    assert "its lines shown as columns" in application.image.photo.caption.toolTip()
+    user.choose("Photo &over")
+    assert application.image.opacity.isVisible()
+    assert not application.image.photo.isVisible()
+
+
+def test_the_photos_profile_is_drawn_beside_the_simulations(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    application.open_photo(photo_file)
+    user.rest()
+    _, levels = application.profile.photo.getOriginalDataset()
+    assert np.array_equal(levels, occ.load_photo(photo_file).profile)
+
+
+def test_the_picture_on_the_screen_is_the_one_that_is_saved(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    user.enter("iso", "321")
+    application.files.save_picture(tmp_path / "picture.png")
+    saved = occ.load_photo(tmp_path / "picture.png", "columns").image
+    assert np.array_equal(saved, occ.render(application.store.scene).image)
+    assert user.message == "Saved picture.png"
+
+
+def test_a_saved_scene_is_opened_again_with_its_controls(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    user.enter("distance", "2 m")
+    application.files.save_scene(tmp_path / "scene.toml")
+    user.enter("distance", "3 m")
+    application.files.open_scene(tmp_path / "scene.toml")
+    user.rest()
+    assert user.row("distance").field.value() == 2.0

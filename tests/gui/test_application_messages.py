@@ -1,0 +1,105 @@
+"""Mistakes are answered by a sentence in the status line, which goes when it no longer holds."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PySide6.QtWidgets import QWidget
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_model.scene import Scene
+
+User = Any  # the fixture of that name
+
+BEHIND_THE_CAMERA = {"distance": 0.1, "yaw": 1.2}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "shown"),
+    [("exposure_time", "soon", 68e-6), ("distance", "-3 m", 1.2), ("bits", "3", 10)],
+)
+def test_a_bad_value_is_answered_by_a_sentence_and_the_picture_stays(
+    application: Application, user: User, small_scene: Scene, name: str, text: str, shown: float
+) -> None:
+    results: list[object] = []
+    application.simulation.shown.connect(results.append)
+    user.enter(name, text)
+    assert "allowed" in user.message
+    assert user.row(name).field.value() == shown
+    assert application.store.scene == small_scene
+    assert results == []
+
+
+def test_a_scene_without_a_picture_says_why_and_the_last_picture_stays(
+    application: Application,
+    user: User,
+    grey_picture: Callable[[QWidget], NDArray[np.uint8]],
+) -> None:
+    before = grey_picture(application.image)
+    application.store.change(**BEHIND_THE_CAMERA)
+    user.rest()
+    assert "behind the camera" in user.message
+    assert np.array_equal(grey_picture(application.image), before)
+
+
+def test_the_sentence_goes_as_soon_as_the_scene_has_a_picture_again(
+    application: Application, user: User
+) -> None:
+    application.store.change(**BEHIND_THE_CAMERA)
+    user.rest()
+    user.choose("&Undo")
+    assert user.message == ""
+
+
+def test_a_scene_without_a_picture_that_was_passed_through_leaves_no_sentence(
+    application: Application, user: User
+) -> None:
+    application.store.change(**BEHIND_THE_CAMERA)
+    application.store.change(distance=1.0, yaw=0.0)
+    user.rest()
+    assert user.message == ""
+
+
+def test_a_refusal_is_forgotten_with_the_next_change_however_it_is_made(
+    application: Application, user: User
+) -> None:
+    user.enter("distance", "-3 m")
+    user.enter("distance", "2 m")
+    assert user.message == ""
+    user.enter("distance", "-3 m")
+    user.choose("&Undo")
+    assert user.message == ""
+    user.enter("distance", "-3 m")
+    user.choose_next_preset()
+    assert user.message == ""
+
+
+def test_what_was_opened_is_still_said_when_its_picture_is_there(
+    application: Application, user: User, tmp_path: Path, small_scene: Scene
+) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(small_scene.replace(iso=200.0).to_toml(), encoding="utf-8")
+    application.files.open_scene(path)
+    user.rest()
+    assert user.message == "Opened mine.toml"
+
+
+def test_a_photo_that_cannot_be_read_is_answered_by_a_sentence(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    title = application.window.windowTitle()
+    application.open_photo(tmp_path / "missing.png")
+    user.rest()
+    assert "missing.png" in user.message
+    assert application.window.windowTitle() == title
+
+
+def test_a_preset_that_has_a_picture_says_nothing(application: Application, user: User) -> None:
+    for _ in occ.presets():
+        user.choose_next_preset()
+        assert user.message == ""
+        assert application.store.scene in map(occ.load_preset, occ.presets())

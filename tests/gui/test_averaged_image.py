@@ -1,0 +1,178 @@
+"""An image shows the mean of the pixels that share a pixel of the screen: no false stripes."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pyqtgraph as pg
+import pytest
+from numpy.typing import NDArray
+from PySide6.QtCore import QRectF
+from pytestqt.qtbot import QtBot
+
+from occ_gui.views import averaged_image
+from occ_gui.views.averaged_image import AveragedImage
+
+Grey = NDArray[np.uint8]
+
+PERIOD = 4
+COLUMNS = 4000
+HEIGHT = 40
+
+
+class Screen:
+    """A view that shows a rectangle of the scene on a given number of screen pixels."""
+
+    def __init__(self, qtbot: QtBot, picture: Callable[[pg.GraphicsView], Grey]) -> None:
+        self._picture = picture
+        self.view = pg.GraphicsView()
+        self.view.setBackground("#0000ff")  # dark in grey: neither black, white nor mean
+        self.box = pg.ViewBox(invertY=True, enableMenu=False)
+        self.box.setDefaultPadding(0.0)
+        self.view.setCentralItem(self.box)
+        self.item = AveragedImage()
+        self.box.addItem(self.item)
+        qtbot.addWidget(self.view)
+
+    def shown(self, width: int, height: int, part: QRectF) -> Grey:
+        self.view.resize(width, height)
+        self.view.show()
+        self.box.setRange(part, padding=0)
+        return self._picture(self.view)
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, grey_picture: Callable[[pg.GraphicsView], Grey]) -> Screen:
+    return Screen(qtbot, grey_picture)
+
+
+@pytest.fixture
+def fine_stripes() -> Grey:
+    stripes = np.where(np.arange(COLUMNS) % PERIOD < PERIOD // 2, 0, 255).astype(np.uint8)
+    return np.tile(stripes, (HEIGHT, 1))
+
+
+def inner(picture: Grey) -> NDArray[np.int64]:
+    """Leave out the outermost pixels, which the image may cover in part."""
+    return picture[2:-2, 2:-2].astype(np.int64)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3, 1.7])
+@pytest.mark.parametrize("width", [1000, 999, 740, 370, 101])
+def test_fine_stripes_shown_small_are_grey_and_no_coarse_stripes(
+    screen: Screen, fine_stripes: Grey, width: int, shift: float
+) -> None:
+    screen.item.set_image(fine_stripes)
+    picture = inner(screen.shown(width, HEIGHT, QRectF(shift - 0.5, -0.5, COLUMNS, HEIGHT)))
+    picture = picture[:, :-4] if shift else picture
+    # A pixel's mean can be off by the part of a stripe that does not fit in it, and no more; a
+    # whole number of periods leaves nothing over.
+    columns_a_pixel = COLUMNS / width
+    over = columns_a_pixel % PERIOD
+    worst = 255 * 0.5 * min(over, PERIOD - over) / columns_a_pixel + 3
+    nearest = fine_stripes[0, (np.arange(width) * columns_a_pixel).astype(int)].astype(int)
+    assert np.abs(picture - 127.5).max() <= worst
+    assert worst < 0.75 * np.abs(nearest - 127.5).max()
+
+
+def test_the_mean_is_taken_along_rows_too(screen: Screen, fine_stripes: Grey) -> None:
+    screen.item.set_image(np.ascontiguousarray(fine_stripes.T))
+    picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
+    assert np.abs(picture - 127.5).max() <= 3
+
+
+def test_what_is_enlarged_along_one_axis_is_still_averaged_along_the_other(
+    screen: Screen, fine_stripes: Grey
+) -> None:
+    screen.item.set_image(fine_stripes[:2])
+    picture = inner(screen.shown(500, 80, QRectF(-0.5, -0.5, COLUMNS, 2)))
+    assert np.abs(picture - 127.5).max() <= 3
+
+
+@pytest.mark.parametrize("zoom", [1, 3, 8])
+def test_an_enlarged_pixel_fills_its_place_with_its_own_value(screen: Screen, zoom: int) -> None:
+    image = np.random.default_rng(1).integers(0, 256, (50, 200), dtype=np.uint8)
+    screen.item.set_image(image)
+    first_column, first_row, columns, rows = 23, 7, 320 // zoom // 2, 96 // zoom // 3
+    part = QRectF(first_column - 0.5, first_row - 0.5, columns, rows)
+    picture = screen.shown(columns * zoom, rows * zoom, part)
+    seen = image[first_row : first_row + rows, first_column : first_column + columns]
+    expected = seen.repeat(zoom, axis=0).repeat(zoom, axis=1)
+    assert np.array_equal(picture[1:-1, 1:-1], expected[1:-1, 1:-1])
+
+
+@pytest.mark.parametrize("zoom", [1.0, 1.3, 2.5, 40.0])
+def test_enlarged_stripes_have_no_value_between_black_and_white(
+    screen: Screen, fine_stripes: Grey, zoom: float
+) -> None:
+    screen.item.set_image(fine_stripes)
+    picture = inner(screen.shown(400, HEIGHT, QRectF(1000.2, -0.5, 400 / zoom, HEIGHT)))
+    assert set(np.unique(picture).tolist()) == {0, 255}
+
+
+def test_a_single_pixel_zoomed_in_beyond_measure_keeps_its_value(
+    screen: Screen, fine_stripes: Grey
+) -> None:
+    screen.item.set_image(fine_stripes)
+    picture = screen.shown(200, 100, QRectF(1002.0, 20.0, 1e-6, 1e-6))
+    assert set(np.unique(inner(picture)).tolist()) == {255}
+
+
+def test_an_image_of_one_pixel_is_shown(screen: Screen) -> None:
+    screen.item.set_image(np.full((1, 1), 77, dtype=np.uint8))
+    picture = inner(screen.shown(60, 30, QRectF(-0.5, -0.5, 1, 1)))
+    assert set(np.unique(picture).tolist()) == {77}
+
+
+def test_an_image_lies_in_the_rectangle_it_is_given(screen: Screen) -> None:
+    screen.item.set_image(np.full((10, 20), 255, dtype=np.uint8), QRectF(30, 10, 40, 20))
+    assert screen.item.boundingRect() == QRectF(30, 10, 40, 20)
+    picture = screen.shown(100, 50, QRectF(0, 0, 100, 50))
+    rows, columns = np.nonzero(picture == 255)
+    box = (rows.min(), rows.max(), columns.min(), columns.max())
+    assert box == pytest.approx((10, 29, 30, 69), abs=1)
+
+
+def test_by_default_the_first_pixels_centre_is_the_origin(screen: Screen) -> None:
+    screen.item.set_image(np.zeros((3, 5), dtype=np.uint8))
+    assert screen.item.boundingRect() == QRectF(-0.5, -0.5, 5, 3)
+
+
+@pytest.mark.parametrize("shape", [(0, 0), (0, 5), (5, 0)])
+def test_an_empty_image_shows_nothing_and_does_not_raise(
+    screen: Screen, shape: tuple[int, int]
+) -> None:
+    background = screen.shown(50, 30, QRectF(0, 0, 5, 5))
+    screen.item.set_image(np.zeros(shape, dtype=np.uint8))
+    assert np.array_equal(screen.shown(50, 30, QRectF(0, 0, 5, 5)), background)
+
+
+def test_a_new_image_takes_the_place_of_the_last(screen: Screen, fine_stripes: Grey) -> None:
+    whole = QRectF(-0.5, -0.5, COLUMNS, HEIGHT)
+    screen.item.set_image(fine_stripes)
+    screen.shown(200, HEIGHT, whole)
+    screen.item.set_image(np.full((HEIGHT, COLUMNS), 9, dtype=np.uint8))
+    assert set(np.unique(inner(screen.shown(200, HEIGHT, whole))).tolist()) == {9}
+
+
+def test_only_the_visible_part_is_averaged_and_only_when_the_view_changes(
+    screen: Screen, fine_stripes: Grey, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sizes: list[tuple[int, ...]] = []
+    resize = averaged_image.cv2.resize
+
+    def note_and_resize(pixels: Grey, *args: object, **kwargs: object) -> Grey:
+        sizes.append(pixels.shape)
+        return resize(pixels, *args, **kwargs)
+
+    monkeypatch.setattr(averaged_image.cv2, "resize", note_and_resize)
+    screen.item.set_image(fine_stripes)
+    quarter = QRectF(999.5, -0.5, 1000, HEIGHT)
+    screen.shown(100, HEIGHT, quarter)
+    sizes.clear()
+    screen.item.set_image(fine_stripes)
+    screen.shown(100, HEIGHT, quarter)
+    screen.shown(100, HEIGHT, quarter)
+    assert len(sizes) == 1
+    rows, columns = sizes[0]
+    assert rows <= HEIGHT
+    assert 1000 <= columns <= 1002

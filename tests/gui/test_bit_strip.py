@@ -1,0 +1,121 @@
+"""Sent and received bits: what is wrong or missing is seen without colour."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.bit_strip import BitStrip
+
+Picture = Callable[[Sequence[int], Sequence[int]], NDArray[np.uint8]]
+
+CLEARLY = 40
+"""Grey levels by which pixels must differ to be told apart in print."""
+
+
+@pytest.fixture
+def strip(qtbot: QtBot) -> BitStrip:
+    strip = BitStrip()
+    qtbot.addWidget(strip)
+    strip.resize(strip.sizeHint())
+    return strip
+
+
+@pytest.fixture
+def picture(strip: BitStrip, grey_picture: Callable[[BitStrip], NDArray[np.uint8]]) -> Picture:
+    """Draw bits, in grey, as a print in black and white shows them."""
+
+    def draw(sent: Sequence[int], received: Sequence[int]) -> NDArray[np.uint8]:
+        strip.show_bits(sent, received)
+        return grey_picture(strip)
+
+    return draw
+
+
+def changed_pixels(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> int:
+    return int((np.abs(one.astype(int) - other.astype(int)) > CLEARLY).sum())
+
+
+@pytest.mark.parametrize(
+    ("sent", "received", "wrong"),
+    [
+        ([1, 0, 1], [1, 0, 1], []),
+        ([1, 0, 1], [0, 0, 0], [0, 2]),
+        ([1, 0, 1], [], []),
+        ([1, 0, 1], [1, 1], [1]),
+        ([1, 0], [1, 1, 0, 0], [1]),
+        ([], [1], []),
+    ],
+)
+def test_wrong_places_are_those_received_otherwise_than_sent(
+    strip: BitStrip, sent: list[int], received: list[int], wrong: list[int]
+) -> None:
+    strip.show_bits(sent, received)
+    assert strip.wrong_places() == wrong
+
+
+@pytest.mark.parametrize("bit", [0, 1])
+def test_a_wrong_bit_differs_from_a_right_one_of_the_same_value_in_grey_print(
+    picture: Picture, bit: int
+) -> None:
+    right = picture([bit], [bit])
+    wrong = picture([1 - bit], [bit])
+    below = slice(right.shape[0] // 2, None)  # the row of the received bits
+    assert changed_pixels(right[below], wrong[below]) >= 20
+
+
+@pytest.mark.parametrize("bit", [0, 1])
+def test_a_right_bit_looks_as_it_was_sent(picture: Picture, bit: int) -> None:
+    drawn = picture([bit], [bit])
+    height = 24
+    cells = [drawn[top : top + height, 66:95] for top in (3, 30)]
+    assert np.array_equal(cells[0], cells[1])
+
+
+@pytest.mark.parametrize("bit", [0, 1])
+def test_a_missing_bit_differs_from_a_received_one_in_grey_print(
+    picture: Picture, bit: int
+) -> None:
+    assert changed_pixels(picture([bit], [bit]), picture([bit], [])) >= 20
+
+
+def test_ones_differ_from_zeros_in_grey_print(picture: Picture) -> None:
+    assert changed_pixels(picture([1], [1]), picture([0], [0])) >= 20
+
+
+def test_only_the_wrong_cell_is_marked(picture: Picture) -> None:
+    right, wrong = picture([1, 1, 1], [1, 1, 1]), picture([1, 0, 1], [1, 1, 1])
+    columns = np.flatnonzero((right != wrong).any(axis=0))
+    assert columns.size
+    assert columns.min() >= 66 + 27 - 1
+    assert columns.max() <= 66 + 2 * 27
+
+
+@pytest.mark.parametrize("count", [10, 16])
+def test_every_bit_has_a_cell_of_its_own_even_in_the_least_width(
+    strip: BitStrip, picture: Picture, count: int
+) -> None:
+    strip.resize(strip.minimumSizeHint())
+    alternating = [place % 2 for place in range(count)]
+    received_row = picture(alternating, alternating)[42, 66:].astype(int)
+    changes = np.flatnonzero(np.abs(np.diff(received_row)) > CLEARLY)
+    assert len(changes) >= count, "neighbours run into one another"
+    last = picture(alternating, [*alternating[:-1], 1 - alternating[-1]])
+    assert changed_pixels(last, picture(alternating, alternating)) >= 10
+
+
+def test_many_bits_in_hardly_any_width_do_not_raise(strip: BitStrip, picture: Picture) -> None:
+    strip.setFixedWidth(70)
+    drawn = picture([1] * 64, [0] * 64)
+    assert drawn.shape == (strip.height(), 70)
+
+
+def test_who_cannot_see_the_strip_can_read_it(strip: BitStrip) -> None:
+    strip.show_bits([1, 0, 1], [1, 1, 1])
+    assert strip.accessibleDescription() == "sent 101, received 111, 1 wrong"
+    strip.show_bits([1, 0, 1], [])
+    assert strip.accessibleDescription() == "sent 101, received nothing, 0 wrong"
+    assert strip.toolTip() == strip.accessibleDescription()
+    assert strip.accessibleName()

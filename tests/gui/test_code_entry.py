@@ -1,0 +1,115 @@
+"""The code is shown as a number and as bits, and entered in either form."""
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.widgets.code_entry import CodeEntry
+from occ_model.scene import Scene
+
+
+class Bench:
+    """An entry on a store, and what it told."""
+
+    def __init__(self, qtbot: QtBot) -> None:
+        self.entry = CodeEntry()
+        self.store = SceneStore(Scene().replace(code=718, bits=10))
+        self.told: list[tuple[str, int, int]] = []
+        self.refused: list[str] = []
+        self.entry.edited.connect(self._take)
+        self.entry.refused.connect(self.refused.append)
+        self.store.changed.connect(self.entry.show_scene)
+        self.entry.show_scene(self.store.scene)
+        self._qtbot = qtbot
+        qtbot.addWidget(self.entry)
+        self.entry.show()
+
+    def _take(self, name: str, code: int, gesture: int) -> None:
+        self.told.append((name, code, gesture))
+        self.store.change(gesture, **{name: code})
+
+    @property
+    def codes(self) -> list[int]:
+        return [code for _, code, _ in self.told]
+
+    def shown(self) -> tuple[int, str]:
+        return self.entry.number.value(), self.entry.bits.text()
+
+    def enter_bits(self, text: str) -> None:
+        self.entry.bits.selectAll()
+        self._qtbot.keyClick(self.entry.bits, Qt.Key.Key_Delete)
+        self._qtbot.keyClicks(self.entry.bits, text)
+        self._qtbot.keyClick(self.entry.bits, Qt.Key.Key_Return)
+
+    def enter_number(self, text: str) -> None:
+        self.entry.number.selectAll()
+        self._qtbot.keyClicks(self.entry.number, text)
+        self._qtbot.keyClick(self.entry.number, Qt.Key.Key_Return)
+
+
+@pytest.fixture
+def bench(qtbot: QtBot) -> Iterator[Bench]:
+    return Bench(qtbot)
+
+
+def test_the_bits_follow_the_number(bench: Bench) -> None:
+    assert bench.shown() == (718, "1011001110")
+    bench.enter_number("3")
+    assert bench.shown() == (3, "0000000011")
+    assert bench.codes == [3]
+
+
+def test_the_number_follows_the_bits(bench: Bench) -> None:
+    bench.enter_bits("11111 00000")
+    assert bench.shown() == (0b1111100000, "1111100000")
+    assert bench.codes == [0b1111100000]
+
+
+def test_every_entry_is_a_gesture_of_its_own(bench: Bench) -> None:
+    bench.enter_bits("0000000001")
+    bench.enter_number("2")
+    bench.enter_number("3")
+    assert len({gesture for _, _, gesture in bench.told}) == 3
+
+
+@pytest.mark.parametrize("text", ["", "101", "10110011101", "1011001112", "code"])
+def test_wrong_bits_are_refused_with_a_sentence_and_the_code_shown_again(
+    bench: Bench, text: str
+) -> None:
+    bench.enter_bits(text)
+    (sentence,) = bench.refused
+    assert repr(text) in sentence
+    assert "allowed: 10 characters 0 and 1" in sentence
+    assert bench.codes == []
+    assert bench.shown() == (718, "1011001110")
+
+
+def test_leaving_the_bits_untouched_tells_nothing(bench: Bench, qtbot: QtBot) -> None:
+    qtbot.keyClick(bench.entry.bits, Qt.Key.Key_Return)
+    assert bench.codes == []
+    assert bench.refused == []
+
+
+def test_the_number_of_bits_sets_what_can_be_entered(bench: Bench) -> None:
+    bench.store.change(code=5, bits=3)
+    assert bench.shown() == (5, "101")
+    assert bench.entry.number.maximum() == 7
+    assert "from 0 to 7" in bench.entry.number.toolTip()
+    bench.enter_bits("011")
+    assert bench.shown() == (3, "011")
+
+
+def test_sixteen_bits_are_shown_whole(bench: Bench) -> None:
+    bench.store.change(code=2**16 - 1, bits=16)
+    assert bench.shown() == (65535, "1" * 16)
+    assert bench.codes == []
+
+
+def test_equal_bits_written_with_spaces_are_shown_without(bench: Bench) -> None:
+    bench.enter_bits("10110 01110")
+    assert bench.codes == []
+    assert bench.refused == []
+    assert bench.shown() == (718, "1011001110")

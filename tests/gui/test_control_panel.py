@@ -1,0 +1,114 @@
+"""All controls of a scene: each parameter once, each control named and explained."""
+
+from collections import Counter
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLineEdit, QSlider, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.control_panel import MAIN, ControlPanel
+from occ_gui.widgets.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+
+PRESETS = [("small", "A small scene"), ("large", "A large scene")]
+
+
+@pytest.fixture
+def panel(qtbot: QtBot) -> ControlPanel:
+    panel = ControlPanel(PRESETS)
+    panel.show_scene(Scene())
+    qtbot.addWidget(panel)
+    return panel
+
+
+def entry_controls(panel: QWidget) -> list[QWidget]:
+    """List what a user enters values with, without the line edits inside of number fields."""
+    kinds = (QAbstractSpinBox, QComboBox, QLineEdit, QSlider)
+    found = [control for kind in kinds for control in panel.findChildren(kind)]
+    return [c for c in found if not isinstance(c.parentWidget(), QAbstractSpinBox)]
+
+
+def test_every_parameter_but_the_code_has_exactly_one_row(panel: ControlPanel) -> None:
+    rows = Counter(name for page in panel.panels.values() for name in page.rows)
+    assert rows == Counter(name for name in PARAMETERS if name != "code")
+
+
+def test_the_main_sliders_stand_on_the_first_page(panel: ControlPanel) -> None:
+    first = next(iter(panel.panels.values()))
+    assert tuple(first.rows) == MAIN
+    assert all(isinstance(row, QuantityRow) for row in first.rows.values())
+
+
+def test_every_control_has_a_name_and_a_tooltip(panel: ControlPanel) -> None:
+    controls = entry_controls(panel)
+    assert len(controls) > len(PARAMETERS)
+    nameless = [c for c in controls if not c.accessibleName() or not c.toolTip()]
+    assert nameless == []
+
+
+def test_every_row_names_its_parameter_and_tells_the_allowed_range(panel: ControlPanel) -> None:
+    for page in panel.panels.values():
+        for name, row in page.rows.items():
+            controls = entry_controls(row)
+            assert controls, name
+            for control in controls:
+                assert control.accessibleName() == PARAMETERS[name].label
+                assert f"Allowed: {PARAMETERS[name].allowed}" in control.toolTip()
+
+
+def test_all_pages_show_the_scene_and_tell_nothing(panel: ControlPanel) -> None:
+    told: list[object] = []
+    panel.edited.connect(lambda *edit: told.append(edit))
+    scene = Scene().replace(
+        code=5, bits=4, pattern="01", distance=0.7, gamma=1.8, averaging="light", rows=77
+    )
+    panel.show_scene(scene)
+    shown: dict[str, object] = {"code": panel.code.number.value()}
+    for page in panel.panels.values():
+        for name, row in page.rows.items():
+            match row:
+                case QuantityRow() | CountRow():
+                    shown[name] = row.field.value()
+                case ChoiceRow():
+                    shown[name] = row.field.currentText()
+                case PatternRow():
+                    shown[name] = row.field.text()
+    assert shown == {name: scene.value(name) for name in PARAMETERS}
+    assert told == []
+
+
+def test_edits_and_refusals_of_every_part_are_passed_on(panel: ControlPanel) -> None:
+    told: list[object] = []
+    panel.edited.connect(lambda *edit: told.append(edit[0]))
+    panel.refused.connect(told.append)
+    for page in panel.panels.values():
+        for name, row in page.rows.items():
+            row.edited.emit(name, 1, 1)
+    panel.code.edited.emit("code", 1, 1)
+    panel.code.refused.emit("No such bits.")
+    assert Counter(told) == Counter([*PARAMETERS, "No such bits."])
+
+
+def test_choosing_a_preset_tells_its_name(panel: ControlPanel, qtbot: QtBot) -> None:
+    told: list[str] = []
+    panel.preset_chosen.connect(told.append)
+    panel.show_preset("small")
+    assert told == []
+    panel.show()
+    qtbot.keyClick(panel.preset, Qt.Key.Key_Down)
+    assert told == ["large"]
+
+
+def test_the_preset_shown_is_the_scenes_or_none(panel: ControlPanel) -> None:
+    panel.show_preset("large")
+    assert panel.preset.currentText() == "large"
+    panel.show_preset(None)
+    assert panel.preset.currentIndex() == -1
+    assert panel.preset.placeholderText()
+
+
+def test_presets_are_explained_by_their_titles(panel: ControlPanel) -> None:
+    tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
+    assert tips == [title for _, title in PRESETS]

@@ -1,0 +1,108 @@
+"""What the receiver read, in words."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QLabel
+from pytestqt.qtbot import QtBot
+
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.decode_view import DecodeView
+from occ_model.results import DecodeResult, Region
+
+SnapshotOf = Callable[..., Snapshot]
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> DecodeView:
+    view = DecodeView()
+    qtbot.addWidget(view)
+    view.resize(360, 400)
+    view.show()
+    return view
+
+
+def texts(view: DecodeView) -> set[str]:
+    return {label.text() for label in view.findChildren(QLabel) if label.isVisible()}
+
+
+def test_a_code_read_right_is_said_so(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+    view.show_snapshot(snapshot_of(code=718))
+    assert view.verdict.text() == "✓ Code 718 read, all bits right"
+    assert not view.reason.isVisible()
+    assert view.strip.isVisible()
+    assert view.strip.wrong_places() == []
+
+
+def test_wrong_bits_are_counted(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of(code=718)
+    received = np.array([1, 0, 1, 1, 0, 0, 1, 1, 0, 1], dtype=np.uint8)  # the last two are wrong
+    decoded = replace(snapshot.decoded, bits=received, code=717)
+    view.show_snapshot(replace(snapshot, decoded=decoded))
+    assert view.verdict.text() == "✗ Code 717 read, 2 of 10 bits wrong"
+    assert view.strip.wrong_places() == [8, 9]
+    assert not view.reason.isVisible()
+
+
+def test_a_failure_is_said_with_its_reason(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of(switching_frequency=500.0, distance=5.0)
+    assert snapshot.decoded.failure
+    view.show_snapshot(snapshot)
+    assert view.verdict.text() == "✗ No code read"
+    assert view.reason.isVisible()
+    assert view.reason.text() == snapshot.decoded.failure
+
+
+def test_bits_read_beside_a_failure_are_shown(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+    decoded = DecodeResult(
+        "threshold", failure="The chips break the line code.", bits=np.array([0, 0], dtype=np.uint8)
+    )
+    view.show_snapshot(replace(snapshot_of(code=718), decoded=decoded))
+    assert view.verdict.text() == "✗ No code read"
+    assert view.strip.accessibleDescription() == "sent 1011001110, received 00, 1 wrong"
+
+
+def test_a_raw_pattern_has_no_bits_to_compare(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of(pattern="010100010110001001000")
+    view.show_snapshot(snapshot)
+    assert view.verdict.text() == "No code is sent"
+    assert not view.strip.isVisible()
+    assert view.reason.text() == snapshot.decoded.failure
+    view.show_snapshot(snapshot_of())
+    assert view.strip.isVisible()
+
+
+def test_what_was_measured_is_told_with_its_units(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
+    decoded = DecodeResult(
+        "threshold",
+        failure="Stopped here.",
+        region=Region(0, 200, 100, 1100),
+        threshold=123.456,
+        chip_length=12.5,
+        chips=np.ones(77, dtype=np.uint8),
+    )
+    view.show_snapshot(replace(snapshot_of(), decoded=decoded))
+    assert {"1000 x 200 px", "123.5 grey levels", "12.50 columns", "77"} <= texts(view)
+
+
+def test_steps_that_were_not_reached_show_a_dash_and_no_old_value(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_snapshot(snapshot_of())
+    assert "–" not in texts(view)  # noqa: RUF001
+    view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
+    dashes = [label for label in view.findChildren(QLabel) if label.text() == "–"]  # noqa: RUF001
+    assert len(dashes) == 4
+
+
+def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+    decoded = DecodeResult("threshold", failure="So it happened that no code was read. " * 12)
+    view.resize(view.minimumSizeHint().width(), 700)
+    view.show_snapshot(replace(snapshot_of(), decoded=decoded))
+    view.layout().activate()
+    for label in (view.verdict, view.reason):
+        assert label.height() >= label.heightForWidth(label.width())

@@ -1,0 +1,159 @@
+"""Scenes and pictures to files and back; what is refused changes nothing."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+from occ_gui.controllers.files import FileController
+from occ_gui.controllers.photo import PhotoController
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.snapshot import Snapshot
+from occ_model.scene import Scene
+
+
+class Bench:
+    """A controller without a window, and what it says."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.store = SceneStore(scene)
+        self.photos = PhotoController([])
+        self.files = FileController(None, self.store, self.photos)  # type: ignore[arg-type]
+        self.said: list[str] = []
+        self.files.said.connect(self.said.append)
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
+    bench = Bench(small_scene)
+    yield bench
+    bench.photos.stop()
+
+
+def test_a_saved_scene_is_opened_exactly_as_it_was(bench: Bench, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    bench.store.change(exposure_time=1e-4 / 3, pattern="0110", yaw=0.1)
+    saved = bench.store.scene
+    bench.files.save_scene(path)
+    bench.store.put(Scene(), "something else")
+    bench.files.open_scene(path)
+    assert bench.store.scene == saved
+    assert bench.said == ["Saved mine.toml", "Opened mine.toml"]
+
+
+def test_opening_a_scene_is_one_step_that_can_be_undone(bench: Bench, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(Scene().to_toml(), encoding="utf-8")
+    before = bench.store.scene
+    bench.files.open_scene(path)
+    assert bench.store.undo_stack.undoText() == "opening of mine.toml"
+    bench.store.undo_stack.undo()
+    assert bench.store.scene == before
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"this is no scene",
+        b"\xff\xfe\x00",
+        b"",
+        b"format = 1\n[camera]\niso = -5.0\n",
+        b"format = 1\n[camera]\nshutter = 1\n",
+        None,
+    ],
+)
+def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
+    bench: Bench, tmp_path: Path, small_scene: Scene, content: bytes | None
+) -> None:
+    path = tmp_path / "wrong.toml"
+    if content is not None:
+        path.write_bytes(content)
+    bench.files.open_scene(path)
+    (sentence,) = bench.said
+    assert sentence.endswith((".", "?"))
+    assert "Opened" not in sentence
+    assert bench.store.scene == small_scene
+    assert bench.store.undo_stack.count() == 0
+
+
+def test_a_scene_that_cannot_be_written_says_so_and_leaves_nothing(
+    bench: Bench, tmp_path: Path
+) -> None:
+    for path in (tmp_path, tmp_path / "nowhere" / "scene.toml"):
+        bench.files.save_scene(path)
+        assert str(path) in bench.said[-1]
+        assert "Saved" not in bench.said[-1]
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("ending", ["png", "bmp", "tif"])
+def test_a_saved_picture_is_exactly_the_one_shown(
+    bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot], ending: str
+) -> None:
+    bench.files.show_snapshot(snapshot_of(iso=50.0))
+    shown = snapshot_of(iso=400.0)
+    bench.files.show_snapshot(shown)
+    path = tmp_path / f"picture.{ending}"
+    bench.files.save_picture(path)
+    assert bench.said == [f"Saved picture.{ending}"]
+    assert np.array_equal(cv2.imread(str(path), cv2.IMREAD_UNCHANGED), shown.frame.image)
+
+
+def test_a_picture_that_cannot_be_written_says_so_and_leaves_nothing(
+    bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    bench.files.show_snapshot(snapshot_of())
+    for path in (tmp_path / "p", tmp_path / "p.toml", tmp_path / "nowhere" / "p.png"):
+        bench.files.save_picture(path)
+        assert path.name in bench.said[-1]
+        assert "Saved" not in bench.said[-1]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_before_the_first_picture_there_is_none_to_save(bench: Bench, tmp_path: Path) -> None:
+    bench.files.save_picture(tmp_path / "picture.png")
+    assert bench.said == ["There is no picture yet."]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_dialogs_answer_is_what_is_read_and_written(
+    bench: Bench,
+    tmp_path: Path,
+    photo_file: Path,
+    snapshot_of: Callable[..., Snapshot],
+    monkeypatch: pytest.MonkeyPatch,
+    qtbot: QtBot,
+) -> None:
+    answers = [tmp_path / "a.toml", tmp_path / "b.png", tmp_path / "a.toml", photo_file]
+    dialogs = iter([(str(path), "") for path in answers])
+    for ask in ("getOpenFileName", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, ask, lambda *_: next(dialogs))
+    bench.files.show_snapshot(snapshot_of())
+    bench.files.ask_to_save_scene()
+    bench.files.ask_to_save_picture()
+    bench.files.ask_for_scene()
+    assert bench.said == ["Saved a.toml", "Saved b.png", "Opened a.toml"]
+    with qtbot.waitSignal(bench.photos.opened) as opened:
+        bench.files.ask_for_photo()
+    assert opened.args[0].path == photo_file
+
+
+def test_a_cancelled_dialog_does_nothing(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, small_scene: Scene
+) -> None:
+    for ask in ("getOpenFileName", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, ask, lambda *_: ("", ""))
+    for ask_user in (
+        bench.files.ask_for_photo,
+        bench.files.ask_for_scene,
+        bench.files.ask_to_save_scene,
+        bench.files.ask_to_save_picture,
+    ):
+        ask_user()
+    assert bench.said == []
+    assert bench.photos.runner.is_idle
+    assert bench.store.scene == small_scene

@@ -1,0 +1,179 @@
+"""The picture with the decoder's region, and the photo beside or over it."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PySide6.QtCore import QRectF
+from PySide6.QtWidgets import QGraphicsRectItem, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.averaged_image import AveragedImage
+from occ_gui.views.image_view import ImageView, PicturePane
+from occ_model.photo.load import Photo
+from occ_model.results import DecodeResult, Region
+
+Grey = NDArray[np.uint8]
+SnapshotOf = Callable[..., Snapshot]
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> ImageView:
+    view = ImageView()
+    qtbot.addWidget(view)
+    view.resize(800, 400)
+    view.show()
+    return view
+
+
+def pictures(pane: PicturePane) -> list[AveragedImage]:
+    """Give the pictures that can be seen in a pane, the one below first."""
+    items = [item for item in pane.box.childGroup.childItems() if isinstance(item, AveragedImage)]
+    return [i for i in items if i.isVisible() and not i.boundingRect().isEmpty()]
+
+
+def region_of(pane: PicturePane) -> QGraphicsRectItem:
+    (found,) = [
+        item for item in pane.box.childGroup.childItems() if isinstance(item, QGraphicsRectItem)
+    ]
+    return found
+
+
+def test_the_region_is_drawn_round_the_pixels_that_were_read(
+    view: ImageView, snapshot_of: SnapshotOf
+) -> None:
+    decoded = DecodeResult("threshold", region=Region(10, 60, 1200, 2300))
+    view.show_snapshot(replace(snapshot_of(), decoded=decoded))
+    item = region_of(view.simulation)
+    assert item.isVisible()
+    assert item.rect() == QRectF(1199.5, 9.5, 1100, 50)
+    view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
+    assert not item.isVisible()
+
+
+def test_the_picture_is_shown_with_a_pixel_of_it_at_its_row_and_column(
+    view: ImageView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    (picture,) = pictures(view.simulation)
+    rows, columns = snapshot.frame.image.shape
+    assert picture.boundingRect() == QRectF(-0.5, -0.5, columns, rows)
+
+
+def test_without_a_photo_the_simulation_stands_alone(
+    view: ImageView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.set_over(True)
+    assert not view.photo.isVisible()
+    assert not view.opacity.isVisible()
+    assert len(pictures(view.simulation)) == 1
+
+
+def test_a_photo_stands_beside_the_simulation_and_goes_when_closed(
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.show_photo(photo)
+    assert view.photo.isVisible()
+    assert "stripes.png" in view.photo.caption.toolTip()
+    assert not view.opacity.isVisible()
+    assert len(pictures(view.simulation)) == 1
+    view.show_photo(None)
+    assert not view.photo.isVisible()
+
+
+def test_the_caption_tells_when_the_photos_lines_are_shown_as_columns(
+    view: ImageView, photo: Photo
+) -> None:
+    view.show_photo(photo)
+    assert "lines" not in view.photo.caption.toolTip()
+    view.show_photo(replace(photo, turned=True))
+    assert "its lines shown as columns" in view.photo.caption.toolTip()
+
+
+def test_a_photo_over_the_simulation_lies_pixel_on_pixel_from_the_panels_corner(
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.set_over(True)
+    view.show_photo(photo)
+    for distance in (1.2, 2.0):
+        snapshot = snapshot_of(distance=distance)
+        view.show_snapshot(snapshot)
+        assert not view.photo.isVisible()
+        assert view.opacity.isVisible()
+        _, over = pictures(view.simulation)
+        left, top = snapshot.panel_origin
+        rows, columns = photo.image.shape
+        assert over.boundingRect() == QRectF(left - 0.5, top - 0.5, columns, rows)
+
+
+def test_closing_the_photo_takes_it_away_from_over_the_simulation(
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.show_photo(photo)
+    view.set_over(True)
+    assert len(pictures(view.simulation)) == 2
+    view.show_photo(None)
+    assert len(pictures(view.simulation)) == 1
+    assert not view.opacity.isVisible()
+
+
+def test_the_opacity_slider_goes_from_the_simulation_to_the_photo(
+    view: ImageView,
+    snapshot_of: SnapshotOf,
+    photo: Photo,
+    grey_picture: Callable[[QWidget], Grey],
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.simulation.box.setRange(QRectF(1210, 1, 40, 40), padding=0)
+    alone = grey_picture(view.simulation).astype(int)
+    view.set_over(True)
+    view.show_photo(replace(photo, image=np.full((200, 200), 255, dtype=np.uint8)))
+    distances = []
+    for percent in (0, 50, 100):
+        view.opacity.setValue(percent)
+        distances.append(np.abs(grey_picture(view.simulation)[:300].astype(int) - alone[:300]))
+    totals = [int(distance.sum()) for distance in distances]
+    assert totals[0] < totals[1] < totals[2]
+
+
+def test_a_result_of_the_same_size_leaves_the_view_where_the_user_put_it(
+    view: ImageView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.simulation.box.setRange(QRectF(1210, 20, 40, 40), padding=0)
+    before = view.simulation.box.viewRect()
+    view.show_snapshot(snapshot_of(iso=200.0))
+    assert view.simulation.box.viewRect() == before
+    view.show_snapshot(snapshot_of(columns=1000))
+    assert view.simulation.box.viewRect().contains(QRectF(0, 0, 999, 199))
+
+
+def test_fit_shows_both_pictures_whole(
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    view.show_photo(photo)
+    for pane in (view.simulation, view.photo):
+        pane.box.setRange(QRectF(0, 0, 5, 5), padding=0)
+    view.fit()
+    for pane, image in ((view.simulation, snapshot.frame.image), (view.photo, photo.image)):
+        rows, columns = image.shape
+        assert pane.box.viewRect().contains(QRectF(-0.5, -0.5, columns, rows))
+
+
+def test_fit_without_any_picture_does_not_raise(view: ImageView) -> None:
+    view.fit()
+    assert pictures(view.simulation) == []
+
+
+def test_both_pictures_are_named_for_who_cannot_see_them(view: ImageView) -> None:
+    names = [child.accessibleName() for child in view.findChildren(QWidget)]
+    assert {"Simulated picture", "Photo"} <= set(names)

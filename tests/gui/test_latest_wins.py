@@ -1,0 +1,180 @@
+"""The newest request wins, and every finished result is shown."""
+
+import threading
+from collections.abc import Callable, Iterator
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.tasks.latest_wins import LatestWins
+
+PATIENCE_S = 10.0
+
+
+class Bench:
+    """Work that can be held up, and a record of what became of it."""
+
+    def __init__(self) -> None:
+        self.begun = threading.Event()
+        self.go_on = threading.Event()
+        self.go_on.set()
+        self.worked_on: list[object] = []
+        self.work_threads: set[int] = set()
+        self.results: list[object] = []
+        self.result_threads: set[int] = set()
+        self.failures: list[str] = []
+        self.runner: LatestWins[object, object] = LatestWins(self._work, "test of the runner")
+        self.runner.finished.connect(self._note_result)
+        self.runner.failed.connect(self.failures.append)
+
+    def _work(self, request: object) -> object:
+        self.worked_on.append(request)
+        self.work_threads.add(threading.get_ident())
+        self.begun.set()
+        assert self.go_on.wait(PATIENCE_S)
+        if isinstance(request, Exception):
+            raise request
+        return f"result of {request}"
+
+    def _note_result(self, result: object) -> None:
+        self.results.append(result)
+        self.result_threads.add(threading.get_ident())
+
+    def submit_and_hold(self, request: object) -> None:
+        """Ask for a result and come back while it is at work."""
+        self.begun.clear()
+        self.go_on.clear()
+        self.runner.submit(request)
+        assert self.begun.wait(PATIENCE_S)
+
+
+@pytest.fixture
+def bench(qtbot: QtBot) -> Iterator[Bench]:
+    bench = Bench()
+    yield bench
+    bench.go_on.set()
+    bench.runner.stop()
+
+
+@pytest.fixture
+def finish(qtbot: QtBot, bench: Bench) -> Callable[[], None]:
+    """Let the work go on and wait until nothing is left of it."""
+
+    def let_go_and_wait() -> None:
+        with qtbot.waitSignal(bench.runner.idle):
+            bench.go_on.set()
+
+    return let_go_and_wait
+
+
+def test_of_a_burst_the_first_and_the_last_are_computed_and_shown(
+    bench: Bench, finish: Callable[[], None]
+) -> None:
+    bench.submit_and_hold(1)
+    for request in (2, 3, 4, 5):
+        bench.runner.submit(request)
+    finish()
+    assert bench.worked_on == [1, 5]
+    assert bench.results == ["result of 1", "result of 5"]
+
+
+def test_requests_one_after_the_other_are_all_computed(bench: Bench, qtbot: QtBot) -> None:
+    for request in (1, 2, 3):
+        with qtbot.waitSignal(bench.runner.idle):
+            bench.runner.submit(request)
+    assert bench.results == ["result of 1", "result of 2", "result of 3"]
+
+
+def test_a_request_made_by_who_is_shown_a_result_is_computed(
+    bench: Bench, finish: Callable[[], None]
+) -> None:
+    again = iter(["follow-up"])
+    bench.runner.finished.connect(lambda _: [bench.runner.submit(r) for r in again])
+    bench.submit_and_hold("first")
+    finish()
+    assert bench.results == ["result of first", "result of follow-up"]
+
+
+def test_work_runs_on_another_thread_and_results_arrive_on_the_windows(
+    bench: Bench, finish: Callable[[], None]
+) -> None:
+    bench.submit_and_hold(1)
+    bench.runner.submit(2)
+    finish()
+    window_thread = threading.get_ident()
+    assert len(bench.work_threads) == 1
+    assert window_thread not in bench.work_threads
+    assert bench.result_threads == {window_thread}
+
+
+def test_a_refusal_arrives_as_its_sentence(bench: Bench, finish: Callable[[], None]) -> None:
+    bench.submit_and_hold(occ.ProjectionError("The panel is behind the camera."))
+    finish()
+    assert bench.failures == ["The panel is behind the camera."]
+    assert bench.results == []
+
+
+@pytest.mark.parametrize(
+    ("mistake", "expected"),
+    [
+        (RuntimeError("out of luck"), "The test of the runner failed: RuntimeError: out of luck."),
+        (ValueError("No dot twice."), "The test of the runner failed: ValueError: No dot twice."),
+        (MemoryError(), "The test of the runner failed: MemoryError."),
+    ],
+)
+def test_a_mistake_of_ours_arrives_as_a_sentence_and_the_runner_goes_on(
+    bench: Bench,
+    finish: Callable[[], None],
+    mistake: Exception,
+    expected: str,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    bench.submit_and_hold(mistake)
+    bench.runner.submit("next")
+    finish()
+    assert bench.failures == [expected]
+    assert bench.results == ["result of next"]
+    assert "Traceback" in caplog.text
+
+
+def test_the_runner_is_idle_only_when_nothing_is_at_work_or_waiting(
+    bench: Bench, qtbot: QtBot, finish: Callable[[], None]
+) -> None:
+    assert bench.runner.is_idle
+    bench.submit_and_hold(1)
+    assert not bench.runner.is_idle
+    bench.runner.submit(2)
+    idle_after: list[int] = []
+    bench.runner.idle.connect(lambda: idle_after.append(len(bench.results)))
+    finish()
+    assert bench.runner.is_idle
+    assert idle_after == [2]
+
+
+def test_stopping_waits_for_the_running_work_and_forgets_what_waits(bench: Bench) -> None:
+    bench.submit_and_hold(1)
+    bench.runner.submit(2)
+    release = threading.Timer(0.05, bench.go_on.set)
+    release.start()
+    bench.runner.stop()
+    assert bench.go_on.is_set()
+    assert bench.worked_on == [1]
+
+
+def test_stopping_twice_is_as_good_as_once(bench: Bench, qtbot: QtBot) -> None:
+    with qtbot.waitSignal(bench.runner.idle):
+        bench.runner.submit(1)
+    bench.runner.stop()
+    bench.runner.stop()
+    assert bench.worked_on == [1]
+
+
+def test_nothing_arrives_after_stopping(bench: Bench) -> None:
+    bench.submit_and_hold(1)
+    bench.go_on.set()
+    bench.runner.stop()
+    QApplication.processEvents()
+    assert bench.worked_on == [1]
+    assert bench.results == []

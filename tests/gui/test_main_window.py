@@ -1,0 +1,134 @@
+"""Menus and docks: every entry does something, every pane can be hidden and shown again."""
+
+from collections import Counter
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtCore import SIGNAL
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QCheckBox,
+    QComboBox,
+    QGraphicsView,
+    QLineEdit,
+    QMenu,
+    QPushButton,
+    QSlider,
+    QWidget,
+)
+
+from occ_gui.application import Application
+
+
+def menus(menu: QWidget) -> Iterator[QMenu]:
+    """Walk over the menus of a menu bar, and the menus in them."""
+    for action in menu.actions():
+        below = action.menu()
+        if isinstance(below, QMenu):
+            yield below
+            yield from menus(below)
+
+
+def entries(menu: QMenu) -> list[QAction]:
+    return [a for a in menu.actions() if not a.isSeparator() and a.menu() is None]
+
+
+def listeners(action: QAction) -> int:
+    return sum(action.receivers(SIGNAL(s)) for s in ("triggered(bool)", "toggled(bool)"))
+
+
+def test_every_menu_entry_is_connected(application: Application) -> None:
+    found = list(menus(application.window.menuBar()))
+    assert len(found) == 5
+    for menu in found:
+        dead = menu.addAction("an entry that does nothing")
+        alone = listeners(dead)
+        menu.removeAction(dead)
+        for action in entries(menu):
+            group = action.actionGroup()
+            if group is not None:
+                assert group.receivers(SIGNAL("triggered(QAction*)")), action.text()
+            else:
+                assert listeners(action) > alone, action.text()
+
+
+def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> None:
+    for menu in [application.window.menuBar(), *menus(application.window.menuBar())]:
+        texts = [action.text() for action in menu.actions()]
+        letters = [text[text.index("&") + 1].lower() for text in texts if "&" in text]
+        doubles = {letter for letter, times in Counter(letters).items() if times > 1}
+        assert doubles == set(), texts
+
+
+def test_no_two_entries_share_a_shortcut(application: Application) -> None:
+    keys = [
+        action.shortcut().toString()
+        for menu in menus(application.window.menuBar())
+        for action in entries(menu)
+        if not action.shortcut().isEmpty()
+    ]
+    assert len(keys) >= 5
+    assert len(set(keys)) == len(keys)
+
+
+def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> None:
+    docks = application.window.docks
+    assert set(docks) == {"controls", "decode", "profile"}
+    for dock in docks.values():
+        toggle = dock.toggleViewAction()
+        assert dock.isVisible()
+        assert toggle.isChecked()
+        toggle.trigger()
+        assert not dock.isVisible()
+        toggle.trigger()
+        assert dock.isVisible()
+        assert dock.widget().isVisible()
+
+
+def test_docks_have_names_that_a_saved_arrangement_can_refer_to(application: Application) -> None:
+    for name, dock in application.window.docks.items():
+        assert dock.objectName() == name
+        assert dock.windowTitle()
+
+
+def test_quit_closes_the_window(application: Application) -> None:
+    application.window.actions_by_name["quit"].trigger()
+    assert not application.window.isVisible()
+
+
+def test_what_cannot_be_done_is_not_offered(application: Application) -> None:
+    by_text = {a.text(): a for menu in menus(application.window.menuBar()) for a in entries(menu)}
+    for text in ("&Close photo", "&Undo", "&Redo"):
+        (found,) = [action for key, action in by_text.items() if key.startswith(text)]
+        assert not found.isEnabled(), text
+
+
+def test_one_scan_axis_is_chosen_at_a_time(application: Application) -> None:
+    axes = application.window.scan_axes.actions()
+    assert [axis.data() for axis in axes if axis.isChecked()] == ["auto"]
+    axes[2].trigger()
+    assert [axis.data() for axis in axes if axis.isChecked()] == ["lines"]
+
+
+@pytest.mark.parametrize(
+    "kind", [QSlider, QAbstractSpinBox, QComboBox, QLineEdit, QCheckBox, QPushButton]
+)
+def test_every_control_of_the_window_has_a_name_and_a_tooltip(
+    application: Application, kind: type[QWidget]
+) -> None:
+    controls = application.window.findChildren(kind)
+    assert controls
+    for control in controls:
+        if isinstance(control.parentWidget(), QAbstractSpinBox):
+            continue
+        text = control.text() if isinstance(control, QCheckBox | QPushButton) else ""
+        assert control.accessibleName() or text, control
+        assert control.toolTip(), control
+
+
+def test_every_picture_and_plot_has_a_name(application: Application) -> None:
+    graphics = application.window.findChildren(QGraphicsView)
+    assert len(graphics) == 3
+    for view in graphics:
+        assert view.accessibleName(), view

@@ -1,0 +1,116 @@
+"""The controls of one parameter: they show what is declared and tell what the user enters."""
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.parameter_rows import (
+    ChoiceRow,
+    CountRow,
+    PatternRow,
+    QuantityRow,
+    explain,
+    row_for,
+)
+from occ_model.declarations import ChipPattern, Choice, Count, ParameterValue, Quantity
+from occ_model.parameters import PARAMETERS
+
+KINDS = {Quantity: QuantityRow, Count: CountRow, Choice: ChoiceRow, ChipPattern: PatternRow}
+
+
+class Told:
+    """A row and what it tells."""
+
+    def __init__(self, name: str, qtbot: QtBot) -> None:
+        self.row = row_for(PARAMETERS[name])
+        self.edits: list[tuple[str, ParameterValue, int]] = []
+        self.refused: list[str] = []
+        self.row.edited.connect(lambda *edit: self.edits.append(edit))
+        self.row.refused.connect(self.refused.append)
+        qtbot.addWidget(self.row)
+        self.row.show()
+
+    @property
+    def values(self) -> list[ParameterValue]:
+        return [value for _, value, _ in self.edits]
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_every_kind_of_declaration_has_its_kind_of_row(qtbot: QtBot, name: str) -> None:
+    told = Told(name, qtbot)
+    assert type(told.row) is KINDS[type(PARAMETERS[name])]
+    assert told.row.name == name
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_showing_a_value_tells_nothing(qtbot: QtBot, name: str) -> None:
+    told = Told(name, qtbot)
+    declared = PARAMETERS[name]
+    others: dict[str, ParameterValue] = {
+        "pattern": "0110",
+        "averaging": "light",
+        "enhancement": "none",
+        "band_reading": "charitable",
+    }
+    value = others.get(name, 3 if isinstance(declared, Count) else 0.5)
+    told.row.show_value(value)
+    told.row.show_value(declared.default)
+    assert told.edits == []
+    assert told.refused == []
+
+
+def test_a_whole_number_is_told_when_its_typing_ends(qtbot: QtBot) -> None:
+    told = Told("bits", qtbot)
+    assert isinstance(told.row, CountRow)
+    declared = PARAMETERS["bits"]
+    assert isinstance(declared, Count)
+    assert (told.row.field.minimum(), told.row.field.maximum()) == (declared.low, declared.high)
+    told.row.show_value(8)
+    told.row.field.selectAll()
+    qtbot.keyClicks(told.row.field, "12")
+    assert told.edits == []
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
+    assert told.values == [12]
+
+
+def test_a_choice_is_told_by_its_word(qtbot: QtBot) -> None:
+    told = Told("averaging", qtbot)
+    assert isinstance(told.row, ChoiceRow)
+    words = [told.row.field.itemText(place) for place in range(told.row.field.count())]
+    assert words == ["pixel-value", "light"]
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Down)
+    assert told.values == ["light"]
+
+
+def test_a_pattern_is_told_without_its_spaces_and_rubbish_refused(qtbot: QtBot) -> None:
+    told = Told("pattern", qtbot)
+    assert isinstance(told.row, PatternRow)
+    qtbot.keyClicks(told.row.field, "0101 0011")
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
+    assert told.values == ["01010011"]
+    told.row.show_value("01010011")
+    qtbot.keyClicks(told.row.field, "2")
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
+    assert told.values == ["01010011"]
+    assert told.row.field.text() == "01010011"
+    (sentence,) = told.refused
+    assert sentence.startswith("pattern is '010100112'")
+
+
+def test_an_equal_pattern_written_with_spaces_is_no_change(qtbot: QtBot) -> None:
+    told = Told("pattern", qtbot)
+    assert isinstance(told.row, PatternRow)
+    told.row.show_value("0101")
+    told.row.field.clear()
+    qtbot.keyClicks(told.row.field, "01 01")
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
+    assert told.edits == []
+    assert told.row.field.text() == "0101"
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_a_tooltip_tells_meaning_symbol_and_allowed_range(name: str) -> None:
+    declared = PARAMETERS[name]
+    text = explain(declared)
+    for part in (declared.label, declared.symbol, declared.meaning, declared.allowed):
+        assert part in text

@@ -1,0 +1,175 @@
+"""Photos are read off the window's thread; the last one asked for is the one that stays."""
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.controllers import photo as photo_room
+from occ_gui.controllers.photo import PhotoController
+from occ_model.photo.load import Photo
+
+Grey = NDArray[np.uint8]
+PATIENCE_S = 10.0
+
+
+class Bench:
+    """A controller on a mock view, and a hand on the reading."""
+
+    def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.shown: list[Photo | None] = []
+        self.opened: list[Photo | None] = []
+        self.failures: list[str] = []
+        self.begun = threading.Event()
+        self.go_on = threading.Event()
+        self.go_on.set()
+        monkeypatch.setattr(photo_room.occ, "load_photo", self._read)
+        self.controller = PhotoController([self])
+        self.controller.opened.connect(self.opened.append)
+        self.controller.failed.connect(self.failures.append)
+        self._load = occ.photo.load.load_photo
+        self._qtbot = qtbot
+
+    def _read(self, path: Path, scan_axis: str) -> Photo:
+        self.begun.set()
+        assert self.go_on.wait(PATIENCE_S)
+        return self._load(path, scan_axis)
+
+    def show_photo(self, photo: Photo | None) -> None:
+        self.shown.append(photo)
+
+    def rest(self) -> None:
+        self.go_on.set()
+        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+
+    def open(self, path: Path) -> None:
+        self.controller.open(path)
+        self.rest()
+
+    def open_and_hold(self, path: Path) -> None:
+        """Ask for a photo and come back while it is being read."""
+        self.begun.clear()
+        self.go_on.clear()
+        self.controller.open(path)
+        assert self.begun.wait(PATIENCE_S)
+
+    @property
+    def image(self) -> Grey:
+        photo = self.shown[-1]
+        assert photo is not None
+        return photo.image
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+    bench = Bench(qtbot, monkeypatch)
+    yield bench
+    bench.go_on.set()
+    bench.controller.stop()
+
+
+@pytest.fixture
+def other_file(tmp_path: Path) -> Path:
+    path = tmp_path / "other.png"
+    Image.fromarray(np.full((8, 9), 5, dtype=np.uint8)).save(path)
+    return path
+
+
+def test_a_photo_is_read_shown_and_told(bench: Bench, photo_file: Path, stripes: Grey) -> None:
+    bench.open(photo_file)
+    assert np.array_equal(bench.image, stripes)
+    assert bench.opened == bench.shown
+    assert bench.failures == []
+
+
+def test_a_photo_that_cannot_be_read_tells_why_and_the_last_stays(
+    bench: Bench, photo_file: Path, tmp_path: Path
+) -> None:
+    bench.open(photo_file)
+    damaged = tmp_path / "damaged.png"
+    damaged.write_bytes(photo_file.read_bytes()[:60])
+    for path in (damaged, tmp_path / "missing.png", tmp_path):
+        bench.open(path)
+        assert str(path) in bench.failures[-1]
+        assert bench.failures[-1].endswith(".")
+    assert len(bench.failures) == 3
+    assert len(bench.shown) == 1
+
+
+def test_closing_shows_none(bench: Bench, photo_file: Path) -> None:
+    bench.open(photo_file)
+    bench.controller.close()
+    assert bench.shown[-1] is None
+    assert bench.opened[-1] is None
+
+
+def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
+    bench: Bench, photo_file: Path
+) -> None:
+    bench.open_and_hold(photo_file)
+    bench.controller.close()
+    bench.rest()
+    assert bench.shown == [None]
+
+
+def test_opening_another_photo_while_one_is_read_shows_the_other(
+    bench: Bench, photo_file: Path, other_file: Path
+) -> None:
+    bench.open_and_hold(photo_file)
+    bench.controller.open(other_file)
+    bench.rest()
+    assert [photo.path for photo in bench.shown if photo] == [other_file]
+
+
+def test_another_scan_axis_turns_the_open_photo(
+    bench: Bench, photo_file: Path, stripes: Grey
+) -> None:
+    bench.open(photo_file)
+    for axis, expected in (("lines", stripes.T), ("columns", stripes), ("auto", stripes)):
+        bench.controller.scan_along(axis)
+        bench.rest()
+        assert np.array_equal(bench.image, expected)
+
+
+def test_the_scan_axis_holds_for_the_next_photo(
+    bench: Bench, photo_file: Path, stripes: Grey
+) -> None:
+    bench.controller.scan_along("lines")
+    bench.rest()
+    assert bench.shown == []
+    bench.open(photo_file)
+    assert np.array_equal(bench.image, stripes.T)
+
+
+def test_the_scan_axis_chosen_while_a_photo_is_read_holds_for_it(
+    bench: Bench, photo_file: Path, stripes: Grey
+) -> None:
+    bench.open_and_hold(photo_file)
+    bench.controller.scan_along("lines")
+    bench.rest()
+    assert np.array_equal(bench.image, stripes.T)
+
+
+def test_after_a_failure_another_scan_axis_turns_the_photo_that_stayed(
+    bench: Bench, photo_file: Path, tmp_path: Path, stripes: Grey
+) -> None:
+    bench.open(photo_file)
+    bench.open(tmp_path / "missing.png")
+    bench.controller.scan_along("lines")
+    bench.rest()
+    assert np.array_equal(bench.image, stripes.T)
+    assert len(bench.failures) == 1
+
+
+def test_after_closing_another_scan_axis_opens_nothing(bench: Bench, photo_file: Path) -> None:
+    bench.open(photo_file)
+    bench.controller.close()
+    bench.controller.scan_along("lines")
+    bench.rest()
+    assert bench.shown[-1] is None

@@ -1,0 +1,198 @@
+"""The column profile beside the band model's and a photo's, and what part of it is in view."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pyqtgraph as pg
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QPushButton
+from pytestqt.qtbot import QtBot
+
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.profile_view import ProfileView
+from occ_model.photo.load import Photo
+from occ_model.results import DecodeResult
+
+SnapshotOf = Callable[..., Snapshot]
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> ProfileView:
+    view = ProfileView()
+    qtbot.addWidget(view)
+    view.resize(900, 300)
+    view.show()
+    return view
+
+
+def drawn(curve: pg.PlotDataItem) -> tuple[list[float], list[float]]:
+    """Give what a curve was given to draw, nothing for an empty one."""
+    x, y = curve.getOriginalDataset()
+    return ([], []) if x is None else (x.tolist(), y.tolist())
+
+
+def button(view: ProfileView, text: str) -> QPushButton:
+    (found,) = [b for b in view.findChildren(QPushButton) if b.text() == text]
+    return found
+
+
+def legend_texts(view: ProfileView) -> list[str]:
+    labels = view.legend.findChildren(QLabel)
+    return [label.text() for label in labels if label.isVisible() and label.text()]
+
+
+def columns_in_view(view: ProfileView) -> tuple[float, float]:
+    first, last = view.plot.getViewBox().viewRange()[0]
+    return first, last
+
+
+def test_the_simulated_profile_is_drawn_column_by_column(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    x, y = drawn(view.simulation)
+    assert x == list(range(len(snapshot.frame.profile)))
+    assert y == snapshot.frame.profile.tolist()
+
+
+def test_the_band_model_is_drawn_where_it_is_defined(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of(exposure_time=68e-6, switching_frequency=10e3)
+    view.show_snapshot(snapshot)
+    assert snapshot.band is not None
+    assert drawn(view.band)[1] == snapshot.band.tolist()
+    assert not view.reason.isVisible()
+    assert "band model" in legend_texts(view)
+
+
+def test_where_the_band_model_is_undefined_a_sentence_takes_its_place(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.show_snapshot(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
+    assert drawn(view.band) == ([], [])
+    assert view.reason.isVisible()
+    assert "136 µs" in view.reason.text()
+    assert "100 µs" in view.reason.text()
+    assert "band model" not in legend_texts(view)
+
+
+def test_a_photo_is_drawn_from_the_panels_first_column_and_taken_away(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    assert drawn(view.photo) == ([], [])
+    view.show_photo(photo)
+    x, y = drawn(view.photo)
+    assert x[0] == round(snapshot.frame.corners[:, 0].min()) > 0
+    assert y == photo.profile.tolist()
+    assert any(text.startswith("photo") for text in legend_texts(view))
+    view.show_photo(None)
+    assert drawn(view.photo) == ([], [])
+    assert not any(text.startswith("photo") for text in legend_texts(view))
+
+
+def test_a_photo_follows_the_panel(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_photo(photo)
+    firsts = []
+    for distance in (1.2, 2.0):
+        view.show_snapshot(snapshot_of(distance=distance))
+        firsts.append(drawn(view.photo)[0][0])
+    assert firsts[0] < firsts[1]
+
+
+def test_after_enhancement_shows_the_pictures_values_and_the_threshold(
+    view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
+) -> None:
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    assert not view.threshold.isVisible()
+    assert "threshold" not in legend_texts(view)
+    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
+    assert drawn(view.simulation)[1] == snapshot.frame.enhanced.tolist()
+    assert view.threshold.isVisible()
+    assert view.threshold.value() == snapshot.decoded.threshold
+    assert "threshold" in legend_texts(view)
+    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
+    assert drawn(view.simulation)[1] == snapshot.frame.profile.tolist()
+    assert not view.threshold.isVisible()
+
+
+def test_without_a_threshold_none_is_shown(view: ProfileView, snapshot_of: SnapshotOf) -> None:
+    view.enhanced.setChecked(True)
+    view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="None.")))
+    assert not view.threshold.isVisible()
+    assert "threshold" not in legend_texts(view)
+
+
+def test_whatever_is_drawn_lies_within_the_levels_in_view(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_photo(photo)
+    for changes in ({}, {"iso": 6400.0}, {"luminance": 0.0}):
+        view.show_snapshot(snapshot_of(**changes))
+        low, high = view.plot.getViewBox().viewRange()[1]
+        for curve in (view.simulation, view.band, view.photo):
+            _, values = drawn(curve)
+            assert low <= min(values)
+            assert max(values) <= high
+
+
+def test_two_packets_are_in_view_until_the_whole_panel_is_asked_for(
+    view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
+) -> None:
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    panel = snapshot.frame.corners[:, 0]
+    first, last = columns_in_view(view)
+    assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
+    assert first == pytest.approx(panel.min(), abs=20)
+    qtbot.mouseClick(button(view, "Whole panel"), Qt.MouseButton.LeftButton)
+    assert columns_in_view(view) == pytest.approx((panel.min(), panel.max()), abs=30)
+    assert not button(view, "Two packets").isChecked()
+
+
+def test_moving_the_plot_by_hand_ends_the_following_and_a_click_resumes_it(
+    view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
+) -> None:
+    view.show_snapshot(snapshot_of())
+    followed = columns_in_view(view)
+    box = view.plot.getViewBox()
+    box.setXRange(10, 20, padding=0)
+    box.sigRangeChangedManually.emit([True, True])
+    view.show_snapshot(snapshot_of(distance=1.3))
+    assert columns_in_view(view) == pytest.approx((10, 20))
+    assert not button(view, "Two packets").isChecked()
+    assert not button(view, "Whole panel").isChecked()
+    view.show_snapshot(snapshot_of())
+    qtbot.mouseClick(button(view, "Two packets"), Qt.MouseButton.LeftButton)
+    assert columns_in_view(view) == pytest.approx(followed)
+
+
+@pytest.mark.parametrize("changes", [{"offset_x": 50.0}, {"columns": 1}, {"distance": 900.0}])
+def test_a_panel_hardly_or_not_in_the_picture_leaves_a_range_to_look_at(
+    view: ProfileView, snapshot_of: SnapshotOf, changes: dict[str, float]
+) -> None:
+    view.show_snapshot(snapshot_of(**changes))
+    first, last = columns_in_view(view)
+    assert last - first >= 1.0
+    assert drawn(view.simulation)[0]
+
+
+def test_a_photo_before_any_result_waits_for_it(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_photo(photo)
+    assert drawn(view.photo) == ([], [])
+    view.show_snapshot(snapshot_of())
+    assert drawn(view.photo)[1] == photo.profile.tolist()
+
+
+def test_before_any_result_the_legend_names_no_line_that_is_not_there(view: ProfileView) -> None:
+    assert set(legend_texts(view)) <= {"simulation"}

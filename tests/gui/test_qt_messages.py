@@ -1,0 +1,37 @@
+"""What Qt has to say goes into Python's logging, at its own level."""
+
+import logging
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtCore import qCritical, qDebug, qInstallMessageHandler, qWarning
+
+from occ_gui.qt_messages import log_qt_messages
+
+
+@pytest.fixture
+def logged(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixture]:
+    """Log Qt's messages during one test; the handler of the test run is put back after it."""
+    before = qInstallMessageHandler(None)
+    log_qt_messages()
+    with caplog.at_level(logging.DEBUG, logger="qt"):
+        yield caplog
+    qInstallMessageHandler(before)
+
+
+def test_a_message_keeps_its_level_and_its_words(logged: pytest.LogCaptureFixture) -> None:
+    qDebug("a detail")
+    qWarning("an odd thing")
+    qCritical("a bad thing")
+    assert logged.record_tuples == [
+        ("qt", logging.DEBUG, "a detail"),
+        ("qt", logging.WARNING, "an odd thing"),
+        ("qt", logging.ERROR, "a bad thing"),
+    ]
+
+
+def test_what_a_platform_without_windows_says_of_every_window_is_no_warning(
+    logged: pytest.LogCaptureFixture,
+) -> None:
+    qWarning("This plugin does not support propagateSizeHints()")
+    assert [level for _, level, _ in logged.record_tuples] == [logging.DEBUG]

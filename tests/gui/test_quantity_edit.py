@@ -1,0 +1,190 @@
+"""A number with its unit is read as people write it, and keeps every digit."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QAbstractSpinBox
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.quantity_edit import QuantityEdit
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
+
+QUANTITIES = [declared for declared in PARAMETERS.values() if isinstance(declared, Quantity)]
+
+
+class Field:
+    """A field on the screen, what it told, and a user who types."""
+
+    def __init__(self, name: str, qtbot: QtBot) -> None:
+        declared = PARAMETERS[name]
+        assert isinstance(declared, Quantity)
+        self.edit = QuantityEdit(declared)
+        self.edited: list[float] = []
+        self.refused: list[str] = []
+        self.edit.edited.connect(self.edited.append)
+        self.edit.refused.connect(self.refused.append)
+        self._qtbot = qtbot
+        qtbot.addWidget(self.edit)
+        self.edit.show()
+
+    def type(self, text: str) -> None:
+        self.edit.selectAll()
+        self.press(Qt.Key.Key_Delete)
+        self._qtbot.keyClicks(self.edit, text)
+
+    def press(self, key: Qt.Key) -> None:
+        self._qtbot.keyClick(self.edit, key)
+
+    def enter(self, text: str) -> None:
+        self.type(text)
+        self.press(Qt.Key.Key_Return)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value", "shown"),
+    [
+        ("switching_frequency", "10 kHz", 10e3, "10 kHz"),
+        ("switching_frequency", "2.5k", 2500.0, "2.5 kHz"),
+        ("exposure_time", "136us", 136e-6, "136 µs"),
+        ("exposure_time", "68 µs", 68e-6, "68 µs"),
+        ("exposure_time", "1/8000 s", 1 / 8000, "125 µs"),
+        ("distance", "60 cm", 0.6, "0.6 m"),
+        ("yaw", "30°", 0.5235987755982988, "30°"),
+        ("iso", " 400 ", 400.0, "400"),
+    ],
+)
+def test_what_people_write_is_read_to_the_exact_si_value(
+    qtbot: QtBot, name: str, text: str, value: float, shown: str
+) -> None:
+    field = Field(name, qtbot)
+    field.enter(text)
+    assert field.edited == [value]
+    assert field.refused == []
+    assert field.edit.value() == value
+    assert field.edit.text() == shown
+
+
+@pytest.mark.parametrize(
+    ("name", "before", "text", "value"),
+    [
+        ("switching_frequency", 10e3, "14", 14e3),
+        ("switching_frequency", 600.0, "700", 700.0),
+        ("exposure_time", 136e-6, "68", 68e-6),
+        ("exposure_time", 2e-3, "1", 1e-3),
+        ("distance", 1.2, "2", 2.0),
+    ],
+)
+def test_a_plain_number_is_read_in_the_unit_that_is_shown(
+    qtbot: QtBot, name: str, before: float, text: str, value: float
+) -> None:
+    field = Field(name, qtbot)
+    field.edit.set_value(before)
+    field.enter(text)
+    assert field.edited == [value]
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("exposure_time", "soon"),
+        ("exposure_time", ""),
+        ("exposure_time", "1/0 s"),
+        ("exposure_time", "10 kHz"),
+        ("exposure_time", "-1 us"),
+        ("exposure_time", "nan"),
+        ("switching_frequency", "0"),
+        ("switching_frequency", "9e99 Hz"),
+        ("distance", "1e999"),
+        ("reflectance", "1.5"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name_and_the_last_value_shown_again(
+    qtbot: QtBot, name: str, text: str
+) -> None:
+    field = Field(name, qtbot)
+    before, shown = field.edit.value(), field.edit.text()
+    field.enter(text)
+    (sentence,) = field.refused
+    assert sentence.startswith(f"{name} is ")
+    assert "; allowed: " in sentence
+    assert field.edited == []
+    assert (field.edit.value(), field.edit.text()) == (before, shown)
+
+
+def test_one_refusal_is_told_once_though_enter_and_leaving_both_end_the_editing(
+    qtbot: QtBot,
+) -> None:
+    field = Field("exposure_time", qtbot)
+    field.enter("soon")
+    field.edit.editingFinished.emit()  # as leaving the field does
+    assert len(field.refused) == 1
+
+
+@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
+def test_leaving_a_field_untouched_tells_nothing_and_rounds_nothing(
+    qtbot: QtBot, declared: Quantity
+) -> None:
+    field = Field(declared.name, qtbot)
+    third = declared.slider[0] + (declared.slider[1] - declared.slider[0]) / 3
+    field.edit.set_value(third)
+    field.press(Qt.Key.Key_Return)
+    field.edit.editingFinished.emit()
+    assert field.edited == []
+    assert field.edit.value() == third
+
+
+def test_showing_a_value_tells_nothing_and_drops_what_was_half_typed(qtbot: QtBot) -> None:
+    field = Field("exposure_time", qtbot)
+    field.type("99")
+    field.edit.set_value(68e-6)
+    field.press(Qt.Key.Key_Return)
+    assert field.edit.text() == "68 µs"
+    assert field.edited == field.refused == []
+
+
+def test_arrow_keys_step_by_one_share_along_the_scale(qtbot: QtBot) -> None:
+    log, linear = Field("exposure_time", qtbot), Field("gamma", qtbot)
+    log.edit.set_value(1e-4)
+    linear.edit.set_value(2.0)
+    for field in (log, linear):
+        field.press(Qt.Key.Key_Up)
+    assert log.edited == [pytest.approx(1e-4 * 200**0.01, rel=1e-3)]
+    assert linear.edited == [pytest.approx(2.03)]
+    for field in (log, linear):
+        field.press(Qt.Key.Key_Down)
+    assert log.edit.value() == pytest.approx(1e-4, rel=1e-3)
+    assert linear.edit.value() == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
+def test_steps_end_where_the_slider_ends(qtbot: QtBot, declared: Quantity) -> None:
+    field = Field(declared.name, qtbot)
+    low, high = declared.slider
+    flags = QAbstractSpinBox.StepEnabledFlag
+    for end, key, enabled in (
+        (high, Qt.Key.Key_Up, flags.StepDownEnabled),
+        (low, Qt.Key.Key_Down, flags.StepUpEnabled),
+    ):
+        field.edit.set_value(end)
+        field.press(key)
+        assert field.edit.value() == end
+        assert field.edit.stepEnabled() == enabled
+    assert field.edited == []
+
+
+def test_a_step_starts_from_what_was_typed(qtbot: QtBot) -> None:
+    field = Field("gamma", qtbot)
+    field.edit.set_value(2.0)
+    field.type("3")
+    field.press(Qt.Key.Key_Up)
+    assert field.edit.value() == pytest.approx(3.03)
+
+
+def test_the_field_is_wide_enough_for_every_value_a_slider_shows(qtbot: QtBot) -> None:
+    for declared in QUANTITIES:
+        field = Field(declared.name, qtbot).edit
+        field.resize(field.minimumSizeHint())
+        room = field.lineEdit().width() - field.lineEdit().textMargins().left() - 6
+        for step in range(0, 1001, 7):
+            text = declared.format(declared.at(step / 1000))
+            assert field.fontMetrics().horizontalAdvance(text) <= room, text

@@ -1,0 +1,142 @@
+"""A slider and a number field on one quantity: one scale, one value, one gesture a drag."""
+
+import math
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
+
+QUANTITIES = [declared for declared in PARAMETERS.values() if isinstance(declared, Quantity)]
+LOGARITHMIC = [declared for declared in QUANTITIES if declared.scale == "log"]
+
+
+class Told:
+    """A row and what it tells."""
+
+    def __init__(self, name: str, qtbot: QtBot) -> None:
+        declared = PARAMETERS[name]
+        assert isinstance(declared, Quantity)
+        self.row = QuantityRow(declared)
+        self.edits: list[tuple[str, float, int]] = []
+        self.refused: list[str] = []
+        self.row.edited.connect(lambda *edit: self.edits.append(edit))
+        self.row.refused.connect(self.refused.append)
+        qtbot.addWidget(self.row)
+        self.row.show()
+
+    @property
+    def values(self) -> list[float]:
+        return [value for _, value, _ in self.edits]
+
+    @property
+    def gestures(self) -> set[int]:
+        return {gesture for _, _, gesture in self.edits}
+
+
+@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
+def test_the_slider_ends_at_the_declared_range(qtbot: QtBot, declared: Quantity) -> None:
+    told = Told(declared.name, qtbot)
+    slider = told.row.slider
+    slider.setValue(slider.minimum())
+    slider.setValue(slider.maximum())
+    slider.setValue(slider.minimum())
+    assert told.values[-2:] == [declared.slider[1], declared.slider[0]]
+    assert {name for name, _, _ in told.edits} == {declared.name}
+
+
+@pytest.mark.parametrize("declared", LOGARITHMIC, ids=lambda declared: declared.name)
+def test_the_middle_of_a_logarithmic_slider_is_the_geometric_mean(
+    qtbot: QtBot, declared: Quantity
+) -> None:
+    told = Told(declared.name, qtbot)
+    slider = told.row.slider
+    slider.setValue(0)
+    slider.setValue(slider.maximum() // 2)
+    assert told.values[-1] == pytest.approx(math.sqrt(math.prod(declared.slider)), rel=1e-3)
+
+
+def test_the_middle_of_a_linear_slider_is_the_arithmetic_mean(qtbot: QtBot) -> None:
+    told = Told("gamma", qtbot)
+    told.row.slider.setValue(told.row.slider.maximum() // 2)
+    assert told.values == [2.5]
+
+
+def test_slider_and_field_show_the_same_value_whichever_is_moved(qtbot: QtBot) -> None:
+    told = Told("distance", qtbot)
+    row = told.row
+    row.slider.setValue(row.slider.maximum())
+    assert row.field.value() == 5.0
+    row.field.selectAll()
+    qtbot.keyClicks(row.field, "20 cm")
+    qtbot.keyClick(row.field, Qt.Key.Key_Return)
+    assert row.slider.value() == row.slider.minimum()
+    assert told.values == [5.0, 0.2]
+
+
+@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
+def test_what_a_slider_gives_is_what_typing_the_shown_text_gives(
+    qtbot: QtBot, declared: Quantity
+) -> None:
+    told = Told(declared.name, qtbot)
+    row = told.row
+    for position in range(0, 1001, 50):
+        row.slider.setValue(position)
+        assert declared.parse(row.field.text()) == row.field.value()
+
+
+def test_a_value_beyond_the_slider_is_kept_and_shown(qtbot: QtBot) -> None:
+    told = Told("distance", qtbot)
+    row = told.row
+    row.show_value(50.0)
+    assert row.slider.value() == row.slider.maximum()
+    assert row.field.value() == 50.0
+    assert row.field.text() == "50 m"
+
+
+def test_one_drag_is_one_gesture_and_every_key_is_one_of_its_own(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    slider = told.row.slider
+    for _ in range(2):
+        slider.setSliderDown(True)
+        for position in (500, 600, 700):
+            slider.setValue(position)
+        slider.setSliderDown(False)
+    assert len(told.edits) == 6
+    assert len(told.gestures) == 2
+    for _ in range(3):
+        qtbot.keyClick(slider, Qt.Key.Key_Right)
+    assert len(told.gestures) == 5
+
+
+def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:
+    told = Told("gamma", qtbot)
+    slider = told.row.slider
+    slider.setValue(500)
+    for key, position in (
+        (Qt.Key.Key_Right, 501),
+        (Qt.Key.Key_PageUp, 551),
+        (Qt.Key.Key_PageDown, 501),
+        (Qt.Key.Key_Left, 500),
+        (Qt.Key.Key_Home, 0),
+        (Qt.Key.Key_End, 1000),
+    ):
+        qtbot.keyClick(slider, key)
+        assert slider.value() == position
+    assert told.values[-2:] == [1.0, 4.0]
+
+
+def test_rubbish_in_a_field_is_refused_by_the_row(qtbot: QtBot) -> None:
+    told = Told("exposure_time", qtbot)
+    row = told.row
+    position = row.slider.value()
+    row.field.selectAll()
+    qtbot.keyClicks(row.field, "soon")
+    qtbot.keyClick(row.field, Qt.Key.Key_Return)
+    (sentence,) = told.refused
+    assert sentence.startswith("exposure_time is 'soon'")
+    assert told.edits == []
+    assert row.slider.value() == position

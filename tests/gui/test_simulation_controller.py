@@ -1,0 +1,155 @@
+"""Whatever the scene becomes, the views end with its results; what has none leaves the last."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.controllers.simulation import SimulationController, simulate
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.snapshot import Snapshot
+from occ_model.scene import Scene
+
+BEHIND_THE_CAMERA = {"distance": 0.1, "yaw": 1.2}
+
+
+class RecordingView:
+    """A view that keeps all that it is shown."""
+
+    def __init__(self) -> None:
+        self.shown: list[Snapshot] = []
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        self.shown.append(snapshot)
+
+
+class Bench:
+    """A store and a controller on two mock views."""
+
+    def __init__(self, scene: Scene, qtbot: QtBot) -> None:
+        self.store = SceneStore(scene)
+        self.views = (RecordingView(), RecordingView())
+        self.controller = SimulationController(self.store, self.views)
+        self.failures: list[str] = []
+        self.controller.failed.connect(self.failures.append)
+        self._qtbot = qtbot
+
+    def rest(self) -> None:
+        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+
+    @property
+    def scenes(self) -> list[Scene]:
+        return [snapshot.frame.scene for snapshot in self.views[0].shown]
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
+    bench = Bench(small_scene, qtbot)
+    bench.rest()
+    yield bench
+    bench.controller.stop()
+
+
+def test_the_first_scene_is_shown_without_being_asked_for(bench: Bench) -> None:
+    assert bench.scenes == [bench.store.scene]
+
+
+def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None:
+    for iso in (50.0, 100.0, 200.0):
+        for frequency in (2e3, 5e3, 9e3):
+            bench.store.change(iso=iso, switching_frequency=frequency)
+        bench.rest()
+        assert bench.scenes[-1] == bench.store.scene
+    assert bench.failures == []
+
+
+def test_undo_shows_the_scene_before(bench: Bench, small_scene: Scene) -> None:
+    bench.store.change(iso=200.0)
+    bench.rest()
+    bench.store.undo_stack.undo()
+    bench.rest()
+    assert bench.scenes[-1] == small_scene
+
+
+def test_all_views_are_shown_the_same_results_and_then_it_is_told(
+    bench: Bench, qtbot: QtBot
+) -> None:
+    counts: list[int] = []
+    bench.controller.shown.connect(lambda _: counts.append(len(bench.views[1].shown)))
+    with qtbot.waitSignal(bench.controller.shown) as shown:
+        bench.store.change(iso=200.0)
+    assert [shown.args[0]] == [bench.views[0].shown[-1]] == [bench.views[1].shown[-1]]
+    assert counts == [2]
+
+
+def test_a_scene_without_a_picture_tells_why_and_the_views_keep_the_last(
+    bench: Bench, small_scene: Scene
+) -> None:
+    bench.store.change(**BEHIND_THE_CAMERA)
+    bench.rest()
+    (sentence,) = bench.failures
+    assert "behind the camera" in sentence
+    assert sentence.endswith(".")
+    assert bench.scenes == [small_scene]
+
+
+def test_after_a_scene_without_a_picture_the_next_one_is_shown(bench: Bench) -> None:
+    bench.store.change(**BEHIND_THE_CAMERA)
+    bench.rest()
+    bench.store.change(distance=1.0, yaw=0.2)
+    bench.rest()
+    assert bench.scenes[-1] == bench.store.scene
+    assert len(bench.failures) == 1
+
+
+def test_an_image_too_large_to_make_is_refused_with_a_sentence(bench: Bench) -> None:
+    bench.store.change(rows=100_000, columns=1_000_000)
+    bench.rest()
+    (sentence,) = bench.failures
+    assert "million pixels" in sentence
+
+
+def test_the_snapshot_holds_what_the_model_says_of_the_scene(
+    snapshot_of: Callable[..., Snapshot],
+) -> None:
+    snapshot = snapshot_of(code=0b1011001110)
+    scene = snapshot.frame.scene
+    assert np.array_equal(snapshot.frame.image, occ.render(scene).image)
+    assert snapshot.decoded.code == snapshot.frame.scene.transmitter.code
+    assert snapshot.sent == (1, 0, 1, 1, 0, 0, 1, 1, 1, 0)
+    assert snapshot.band is not None
+    assert np.array_equal(snapshot.band, occ.band_profile(scene))
+    assert snapshot.band_undefined == ""
+    # 24 chips of 100 us, 8 us a column
+    assert snapshot.packet_columns == pytest.approx(24 * 100 / 8)
+    assert snapshot.seconds > 0
+
+
+def test_a_raw_pattern_sends_no_bits(snapshot_of: Callable[..., Snapshot]) -> None:
+    snapshot = snapshot_of(pattern="01011")
+    assert snapshot.sent == ()
+    assert snapshot.packet_columns == pytest.approx(5 * 100 / 8)
+
+
+def test_where_the_band_model_is_undefined_the_snapshot_says_why(
+    snapshot_of: Callable[..., Snapshot],
+) -> None:
+    snapshot = snapshot_of(exposure_time=200e-6)
+    assert snapshot.band is None
+    assert "200 µs" in snapshot.band_undefined
+
+
+def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
+    near = simulate(small_scene.replace(distance=0.3))
+    assert near.frame.corners.min() < 0
+    assert near.panel_origin == (0.0, 0.0)
+    far = simulate(small_scene.replace(distance=100.0))
+    assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
+
+
+def test_stopping_while_a_simulation_runs_returns(bench: Bench) -> None:
+    bench.store.change(iso=200.0)
+    bench.controller.stop()
+    assert len(bench.scenes) == 1

@@ -1,0 +1,149 @@
+"""At the sizes that people use nothing is cut off, squeezed or drawn over."""
+
+from collections.abc import Iterator
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QApplication,
+    QCheckBox,
+    QComboBox,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QSlider,
+    QTabWidget,
+    QWidget,
+)
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+
+User = Any  # the fixture of that name
+
+CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
+SIZES = [QSize(1000, 700), QSize(1280, 800), QSize(1920, 1080)]
+NO_BAND_MODEL = {"exposure_time": 200e-6}
+NO_CODE = {"switching_frequency": 500.0, "distance": 5.0}
+MANY_BITS = {"bits": 16, "code": 2**16 - 1}
+
+
+def visible_controls(window: QWidget) -> list[QWidget]:
+    found = [control for kind in CONTROLS for control in window.findChildren(kind)]
+    return [
+        control
+        for control in found
+        if control.isVisible() and not isinstance(control.parentWidget(), QAbstractSpinBox)
+    ]
+
+
+def scrolled(control: QWidget) -> bool:
+    parent = control.parentWidget()
+    while parent is not None and not isinstance(parent, QScrollArea):
+        parent = parent.parentWidget()
+    return parent is not None
+
+
+def too_small(control: QWidget) -> bool:
+    least = control.minimumSizeHint()
+    high = control.height() >= least.height()
+    if isinstance(control, QLabel) and control.wordWrap():
+        high = control.height() >= control.heightForWidth(control.width())
+    return control.width() < least.width() or not high
+
+
+def cut_off(control: QWidget) -> bool:
+    """Whether part of it lies outside of what can be seen, or reached by scrolling up and down."""
+    seen = control.visibleRegion().boundingRect()
+    if scrolled(control):
+        return not seen.isEmpty() and seen.width() < control.width()
+    return seen != control.rect()
+
+
+def describe(control: QWidget) -> str:
+    name = control.accessibleName() or getattr(control, "text", str)()
+    return f"{type(control).__name__} {name!r} {control.geometry()}"
+
+
+def faults(window: QWidget) -> list[str]:
+    controls = visible_controls(window)
+    found = [f"too small: {describe(control)}" for control in controls if too_small(control)]
+    found += [f"cut off: {describe(control)}" for control in controls if cut_off(control)]
+    found += [
+        f"overlapping: {describe(one)} and {describe(other)}"
+        for one, other in combinations(controls, 2)
+        if one.parentWidget() is other.parentWidget()
+        and one.geometry().intersects(other.geometry())
+    ]
+    return found
+
+
+def assert_faultless(qtbot: QtBot, window: QWidget, what: object) -> None:
+    """Let the layout come to rest, and see that it came to rest without a fault."""
+
+    def check() -> None:
+        assert faults(window) == [], what
+
+    qtbot.waitUntil(check, timeout=2000)
+
+
+def pages(application: Application) -> Iterator[str]:
+    """Turn the pages of the controls, one after the other."""
+    (tabs,) = application.controls.findChildren(QTabWidget)
+    for place in range(tabs.count()):
+        tabs.setCurrentIndex(place)
+        yield tabs.tabText(place)
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
+def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
+    qtbot: QtBot, application: Application, user: User, photo_file: Path, size: QSize
+) -> None:
+    application.window.resize(size)
+    for page in pages(application):
+        assert_faultless(qtbot, application.window, page)
+    for changes in (NO_BAND_MODEL, NO_CODE, MANY_BITS):
+        application.store.change(**changes)
+        user.rest()
+        assert_faultless(qtbot, application.window, changes)
+    application.open_photo(photo_file)
+    application.profile.enhanced.setChecked(True)
+    user.rest()
+    assert_faultless(qtbot, application.window, "photo beside")
+    application.window.actions_by_name["photo_over"].trigger()
+    assert_faultless(qtbot, application.window, "photo over")
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
+def test_the_window_keeps_the_size_that_the_user_gave_it(
+    application: Application, user: User, photo_file: Path, size: QSize
+) -> None:
+    application.window.resize(size)
+    application.open_photo(photo_file)
+    application.profile.enhanced.setChecked(True)
+    for changes in (NO_BAND_MODEL, NO_CODE, MANY_BITS):
+        application.store.change(**changes)
+        user.rest()
+        QApplication.processEvents()
+        least = application.window.minimumSizeHint()
+        assert least.boundedTo(size) == least, changes
+        assert application.window.size() == size, changes
+
+
+def test_the_window_opens_at_1280_by_800(application: Application) -> None:
+    assert application.window.size() == QSize(1280, 800)
+
+
+def test_the_least_size_of_the_window_is_no_larger_before_the_first_picture(
+    application: Application,
+) -> None:
+    fresh = Application(application.store.scene)
+    least = fresh.window.minimumSizeHint()
+    fresh.window.close()
+    fresh.window.deleteLater()
+    assert least.boundedTo(SIZES[0]) == least

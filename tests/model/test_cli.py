@@ -1,0 +1,199 @@
+"""The command line, called in process."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.parameters import PARAMETERS
+
+SMALL = ("--set", "rows=300")
+
+
+class Outcome(NamedTuple):
+    """What a command returned and said."""
+
+    code: int
+    out: str
+    err: str
+
+
+Command = Callable[..., Outcome]
+
+
+@pytest.fixture
+def command(capsys: pytest.CaptureFixture[str]) -> Command:
+    def run(*arguments: str | Path) -> Outcome:
+        capsys.readouterr()
+        code = main([str(argument) for argument in arguments])
+        return Outcome(code, *capsys.readouterr())
+
+    return run
+
+
+def report(outcome: Outcome) -> dict[str, str]:
+    """What decode says of a code that it read, as a table."""
+    assert (outcome.code, outcome.err) == (0, "")
+    pairs = (line.split("  ", 1) for line in outcome.out.splitlines())
+    return {name: value.strip() for name, value in pairs}
+
+
+@pytest.mark.parametrize("code", [0, 341, 718, 1023])
+@pytest.mark.parametrize("name", ["picture.png", "picture.JPG"])
+def test_what_render_writes_decode_reads(
+    command: Command, tmp_path: Path, name: str, code: int
+) -> None:
+    path = tmp_path / name
+    rendered = command("render", *SMALL, "--set", f"code={code}", "-o", path)
+    assert (rendered.code, rendered.err) == (0, "")
+    assert rendered.out.startswith(f"{path}: 3456 columns, 300 rows, simulated in ")
+    with Image.open(path) as picture:
+        assert picture.size == (3456, 300)
+    read = report(command("decode", path))
+    assert (read["code"], read["bits"]) == (f"{code}", f"{code:010b}")
+    sent = occ.packet(occ.Scene().replace(code=code))
+    assert "".join(map(str, sent)) in read["chips"]
+
+
+def test_render_writes_the_picture_that_the_model_makes(command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "picture.png"
+    settings = (*SMALL, "--set", "switching_frequency=6kHz", "--set", " exposure_time = 68 us")
+    assert command("render", "--preset", "tablet-61us", *settings, "--out", path).code == 0
+    changes = {"rows": 300, "switching_frequency": 6e3, "exposure_time": 68e-6}
+    scene = occ.load_preset("tablet-61us").replace(**changes)
+    with Image.open(path) as picture:
+        np.testing.assert_array_equal(np.asarray(picture), occ.render(scene).image)
+
+
+def test_a_saved_scene_renders_the_same_picture_again(command: Command, tmp_path: Path) -> None:
+    first, again, file = tmp_path / "1.png", tmp_path / "2.png", tmp_path / "scene.toml"
+    made = command("render", *SMALL, "--set", "code=5", "-o", first, "--save-scene", file)
+    assert made.code == 0
+    scene = occ.load_preset("phone-136us").replace(rows=300, code=5)
+    assert occ.Scene.from_toml(file.read_text("utf-8")) == scene
+    assert command("render", "--scene", file, "-o", again).code == 0
+    assert first.read_bytes() == again.read_bytes()
+
+
+def test_decode_reads_as_many_bits_as_the_scene_has(command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "picture.png"
+    bits = ("--set", "bits=6", "--set", "code=44")
+    assert command("render", *SMALL, *bits, "-o", path).code == 0
+    assert report(command("decode", path, *bits))["bits"] == "101100"
+
+
+def test_decode_turns_a_picture_whose_lines_were_scanned(command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "picture.png"
+    assert command("render", *SMALL, "-o", path).code == 0
+    with Image.open(path) as picture:
+        turned = picture.transpose(Image.Transpose.TRANSPOSE)
+    turned.save(path)
+    assert report(command("decode", path))["code"] == "718"
+    assert report(command("decode", path, "--scan-axis", "lines"))["code"] == "718"
+    assert command("decode", path, "--scan-axis", "columns").code == 1
+
+
+@pytest.mark.parametrize("level", [0, 255])
+def test_a_picture_without_a_code_fails_with_the_reason(
+    command: Command, tmp_path: Path, level: int
+) -> None:
+    path = tmp_path / "flat.png"
+    Image.new("L", (40, 30), level).save(path)
+    outcome = command("decode", path)
+    assert outcome.code == 1
+    assert outcome.err == f"No panel found: every pixel has the grey level {level}.\n"
+    assert "code" not in outcome.out
+
+
+def test_presets_lists_every_preset_with_its_title(command: Command) -> None:
+    lines = command("presets").out.splitlines()
+    assert [line.split()[0] for line in lines] == list(occ.presets())
+    assert all(len(line.split()) > 2 for line in lines)
+
+
+@pytest.mark.parametrize("name", occ.presets())
+def test_a_preset_is_shown_with_every_value_and_its_note(command: Command, name: str) -> None:
+    outcome = command("presets", name)
+    title, *lines = outcome.out.splitlines()
+    assert (outcome.code, title in command("presets").out) == (0, True)
+    scene = occ.load_preset(name)
+    for line, (parameter, declaration) in zip(lines, PARAMETERS.items(), strict=True):
+        value = declaration.format(scene.value(parameter))
+        assert line.startswith(f"{parameter:26}{value}".rstrip())
+    assert sum(" assumed: not stated; " in line for line in lines) >= 6
+    assert sum(" paper, I" in line for line in lines) >= 10
+
+
+def test_parameters_lists_what_can_be_set_and_what_is_allowed(command: Command) -> None:
+    outcome = command("parameters")
+    assert outcome.code == 0
+    for name, declaration in PARAMETERS.items():
+        meaning, allowed = f"{name:26}{declaration.meaning}", f"allowed: {declaration.allowed}"
+        assert f"{meaning}\n{'':26}{allowed}\n" in outcome.out
+
+
+MISUSES = {
+    "render --preset phone": "There is no preset 'phone'; did you mean phone-68us? Known are ",
+    "render --set exposure=1ms": "There is no parameter 'exposure'; did you mean exposure_time?",
+    "render --set iso=0": "iso is 0; allowed: 1 to ",
+    "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
+    "render --set exposure_time=1Hz": "exposure_time is '1Hz', which is not a number in µs; ",
+    "render --set code=1024": "code is 1024; allowed with 10 bits: 0 to 1023.",
+    "render --set iso": "'iso' is no setting; write NAME=VALUE.",
+    "render --set yaw=80° --set distance=0.2m": "Turned like this at a distance of 0.2 m, ",
+    "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
+    "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",
+    "render --scene folder.png": "folder.png cannot be read: Is a directory.",
+    "render --scene text.txt": "This is not a TOML file: ",
+    "render -o missing/out.png": "missing/out.png cannot be written: No such file or directory.",
+    "render -o folder.png": "folder.png is a folder; name a file to write to.",
+    "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",
+    "decode missing.png": "missing.png cannot be read: No such file or directory.",
+    "decode folder.png": "folder.png is a folder, not a photo.",
+    "decode text.txt": "text.txt is not an image that can be read.",
+    "presets phone": "There is no preset 'phone'; did you mean phone-68us? Known are ",
+}
+
+
+@pytest.mark.parametrize("line", MISUSES)
+def test_a_misuse_is_answered_with_one_sentence_and_leaves_no_file(
+    command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("folder.png").mkdir()
+    Path("text.txt").write_text("no picture\n")
+    before = {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")}
+    words = line.split()
+    if words[0] == "render" and "-o" not in words:
+        words += ["-o", "out.png"]
+    outcome = command(*words)
+    assert outcome.code == 2
+    assert outcome.out == ""
+    assert outcome.err.startswith(f"occ-model: {MISUSES[line]}")
+    assert outcome.err.count("\n") == 1
+    assert outcome.err.endswith((".\n", "?\n"))
+    assert {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")} == before
+
+
+@pytest.mark.parametrize("line", ["", "fly", "render", "decode", "decode x.png --decoder none"])
+def test_a_command_that_is_none_is_answered_with_the_usage(
+    capsys: pytest.CaptureFixture[str], line: str
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(line.split())
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.startswith("usage: occ-model ")
+
+
+def test_the_module_is_the_command() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "occ_model", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == f"occ-model {occ.__version__}\n"

@@ -1,0 +1,191 @@
+"""How each kind of parameter checks, reads and writes its values."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from occ_model.declarations import (
+    MAX_PATTERN_CHIPS,
+    ChipPattern,
+    Choice,
+    Count,
+    Parameter,
+    Quantity,
+)
+from occ_model.errors import ParameterError
+from occ_model.parameters import PARAMETERS
+from occ_model.units import SECOND
+
+QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
+COUNTS = [p for p in PARAMETERS.values() if isinstance(p, Count)]
+CHOICES = [p for p in PARAMETERS.values() if isinstance(p, Choice)]
+PATTERN = ChipPattern("pattern", "Pattern", "", "Chips.", "")
+
+every_quantity = pytest.mark.parametrize("quantity", QUANTITIES, ids=lambda p: p.name)
+every_count = pytest.mark.parametrize("count", COUNTS, ids=lambda p: p.name)
+every_choice = pytest.mark.parametrize("choice", CHOICES, ids=lambda p: p.name)
+
+few = settings(max_examples=30)  # of each parameter, and there are many
+
+NO_NUMBERS = [True, False, None, "1", b"1", 1j, [1.0], np.array([1.0]), np.True_, {"x": 1}]
+
+
+@every_quantity
+@few
+@given(data=st.data())
+def test_a_quantity_accepts_every_number_within_its_range_as_it_is(
+    quantity: Quantity, data: st.DataObject
+) -> None:
+    value = data.draw(st.floats(quantity.low, quantity.high))
+    for number in (value, np.float64(value), Fraction(value)):
+        checked = quantity.check(number)
+        assert type(checked) is float
+        assert checked == value
+
+
+@every_quantity
+def test_a_quantity_accepts_what_its_refusal_says_is_allowed(quantity: Quantity) -> None:
+    low, high = quantity.allowed.split(" to ")
+    assert quantity.parse(low) == pytest.approx(quantity.low, rel=1e-6)
+    assert quantity.parse(high) == pytest.approx(quantity.high, rel=1e-6)
+
+
+@every_quantity
+@few
+@given(data=st.data())
+def test_a_refused_quantity_names_parameter_value_unit_and_range(
+    quantity: Quantity, data: st.DataObject
+) -> None:
+    below = st.floats(-1e300, quantity.low, exclude_max=True)
+    above = st.floats(quantity.high, 1e300, exclude_min=True)
+    value = data.draw(below | above)
+    with pytest.raises(ParameterError) as refused:
+        quantity.check(value)
+    name, rest = str(refused.value).split(" is ", 1)
+    shown, allowed = rest.split("; allowed: ")
+    assert name == quantity.name
+    assert allowed == f"{quantity.allowed}."
+    assert quantity.unit.parse(shown) == pytest.approx(value, rel=1e-5, abs=1e-300)
+
+
+@every_quantity
+def test_a_value_just_outside_is_not_shown_as_the_limit_itself(quantity: Quantity) -> None:
+    for limit, value in (
+        (quantity.low, quantity.low - 1e-9 * abs(quantity.low)),
+        (quantity.high, quantity.high + 1e-9 * abs(quantity.high)),
+    ):
+        if value != limit:
+            with pytest.raises(ParameterError) as refused:
+                quantity.check(value)
+            shown = str(refused.value).split(" is ", 1)[1].split("; allowed: ")[0]
+            assert shown != quantity.format(limit)
+
+
+@every_quantity
+def test_a_quantity_refuses_what_is_no_number(quantity: Quantity) -> None:
+    for value in NO_NUMBERS:
+        with pytest.raises(ParameterError) as refused:
+            quantity.check(value)
+        assert str(refused.value) == (
+            f"{quantity.name} is {value!r}, which is not a number; allowed: {quantity.allowed}."
+        )
+
+
+@every_quantity
+def test_a_quantity_refuses_what_is_not_finite_by_its_name(quantity: Quantity) -> None:
+    for value in (math.nan, math.inf, -math.inf):
+        with pytest.raises(ParameterError, match=f"^{quantity.name} is {value}.*; allowed: "):
+            quantity.check(value)
+
+
+@every_quantity
+def test_a_quantity_refuses_text_that_is_no_quantity(quantity: Quantity) -> None:
+    for text in ("", "nan", "inf", "1e999", "1/0", "many", "1 V", "1 2"):
+        with pytest.raises(ParameterError, match=rf"^{quantity.name} is .*; allowed: .* to .*\.$"):
+            quantity.parse(text)
+
+
+def test_a_refused_text_says_which_unit_was_expected() -> None:
+    quantity = Quantity("t", "T", "t", "A time.", SECOND, 1e-9, 1.0, (1e-6, 1e-3), "log", 136e-6)
+    with pytest.raises(ParameterError, match=r"^t is '10 Hz', which is not a number in µs; "):
+        quantity.parse("10 Hz")
+
+
+@pytest.mark.parametrize("declaration", PARAMETERS.values(), ids=lambda p: p.name)
+@pytest.mark.parametrize("power", [400, 5000], ids=["beyond-float", "beyond-print"])
+def test_a_whole_number_too_large_to_hold_is_refused_like_any_other(
+    declaration: Parameter, power: int
+) -> None:
+    with pytest.raises(ParameterError, match=rf"^{declaration.name} is .*; allowed: "):
+        declaration.check(10**power)
+
+
+@every_quantity
+def test_a_number_too_far_below_zero_to_hold_keeps_its_sign(quantity: Quantity) -> None:
+    with pytest.raises(ParameterError, match=f"^{quantity.name} is -inf"):
+        quantity.check(-(10**400))
+
+
+@every_count
+@few
+@given(data=st.data())
+def test_a_count_accepts_whole_numbers_of_any_type_within_its_range(
+    count: Count, data: st.DataObject
+) -> None:
+    value = data.draw(st.integers(count.low, count.high))
+    for number in (value, float(value), np.int64(value), np.float64(value)):
+        checked = count.check(number)
+        assert type(checked) is int
+        assert checked == value
+    for text in (f"{value}", f" {value} ", hex(value), bin(value), count.format(value)):
+        assert count.parse(text) == value
+
+
+@every_count
+def test_a_count_refuses_what_is_no_whole_number_in_its_range(count: Count) -> None:
+    for value in (1.5, math.nan, math.inf, -math.inf, count.low - 1, count.high + 1, *NO_NUMBERS):
+        with pytest.raises(ParameterError) as refused:
+            count.check(value)
+        assert str(refused.value) == f"{count.name} is {value!r}; allowed: {count.allowed}."
+    assert count.allowed == f"a whole number from {count.low} to {count.high}"
+
+
+@every_count
+def test_a_count_refuses_text_that_is_no_whole_number(count: Count) -> None:
+    for text in ("", "1.5", "ten", "1e3", "0b2", "1 2", "9" * 5000):
+        with pytest.raises(ParameterError, match=rf"^{count.name} is .*; allowed: a whole number "):
+            count.parse(text)
+
+
+@every_choice
+def test_a_choice_accepts_its_words_and_nothing_else(choice: Choice) -> None:
+    assert [choice.parse(f" {word} ") for word in choice.choices] == list(choice.choices)
+    for value in ("", "x", choice.choices[0].upper(), 0, None, choice.choices):
+        with pytest.raises(ParameterError) as refused:
+            choice.check(value)
+        assert str(refused.value) == (
+            f"{choice.name} is {value!r}; allowed: {', '.join(choice.choices)}."
+        )
+
+
+@given(pattern=st.text("01", max_size=64))
+def test_a_pattern_is_read_with_or_without_spaces(pattern: str) -> None:
+    assert PATTERN.check(pattern) == pattern
+    assert PATTERN.parse(" ".join(pattern)) == pattern
+
+
+@pytest.mark.parametrize("value", ["012", "1 0", "\u0661", 101, None, b"01", ["0", "1"]], ids=repr)
+def test_a_pattern_refuses_all_but_zeros_and_ones(value: object) -> None:
+    with pytest.raises(ParameterError, match=r"^pattern is .*; allowed: nothing, or up to 4096 "):
+        PATTERN.check(value)
+
+
+def test_a_pattern_is_as_long_as_allowed_and_no_longer() -> None:
+    longest = "01" * (MAX_PATTERN_CHIPS // 2)
+    assert PATTERN.check(longest) == longest
+    with pytest.raises(ParameterError, match=f"^pattern has {MAX_PATTERN_CHIPS + 1} chips; "):
+        PATTERN.check(longest + "0")

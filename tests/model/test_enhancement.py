@@ -1,0 +1,130 @@
+"""Contrast enhancement of a profile, and rounding."""
+
+import numpy as np
+import pytest
+import skimage.exposure
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from occ_model.camera.enhancement import enhance, enhancement_of, to_bytes
+from occ_model.parameters import PARAMETERS
+
+METHODS = ("equalization", "stretch", "none")
+
+profiles = arrays.arrays(np.float64, st.integers(1, 60), elements=st.floats(0.0, 255.0))
+wide = profiles.filter(lambda profile: np.ptp(profile) >= 1.0)
+methods = st.sampled_from(METHODS)
+
+
+def test_the_methods_tested_are_those_that_a_scene_can_name() -> None:
+    assert set(PARAMETERS["enhancement"].choices) == set(METHODS)
+
+
+@given(profile=wide, method=methods)
+def test_a_brighter_column_is_never_darker_after_it(profile: np.ndarray, method: str) -> None:
+    enhanced = enhance(profile, method)
+    assert enhanced.shape == profile.shape
+    assert enhanced.dtype == np.uint8
+    assert (np.diff(enhanced[np.argsort(profile)].astype(int)) >= 0).all()
+
+
+@given(profile=profiles, method=methods)
+def test_columns_of_one_value_keep_one_value(profile: np.ndarray, method: str) -> None:
+    twice = enhance(np.concatenate([profile, profile]), method)
+    np.testing.assert_array_equal(twice[: len(profile)], twice[len(profile) :])
+
+
+@given(level=st.floats(0.0, 255.0), columns=st.integers(1, 50), method=methods)
+def test_a_constant_profile_is_rounded_only(level: float, columns: int, method: str) -> None:
+    enhanced = enhance(np.full(columns, level), method)
+    np.testing.assert_array_equal(enhanced, np.full(columns, round(level)))
+
+
+@given(
+    base=st.floats(0.0, 254.0),
+    swing=arrays.arrays(np.float64, st.integers(2, 30), elements=st.floats(0.0, 0.999)),
+    method=methods,
+)
+def test_less_than_one_grey_level_is_not_stretched(
+    base: float, swing: np.ndarray, method: str
+) -> None:
+    np.testing.assert_array_equal(enhance(base + swing, method), np.rint(base + swing))
+
+
+@given(profile=profiles)
+def test_none_rounds_to_the_nearest_level(profile: np.ndarray) -> None:
+    assert np.abs(enhance(profile, "none") - profile).max() <= 0.5
+
+
+@given(profile=wide)
+def test_stretch_is_the_line_from_the_smallest_at_0_to_the_largest_at_255(
+    profile: np.ndarray,
+) -> None:
+    enhanced = enhance(profile, "stretch")
+    low, high = profile.min(), profile.max()
+    assert (enhanced[profile == low] == 0).all()
+    assert (enhanced[profile == high] == 255).all()
+    line = (profile - low) / (high - low) * 255
+    assert np.abs(enhanced - line).max() <= 0.5 + 1e-9
+
+
+@given(profile=wide)
+def test_equalization_spreads_the_share_of_darker_columns_over_all_levels(
+    profile: np.ndarray,
+) -> None:
+    rounded = np.rint(profile)
+    at_most = np.array([(rounded <= value).sum() for value in rounded])
+    darkest = at_most.min()
+    if darkest == len(profile):  # one level after rounding: nothing to spread
+        return
+    share = (at_most - darkest) / (len(profile) - darkest)
+    enhanced = enhance(profile, "equalization")
+    assert np.abs(enhanced - 255 * share).max() <= 0.5 + 1e-4
+    assert (enhanced.min(), enhanced.max()) == (0, 255)
+
+
+@given(profile=wide)
+def test_equalization_is_skimage_s_with_the_darkest_level_at_black(profile: np.ndarray) -> None:
+    theirs = skimage.exposure.equalize_hist(np.rint(profile).astype(np.uint8))
+    enhanced = enhance(profile, "equalization")
+    if theirs.min() < 1.0:
+        theirs = (theirs - theirs.min()) / (1.0 - theirs.min())
+        assert np.abs(enhanced - 255 * theirs).max() <= 0.5 + 1e-4
+
+
+@given(profile=profiles, others=profiles, method=methods)
+def test_a_picture_s_enhancement_treats_other_values_in_the_profile_s_order(
+    profile: np.ndarray, others: np.ndarray, method: str
+) -> None:
+    curve = enhancement_of(profile, method)
+    np.testing.assert_array_equal(curve(profile), enhance(profile, method))
+    both = np.concatenate([profile, others])
+    assert (np.diff(curve(both)[np.argsort(both)].astype(int)) >= 0).all()
+    np.testing.assert_array_equal(curve(both[None, :]), curve(both)[None, :])
+
+
+def test_equal_shares_become_equal_steps() -> None:
+    profile = np.repeat([10.0, 12.0, 40.0, 41.0], 25)
+    np.testing.assert_array_equal(
+        enhance(profile, "equalization"), np.repeat([0, 85, 170, 255], 25)
+    )
+
+
+@given(profile=profiles, method=methods)
+def test_a_profile_is_not_changed_by_enhancing_it(profile: np.ndarray, method: str) -> None:
+    before = profile.copy()
+    enhance(profile, method)
+    np.testing.assert_array_equal(profile, before)
+
+
+@pytest.mark.parametrize(
+    ("values", "levels"),
+    [
+        ([-1e9, -0.6, -0.4, 0.4, 0.6], [0, 0, 0, 0, 1]),
+        ([254.4, 254.6, 255.4, 256.0, 1e9], [254, 255, 255, 255, 255]),
+        ([0.5, 1.5, 2.5, 127.5], [0, 2, 2, 128]),
+    ],
+)
+def test_rounding_stays_within_what_a_byte_holds(values: list[float], levels: list[int]) -> None:
+    assert to_bytes(np.array(values)).tolist() == levels

@@ -1,0 +1,68 @@
+"""The model stands alone: no window, and nothing slow at start-up."""
+
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("PySide6", "pyqtgraph", "superqt", "matplotlib", "scipy", "skimage", "PIL", "pandas")
+
+BLOCK = f"""
+import sys
+
+class Blocked:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {HEAVY!r}:
+            raise ImportError(f"{{name}} is blocked here")
+
+sys.meta_path.insert(0, Blocked())
+"""
+
+USE = """
+import numpy as np
+import occ_model as occ
+
+scene = occ.load_preset("phone-136us").replace(rows=300, code=718)
+scene = occ.Scene.from_toml(scene.to_toml())
+frame = occ.render(scene)
+result = occ.decode(frame.image, scene)
+print(result.code, frame.image.shape)
+"""
+
+
+def run(program: str) -> list[str]:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, check=False
+    )
+    assert done.stderr == ""
+    assert done.returncode == 0
+    return done.stdout.split()
+
+
+@pytest.mark.parametrize("module", ["occ_model", "occ_model.cli"])
+def test_importing_the_model_imports_nothing_that_it_may_never_need(module: str) -> None:
+    loaded = run(f"import sys, {module}; print(*sys.modules)")
+    assert module in loaded
+    assert {name.partition(".")[0] for name in loaded} & {*HEAVY, "occ_gui"} == set()
+
+
+def test_a_scene_is_simulated_and_decoded_where_none_of_that_is_installed() -> None:
+    assert run(BLOCK + USE) == ["718", "(300,", "3456)"]
+
+
+def test_the_blocked_names_are_really_blocked() -> None:
+    probe = "try:\n    import PIL\nexcept ImportError as error:\n    print(error)\n"
+    assert run(BLOCK + probe) == ["PIL", "is", "blocked", "here"]
+
+
+def test_simulating_imports_nothing_heavy_either() -> None:
+    loaded = run(f"{USE}\nimport sys; print(*sys.modules)")
+    assert "occ_model.simulation" in loaded
+    assert {name.partition(".")[0] for name in loaded} & {*HEAVY, "occ_gui"} == set()
+
+
+def test_every_public_name_is_there() -> None:
+    import occ_model
+
+    assert sorted(occ_model.__all__) == list(occ_model.__all__)
+    assert [name for name in occ_model.__all__ if not hasattr(occ_model, name)] == []

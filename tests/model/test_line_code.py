@@ -1,0 +1,95 @@
+"""Differential Manchester."""
+
+from itertools import groupby, product
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from occ_model.transmitter.line_code import decode, encode
+
+BITS = 10
+
+every_level = pytest.mark.parametrize("level", [0, 1])
+levels = st.integers(0, 1)
+bit_strings = st.lists(st.integers(0, 1), max_size=40)
+
+
+@every_level
+def test_every_ten_bit_code_comes_back_without_violations(level: int) -> None:
+    for bits in product((0, 1), repeat=BITS):
+        read, violations = decode(encode(bits, level), level)
+        assert tuple(read) == bits
+        assert violations == []
+
+
+@given(bits=bit_strings, level=levels)
+def test_bits_of_any_number_come_back(bits: list[int], level: int) -> None:
+    chips = encode(bits, level)
+    assert chips.dtype == np.uint8
+    assert len(chips) == 2 * len(bits)
+    read, violations = decode(chips, level)
+    assert read.tolist() == bits
+    assert violations == []
+
+
+@every_level
+def test_every_bit_has_a_transition_in_its_middle_and_a_zero_one_at_its_start(level: int) -> None:
+    for bits in product((0, 1), repeat=BITS):
+        chips = encode(bits, level).tolist()
+        before = [level, *chips[1::2]]
+        for bit, last, first, second in zip(bits, before, chips[::2], chips[1::2], strict=False):
+            assert first != second
+            assert (first != last) == (bit == 0)
+
+
+@every_level
+def test_no_run_of_chips_is_longer_than_two_and_some_are(level: int) -> None:
+    longest = {
+        max(len(list(run)) for _, run in groupby([level, *encode(bits, level).tolist()]))
+        for bits in product((0, 1), repeat=BITS)
+    }
+    assert longest == {1, 2}
+
+
+@pytest.mark.parametrize(
+    ("bits", "level", "chips"),
+    [
+        ([0, 0, 0], 0, [1, 0, 1, 0, 1, 0]),
+        ([1, 1, 1], 0, [0, 1, 1, 0, 0, 1]),
+        ([1, 0, 1, 1], 0, [0, 1, 0, 1, 1, 0, 0, 1]),
+        ([0, 1], 1, [0, 1, 1, 0]),
+        ([], 1, []),
+    ],
+)
+def test_the_convention_is_that_of_ieee_802_5(
+    bits: list[int], level: int, chips: list[int]
+) -> None:
+    assert encode(bits, level).tolist() == chips
+
+
+@given(bits=bit_strings, level=levels)
+def test_the_other_level_before_turns_every_chip_round(bits: list[int], level: int) -> None:
+    np.testing.assert_array_equal(encode(bits, level) ^ 1, encode(bits, 1 - level))
+
+
+@given(bits=bit_strings.filter(bool), level=levels, data=st.data())
+def test_a_bit_that_loses_its_middle_transition_is_a_violation(
+    bits: list[int], level: int, data: st.DataObject
+) -> None:
+    broken = data.draw(st.sets(st.integers(0, len(bits) - 1), min_size=1))
+    chips = encode(bits, level)
+    for bit in broken:
+        chips[2 * bit + 1] = chips[2 * bit]
+    assert decode(chips, level)[1] == sorted(broken)
+
+
+@given(bits=bit_strings.filter(bool), level=levels, data=st.data())
+def test_one_wrong_chip_never_passes_unseen(
+    bits: list[int], level: int, data: st.DataObject
+) -> None:
+    chips = encode(bits, level)
+    wrong = data.draw(st.integers(0, len(chips) - 1))
+    chips[wrong] ^= 1
+    assert decode(chips, level)[1] == [wrong // 2]

@@ -1,0 +1,194 @@
+"""Finding the panel from its brightest pixels."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from occ_model.receiver.locate import locate
+from occ_model.results import Region
+
+FRACTION = 0.05
+
+images = arrays.arrays(np.uint8, arrays.array_shapes(min_dims=2, max_dims=2, max_side=24))
+
+
+def dark(rows: int, columns: int, level: int = 20) -> np.ndarray:
+    return np.full((rows, columns), level, dtype=np.uint8)
+
+
+def lit(rows: int, columns: int, region: Region, level: int = 200) -> np.ndarray:
+    image = dark(rows, columns)
+    put(image, region, level)
+    return image
+
+
+def put(image: np.ndarray, region: Region, level: int) -> None:
+    image[region.first_row : region.last_row, region.first_column : region.last_column] = level
+
+
+def inside(rows: int, columns: int) -> st.SearchStrategy[Region]:
+    """Any rectangle of an image, the borders and the single pixel among them."""
+    along = st.tuples(st.integers(0, rows), st.integers(0, rows)).filter(lambda p: p[0] != p[1])
+    across = st.tuples(st.integers(0, columns), st.integers(0, columns))
+    across = across.filter(lambda p: p[0] != p[1])
+    return st.builds(lambda r, c: Region(*sorted(r), *sorted(c)), along, across)
+
+
+@given(region=inside(60, 90).filter(lambda r: r.rows * r.columns < 60 * 90))
+def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> None:
+    assert locate(lit(60, 90, region), FRACTION) == region
+
+
+@pytest.mark.parametrize("shape", [(700, 1500), (1501, 1103), (3, 3000), (2000, 5)])
+@given(data=st.data())
+def test_a_bright_rectangle_is_found_exactly_in_a_large_image_too(
+    shape: tuple[int, int], data: st.DataObject
+) -> None:
+    region = data.draw(inside(*shape).filter(lambda r: r.rows * r.columns < shape[0] * shape[1]))
+    assert locate(lit(*shape, region), FRACTION) == region
+
+
+@pytest.mark.parametrize(
+    "region",
+    [
+        Region(0, 900, 0, 400),
+        Region(0, 1, 0, 1),
+        Region(899, 900, 1199, 1200),
+        Region(0, 900, 600, 601),
+        Region(450, 451, 0, 1200),
+        Region(100, 800, 1, 1199),
+        Region(440, 450, 700, 720),
+    ],
+    ids=lambda r: f"rows {r.first_row}-{r.last_row} columns {r.first_column}-{r.last_column}",
+)
+@pytest.mark.parametrize("fraction", [1e-4, FRACTION, 0.5])
+def test_the_share_of_bright_pixels_asked_for_does_not_move_a_rectangle(
+    region: Region, fraction: float
+) -> None:
+    assert locate(lit(900, 1200, region), fraction) == region
+
+
+@pytest.mark.parametrize("period", [4, 10, 37, 120])
+@pytest.mark.parametrize("shape", [(300, 400), (1200, 1600)])
+def test_a_striped_panel_is_found_from_its_first_to_its_last_bright_stripe(
+    shape: tuple[int, int], period: int
+) -> None:
+    image = dark(*shape)
+    first, last, top, bottom = 40, shape[1] - 60, 30, shape[0] - 50
+    starts = range(first, last - period // 2, period)
+    for start in starts:
+        put(image, Region(top, bottom, start, start + period // 2), 220)
+    assert locate(image, FRACTION) == Region(top, bottom, first, starts[-1] + period // 2)
+
+
+def test_stripes_of_several_brightnesses_are_one_panel() -> None:
+    image = dark(200, 300)
+    levels = [150, 220, 180, 255, 150]
+    edges = [50, 80, 110, 150, 160, 200]
+    for (start, end), level in zip(pairwise(edges), levels, strict=True):
+        put(image, Region(40, 160, start, end - 4), level)
+    assert locate(image, 0.5) == Region(40, 160, 50, 196)
+
+
+def test_a_stripe_of_one_column_is_no_speck() -> None:
+    image = dark(1200, 1600)
+    for first, last in ((200, 201), (300, 310), (400, 410), (500, 501)):
+        put(image, Region(100, 1000, first, last), 220)
+    assert locate(image, FRACTION) == Region(100, 1000, 200, 501)
+
+
+@given(places=st.sets(st.tuples(st.integers(0, 74), st.integers(0, 124)), max_size=60))
+def test_isolated_hot_pixels_away_from_the_panel_do_not_widen_it(
+    places: set[tuple[int, int]],
+) -> None:
+    panel = Region(300, 900, 500, 1700)
+    image = lit(1500, 2500, panel)
+    for row, column in places:
+        # The contours live on a coarser grid: what lies within a cell of them is part of them.
+        if not (14 <= row <= 45 and 24 <= column <= 85):
+            image[20 * row, 20 * column] = 255
+    assert locate(image, FRACTION) == panel
+
+
+def test_a_panel_far_away_is_not_lost_among_the_surroundings_brightest_pixels() -> None:
+    rng = np.random.default_rng(3)
+    image = rng.integers(10, 30, (600, 800), dtype=np.uint8)
+    panel = Region(250, 280, 390, 420)  # 0.2 % of the area
+    put(image, panel, 200)
+    assert locate(image, FRACTION) == panel
+
+
+@given(
+    level=st.integers(0, 255),
+    shape=arrays.array_shapes(min_dims=2, max_dims=2, max_side=2000).filter(
+        lambda shape: shape[0] * shape[1] < 10**6
+    ),
+)
+def test_a_constant_image_shows_no_panel(level: int, shape: tuple[int, int]) -> None:
+    assert locate(dark(*shape, level), FRACTION) is None
+
+
+def check_any(image: np.ndarray, fraction: float) -> None:
+    """Check what holds for the region of any image."""
+    before = image.copy()
+    region = locate(image, fraction)
+    np.testing.assert_array_equal(image, before)
+    if region is None:
+        assert np.ptp(image) == 0
+        return
+    rows, columns = image.shape
+    assert 0 <= region.first_row < region.last_row <= rows
+    assert 0 <= region.first_column < region.last_column <= columns
+    outside = image.copy()
+    put(outside, region, 0)
+    # Without the brightest pixels there is no panel; each edge touches one brighter than the rest.
+    assert outside.max() < image.max()
+    part = image[region.first_row : region.last_row, region.first_column : region.last_column]
+    for edge in (part[0], part[-1], part[:, 0], part[:, -1]):
+        assert edge.max() > image.min()
+        assert edge.max() > outside.max()
+
+
+@given(image=images, fraction=st.floats(1e-4, 0.5))
+def test_the_region_of_any_image_holds_its_bright_pixels_and_is_drawn_close_round_them(
+    image: np.ndarray, fraction: float
+) -> None:
+    check_any(image, fraction)
+
+
+@given(
+    line=arrays.arrays(np.uint8, st.integers(1, 400)),
+    fraction=st.floats(1e-4, 0.5),
+)
+def test_the_same_holds_for_images_of_one_row_or_one_column(
+    line: np.ndarray, fraction: float
+) -> None:
+    check_any(line[None, :], fraction)
+    check_any(line[:, None], fraction)
+
+
+@given(image=images, fraction=st.floats(1e-4, 0.5))
+def test_a_mirrored_or_turned_image_has_the_mirrored_or_turned_region(
+    image: np.ndarray, fraction: float
+) -> None:
+    region = locate(image, fraction)
+    turned = locate(np.ascontiguousarray(image.T), fraction)
+    mirrored = locate(np.ascontiguousarray(image[:, ::-1]), fraction)
+    if region is None:
+        assert turned is None
+        assert mirrored is None
+        return
+    assert turned == Region(
+        region.first_column, region.last_column, region.first_row, region.last_row
+    )
+    columns = image.shape[1]
+    assert mirrored == Region(
+        region.first_row,
+        region.last_row,
+        columns - region.last_column,
+        columns - region.first_column,
+    )

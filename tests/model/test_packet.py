@@ -1,0 +1,103 @@
+"""The packet, and the endless sequence that it makes."""
+
+from itertools import groupby
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.parameters import MAX_BITS
+from occ_model.scene import Scene
+from occ_model.transmitter import line_code
+from occ_model.transmitter.packet import HEADER, bits_of, code_of, packet_length, sent_chips
+
+BITS = 10
+CODES = range(2**BITS)
+
+
+def sent(code: int) -> list[int]:
+    return occ.packet(Scene().replace(code=code)).tolist()
+
+
+def endless(chips: list[int]) -> bytes:
+    """Name an endless sequence by the smallest of its periods' rotations."""
+    twice = bytes(chips) * 2
+    return min(twice[start : start + len(chips)] for start in range(len(chips)))
+
+
+def longest_run(chips: list[int], value: int) -> int:
+    """Length of the longest run in the endless sequence."""
+    return max(len(list(run)) for chip, run in groupby(chips * 2) if chip == value)
+
+
+@given(bits=st.integers(1, MAX_BITS), data=st.data())
+def test_a_code_is_its_bits_with_the_most_significant_first(bits: int, data: st.DataObject) -> None:
+    code = data.draw(st.integers(0, 2**bits - 1))
+    written = bits_of(code, bits)
+    assert "".join(map(str, written)) == f"{code:0{bits}b}"
+    assert code_of(written) == code
+    assert code_of(np.array(written, dtype=np.uint8)) == code
+
+
+def test_the_header_is_three_ones_and_a_zero() -> None:
+    assert HEADER == (1, 1, 1, 0)
+    assert all(sent(code)[:4] == [1, 1, 1, 0] for code in CODES)
+
+
+@pytest.mark.parametrize("bits", [2, 3, BITS, MAX_BITS])
+def test_a_packet_is_four_chips_and_two_a_bit(bits: int) -> None:
+    scene = Scene().replace(bits=bits, code=2**bits - 1)
+    assert len(occ.packet(scene)) == packet_length(bits) == 4 + 2 * bits
+
+
+def test_the_packet_of_a_known_code() -> None:
+    by_hand = "1110 01 01 10 01 01 01 10 01 10 10"
+    assert "".join(map(str, sent(0b1011001110))) == by_hand.replace(" ", "")
+
+
+def test_ten_bits_make_24_chips() -> None:
+    assert {len(sent(code)) for code in CODES} == {24}
+
+
+def test_no_two_codes_make_the_same_endless_sequence() -> None:
+    assert len({endless(sent(code)) for code in CODES}) == len(CODES)
+
+
+def test_with_three_ones_alone_codes_0_and_512_would_be_the_same() -> None:
+    sequences: dict[bytes, list[int]] = {}
+    for code in CODES:
+        data = line_code.encode(bits_of(code, BITS), level=1)
+        sequences.setdefault(endless([1, 1, 1, *data.tolist()]), []).append(code)
+    assert [codes for codes in sequences.values() if len(codes) > 1] == [[0, 512]]
+
+
+def test_no_run_of_ones_is_longer_than_four_and_none_of_zeros_longer_than_two() -> None:
+    assert {longest_run(sent(code), 1) for code in CODES} == {3, 4}
+    assert {longest_run(sent(code), 0) for code in CODES} <= {1, 2}
+
+
+def test_three_ones_in_a_row_stand_nowhere_but_at_the_header() -> None:
+    for code in CODES:
+        chips = sent(code)
+        twice = chips * 2
+        threes = {start for start in range(24) if twice[start : start + 3] == [1, 1, 1]}
+        assert threes == ({0, 23} if chips[-1] else {0})
+
+
+@given(pattern=st.text("01", min_size=1, max_size=60), code=st.sampled_from(CODES))
+def test_a_raw_pattern_is_sent_as_it_is_whatever_the_code(pattern: str, code: int) -> None:
+    chips = occ.packet(Scene().replace(pattern=pattern, code=code))
+    assert chips.dtype == np.uint8
+    assert "".join(map(str, chips)) == pattern
+
+
+@pytest.mark.parametrize("pattern", ["", "0110"])
+def test_the_chips_sent_cannot_be_changed_by_who_reads_them(pattern: str) -> None:
+    scene = Scene().replace(pattern=pattern)
+    for chips in (occ.packet(scene), sent_chips(scene.transmitter)):
+        before = chips.tolist()
+        with pytest.raises(ValueError, match="read-only"):
+            chips[0] = 0
+        assert occ.packet(scene).tolist() == before

@@ -1,0 +1,153 @@
+"""The table of parameters, and their sliders."""
+
+import re
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from occ_model.declarations import Count, Parameter, Quantity
+from occ_model.errors import OccError, ParameterError
+from occ_model.parameters import MAX_BITS, PARAMETERS, parameter_named
+
+every_parameter = pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
+every_quantity = pytest.mark.parametrize(
+    "quantity", [p for p in PARAMETERS.values() if isinstance(p, Quantity)], ids=lambda p: p.name
+)
+few = settings(max_examples=30)  # of each parameter, and there are many
+positions = st.floats(0.0, 1.0)
+
+
+@every_parameter
+def test_a_default_is_a_value_that_the_parameter_accepts(parameter: Parameter) -> None:
+    assert parameter.check(parameter.default) == parameter.default
+
+
+@every_parameter
+def test_a_default_survives_being_written_and_read(parameter: Parameter) -> None:
+    text = parameter.format(parameter.default)
+    assert parameter.parse(text) == parameter.default
+
+
+@every_quantity
+def test_a_slider_lies_within_the_range_and_holds_the_default(quantity: Quantity) -> None:
+    low, high = quantity.slider
+    assert quantity.low <= low < high <= quantity.high
+    assert low <= quantity.default <= high
+
+
+@every_quantity
+def test_a_slider_over_two_decades_or_more_is_logarithmic(quantity: Quantity) -> None:
+    low, high = quantity.slider
+    if low > 0 and high / low >= 100 * (1 - 1e-12):
+        assert quantity.scale == "log"
+    if low <= 0:
+        assert quantity.scale == "linear"
+
+
+@every_quantity
+def test_the_ends_of_the_slider_are_the_ends_of_its_range(quantity: Quantity) -> None:
+    assert (quantity.at(0.0), quantity.at(1.0)) == quantity.slider
+    assert (quantity.fraction(quantity.slider[0]), quantity.fraction(quantity.slider[1])) == (0, 1)
+
+
+@every_quantity
+@few
+@given(lower=positions, upper=positions)
+def test_a_slider_further_up_never_gives_a_smaller_value(
+    quantity: Quantity, lower: float, upper: float
+) -> None:
+    lower, upper = sorted((lower, upper))
+    assert quantity.at(lower) <= quantity.at(upper)
+    if upper - lower > 0.01:
+        assert quantity.at(lower) < quantity.at(upper)
+
+
+@every_quantity
+@few
+@given(position=positions)
+def test_a_slider_s_position_and_value_are_inverse_to_four_digits(
+    quantity: Quantity, position: float
+) -> None:
+    value = quantity.slider[0] + (quantity.slider[1] - quantity.slider[0]) * position
+    assert quantity.at(quantity.fraction(value)) == pytest.approx(value, rel=6e-4, abs=1e-12)
+
+
+@every_quantity
+@few
+@given(position=positions)
+def test_a_slider_s_value_is_the_one_that_its_text_says(
+    quantity: Quantity, position: float
+) -> None:
+    value = quantity.at(position)
+    assert quantity.parse(quantity.format(value)) == value
+
+
+@every_quantity
+@few
+@given(beyond=st.floats(0.0, 1e20))
+def test_a_value_outside_the_slider_s_range_stands_at_its_end(
+    quantity: Quantity, beyond: float
+) -> None:
+    assert quantity.fraction(quantity.slider[0] - beyond) == 0
+    assert quantity.fraction(quantity.slider[1] + beyond) == 1
+
+
+@every_quantity
+def test_the_middle_of_a_slider_is_the_mean_that_its_scale_says(quantity: Quantity) -> None:
+    low, high = quantity.slider
+    middle = (low * high) ** 0.5 if quantity.scale == "log" else (low + high) / 2
+    assert quantity.at(0.5) == pytest.approx(middle, rel=6e-4, abs=1e-12)
+
+
+def test_a_code_may_have_all_the_bits_that_are_allowed() -> None:
+    bits, code = PARAMETERS["bits"], PARAMETERS["code"]
+    assert isinstance(bits, Count)
+    assert isinstance(code, Count)
+    assert bits.high == MAX_BITS
+    assert (code.low, code.high) == (0, 2**bits.high - 1)
+
+
+def test_every_parameter_is_declared_under_its_own_name() -> None:
+    assert [p.name for p in PARAMETERS.values()] == list(PARAMETERS)
+
+
+def test_no_two_parameters_share_a_label_or_a_symbol() -> None:
+    labels = [p.label for p in PARAMETERS.values()]
+    symbols = [p.symbol for p in PARAMETERS.values() if p.symbol]
+    assert len(set(labels)) == len(labels)
+    assert len(set(symbols)) == len(symbols)
+
+
+@every_parameter
+def test_a_meaning_is_one_sentence_on_one_line(parameter: Parameter) -> None:
+    assert re.fullmatch(r"[A-Z][^\n]*[^.\s]\.", parameter.meaning)
+    assert parameter.label.strip() == parameter.label != ""
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_a_misspelt_name_is_answered_with_the_nearest(name: str) -> None:
+    misspelt = f"{name}s"
+    with pytest.raises(ParameterError) as refused:
+        parameter_named(misspelt)
+    assert str(refused.value) == f"There is no parameter {misspelt!r}; did you mean {name}?"
+
+
+@pytest.mark.parametrize("name", ["", "zzzz", "0", "?"])
+def test_a_name_like_no_other_is_answered_with_all_there_are(name: str) -> None:
+    with pytest.raises(ParameterError) as refused:
+        parameter_named(name)
+    assert str(refused.value) == (
+        f"There is no parameter {name!r}; known are {', '.join(PARAMETERS)}."
+    )
+
+
+def test_a_parameter_is_found_only_among_the_names_asked_for() -> None:
+    assert parameter_named("iso", ("iso", "gamma")) is PARAMETERS["iso"]
+    with pytest.raises(ParameterError, match=r"^There is no parameter 'iso'; known are gamma\.$"):
+        parameter_named("iso", ("gamma",))
+
+
+def test_a_refusal_is_a_value_error_and_one_of_ours() -> None:
+    assert issubclass(ParameterError, ValueError)
+    assert issubclass(ParameterError, OccError)

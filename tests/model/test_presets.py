@@ -1,0 +1,174 @@
+"""The scenes that come with the package."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from occ_model.errors import OccError, ParameterError, PresetError, SceneFileError
+from occ_model.parameters import PARAMETERS
+from occ_model.presets import Preset, load_preset, preset_named, presets
+from occ_model.scene import Scene
+
+PAPER = ("phone-136us", "phone-68us", "tablet-122us", "tablet-61us")
+
+every_preset = pytest.mark.parametrize("name", presets())
+papers_presets = pytest.mark.parametrize("name", PAPER)
+
+
+def test_the_papers_four_experiments_are_there_in_the_order_of_their_names() -> None:
+    assert set(PAPER) <= set(presets())
+    assert list(presets()) == sorted(presets())
+
+
+@every_preset
+def test_a_preset_loads_under_its_name_with_a_title_of_its_own(name: str) -> None:
+    preset = preset_named(name)
+    assert preset.name == name
+    assert load_preset(name) == preset.scene
+    assert preset.title
+    assert [n for n in presets() if preset_named(n).title == preset.title] == [name]
+
+
+def test_no_two_presets_are_the_same_scene() -> None:
+    assert len({load_preset(name) for name in presets()}) == len(presets())
+
+
+@every_preset
+def test_no_value_has_both_a_source_and_an_assumption(name: str) -> None:
+    preset = preset_named(name)
+    assert not set(preset.sources) & set(preset.assumed)
+    assert set(preset.sources) | set(preset.assumed) <= set(PARAMETERS)
+
+
+@every_preset
+@pytest.mark.parametrize("parameter", PARAMETERS)
+def test_a_value_that_is_not_nothing_has_a_source_or_a_reason(name: str, parameter: str) -> None:
+    preset = preset_named(name)
+    if preset.scene.value(parameter) not in (0, ""):
+        note = preset.sources.get(parameter) or preset.assumed.get(parameter, "")
+        assert len(note.split()) > 1, f"{parameter} of {name} has no note"
+
+
+@papers_presets
+def test_what_the_paper_states_names_it_and_what_it_does_not_is_assumed(name: str) -> None:
+    preset = preset_named(name)
+    stated = {"bits", "luminance", "iso", "gamma", "meter_constant", "illuminance", "reflectance"}
+    stated |= {"readout_time", "bright_fraction", "averaging", "enhancement"}
+    unstated = {"code", "panel_width", "panel_height", "rows", "columns", "f_number"}
+    unstated |= {"equivalent_focal_length"}
+    # The paper gives the phone's exposures, and only hints at the tablet's.
+    (stated if name.startswith("phone") else unstated).add("exposure_time")
+    assert stated <= set(preset.sources)
+    assert unstated <= set(preset.assumed)
+    for parameter in stated:
+        assert preset.sources[parameter].startswith("paper, ")
+
+
+@pytest.mark.parametrize(
+    ("name", "exposure", "readout", "rows", "columns", "f_number"),
+    [
+        ("phone-136us", 136e-6, 8e-6, 4608, 3456, 2.48),
+        ("phone-68us", 68e-6, 8e-6, 4608, 3456, 2.48),
+        ("tablet-122us", 122e-6, 13e-6, 3264, 2448, 2.0),
+        ("tablet-61us", 61e-6, 13e-6, 3264, 2448, 2.0),
+    ],
+)
+def test_a_device_has_the_papers_numbers(
+    name: str, exposure: float, readout: float, rows: int, columns: int, f_number: float
+) -> None:
+    camera = load_preset(name).camera
+    assert (camera.exposure_time, camera.readout_time) == (exposure, readout)
+    assert (camera.rows, camera.columns, camera.f_number) == (rows, columns, f_number)
+    assert camera.equivalent_focal_length == 0.026
+
+
+@papers_presets
+def test_the_experiment_has_the_papers_numbers(name: str) -> None:
+    scene = load_preset(name)
+    expected = {
+        "bits": 10,
+        "pattern": "",
+        "luminance": 3600.0,
+        "panel_width": 0.6,
+        "panel_height": 0.6,
+        "iso": 100.0,
+        "gamma": 2.22,
+        "meter_constant": 12.5,
+        "illuminance": 290.0,
+        "reflectance": 0.4,
+        "bright_fraction": 0.05,
+        "averaging": "pixel-value",
+        "enhancement": "equalization",
+        "distance": 1.2,
+        "switching_frequency": 10e3,
+    }
+    assert {parameter: scene.value(parameter) for parameter in expected} == expected
+
+
+@papers_presets
+def test_the_papers_camera_looks_straight_at_the_panels_centre(name: str) -> None:
+    pose = load_preset(name).pose
+    assert (pose.offset_x, pose.offset_y, pose.yaw, pose.pitch, pose.roll) == (0, 0, 0, 0, 0)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder of presets of our own; names that are used nowhere else, since presets are kept."""
+    module = sys.modules[Preset.__module__]  # the package's own name `presets` is the function
+    monkeypatch.setattr(module, "resource_path", lambda *parts: tmp_path.joinpath(*parts))
+    (tmp_path / "presets").mkdir()
+    return tmp_path / "presets"
+
+
+def test_a_note_on_a_changed_value_replaces_the_one_on_the_value_before(folder: Path) -> None:
+    (folder / "own-base.toml").write_text(
+        'format = 1\ntitle = "Base"\n[camera]\niso = 200\ngamma = 2.0\n'
+        '[sources]\niso = "a book"\n[assumed]\ngamma = "a guess"\n'
+    )
+    (folder / "own-child.toml").write_text(
+        'format = 1\nbased_on = "own-base"\n[camera]\niso = 400\ngamma = 1.0\n'
+        '[sources]\ngamma = "a measurement"\n[assumed]\niso = "a hunch"\n'
+    )
+    assert presets() == ("own-base", "own-child")
+    child = preset_named("own-child")
+    assert (child.title, child.sources, child.assumed) == (
+        "Base",
+        {"gamma": "a measurement"},
+        {"iso": "a hunch"},
+    )
+    assert child.scene == Scene().replace(iso=400, gamma=1.0)
+    assert preset_named("own-base").sources == {"iso": "a book"}
+
+
+def test_a_note_on_what_is_no_parameter_is_refused(folder: Path) -> None:
+    (folder / "own-note.toml").write_text('format = 1\n[sources]\nisoo = "a book"\n')
+    with pytest.raises(ParameterError, match=r"^There is no parameter 'isoo'; did you mean iso\?$"):
+        preset_named("own-note")
+
+
+def test_a_preset_file_that_is_not_text_is_refused_by_its_name(folder: Path) -> None:
+    (folder / "own-bytes.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(SceneFileError, match=r"^The preset file own-bytes\.toml cannot be read: "):
+        preset_named("own-bytes")
+
+
+@pytest.mark.parametrize("name", ["", "phone", "devices/phone", "phone-136us.toml", "../x", "ZZ"])
+def test_an_unknown_preset_is_refused_with_the_names_there_are(name: str) -> None:
+    with pytest.raises(PresetError) as refused:
+        load_preset(name)
+    sentence = str(refused.value)
+    assert sentence.startswith(f"There is no preset {name!r}; ")
+    assert sentence.endswith(f"Known are {', '.join(presets())}.")
+    with pytest.raises(PresetError, match=r"^There is no preset "):
+        preset_named(name)
+
+
+def test_a_misspelt_preset_is_answered_with_the_nearest() -> None:
+    with pytest.raises(PresetError, match=r"^There is no preset 'phone-138us'; did you mean phone"):
+        load_preset("phone-138us")
+
+
+def test_an_unknown_preset_is_a_key_error_and_one_of_ours() -> None:
+    assert issubclass(PresetError, KeyError)
+    assert issubclass(PresetError, OccError)

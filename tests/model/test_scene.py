@@ -1,0 +1,179 @@
+"""A scene as a value."""
+
+import copy
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import occ_model.scene
+from occ_model.declarations import ChipPattern, Choice, Count, Parameter, Quantity
+from occ_model.errors import ParameterError
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import GROUPS, Scene, group_of
+
+
+def values(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
+    """Any value that a parameter accepts."""
+    match parameter:
+        case Quantity():
+            return st.floats(parameter.low, parameter.high)
+        case Count():
+            return st.integers(parameter.low, parameter.high)
+        case Choice():
+            return st.sampled_from(parameter.choices)
+        case ChipPattern():
+            return st.text("01", max_size=40)
+
+
+# A code must fit its bits: the law of that has tests of its own.
+FREE = {name: values(p) for name, p in PARAMETERS.items() if name not in ("code", "bits")}
+changes = st.fixed_dictionaries({}, optional=FREE)
+
+
+def test_a_scene_is_made_of_the_declared_defaults() -> None:
+    scene = Scene()
+    assert {name: scene.value(name) for name in PARAMETERS} == {
+        name: parameter.default for name, parameter in PARAMETERS.items()
+    }
+
+
+def test_the_groups_hold_every_parameter_exactly_once() -> None:
+    names = [name for group in GROUPS.values() for name in group]
+    assert sorted(names) == sorted(PARAMETERS)
+    assert set(GROUPS) == {field.name for field in dataclasses.fields(Scene)}
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_a_parameter_stands_in_the_group_that_it_is_said_to(name: str) -> None:
+    scene = Scene()
+    assert getattr(getattr(scene, group_of(name)), name) == PARAMETERS[name].default
+    assert scene.tables()[group_of(name)][name] == PARAMETERS[name].default
+
+
+@given(changes=changes)
+def test_replace_changes_what_it_names_and_nothing_else(changes: dict[str, float]) -> None:
+    before = Scene()
+    after = before.replace(**changes)
+    for name in PARAMETERS:
+        assert after.value(name) == changes.get(name, PARAMETERS[name].default)
+    assert before == Scene()
+
+
+@given(first=changes, second=changes)
+def test_scenes_are_equal_when_all_their_values_are(
+    first: dict[str, float], second: dict[str, float]
+) -> None:
+    one, other = Scene().replace(**first), Scene().replace(**second)
+    same = all(one.value(name) == other.value(name) for name in PARAMETERS)
+    assert (one == other) is same
+    assert one == Scene().replace(**dict(reversed(first.items())))
+    assert hash(one) == hash(Scene().replace(**first))
+    assert {one: "found"}[Scene().replace(**first)] == "found"
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
+def test_scenes_that_differ_in_one_parameter_are_not_equal(parameter: Parameter) -> None:
+    match parameter:
+        case Quantity():
+            other: float | int | str = (parameter.low + parameter.default) / 2 + 1e-9
+        case Count():
+            other = parameter.default + 1
+        case Choice():
+            other = parameter.choices[-1]
+        case ChipPattern():
+            other = "01"
+    assert Scene().replace(**{parameter.name: other}) != Scene()
+
+
+@given(changes=changes)
+def test_a_scene_survives_copy_pickle_and_repr(changes: dict[str, float]) -> None:
+    scene = Scene().replace(**changes)
+    copies = [copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))]
+    copies.append(eval(repr(scene), vars(occ_model.scene)))
+    for same in copies:
+        assert same == scene
+        assert hash(same) == hash(scene)
+        assert type(same) is Scene
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_a_scene_never_changes(name: str) -> None:
+    scene = Scene()
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        setattr(getattr(scene, group_of(name)), name, PARAMETERS[name].default)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        setattr(scene, group_of(name), getattr(scene, group_of(name)))
+
+
+@given(bits=values(PARAMETERS["bits"]), code=values(PARAMETERS["code"]))
+def test_a_code_is_accepted_where_it_fits_its_bits_in_any_order_of_naming(
+    bits: int, code: int
+) -> None:
+    for changes in ({"bits": bits, "code": code}, {"code": code, "bits": bits}):
+        if code < 2**bits:
+            scene = Scene().replace(**changes)
+            assert (scene.value("bits"), scene.value("code")) == (bits, code)
+        else:
+            with pytest.raises(ParameterError) as refused:
+                Scene().replace(**changes)
+            assert str(refused.value) == (
+                f"code is {code}; allowed with {bits} bits: 0 to {2**bits - 1}."
+            )
+
+
+def test_a_code_that_does_not_fit_is_refused_whichever_changes_last() -> None:
+    with pytest.raises(ParameterError, match=r"^code is 1024; allowed with 10 bits: 0 to 1023\.$"):
+        Scene().replace(code=1024)
+    with pytest.raises(ParameterError, match=r"^code is 718; allowed with 9 bits: 0 to 511\.$"):
+        Scene().replace(bits=9)
+    assert Scene().replace(code=3).replace(bits=2).value("code") == 3
+    assert Scene().replace(bits=11).replace(code=1024).value("code") == 1024
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
+def test_a_bad_value_is_refused_by_the_parameter_s_name(parameter: Parameter) -> None:
+    with pytest.raises(ParameterError, match=f"^{parameter.name} is None.*; allowed: "):
+        Scene().replace(**{parameter.name: None})
+    group = type(getattr(Scene(), group_of(parameter.name)))
+    with pytest.raises(ParameterError, match=f"^{parameter.name} is None.*; allowed: "):
+        group(**{parameter.name: None})
+
+
+def test_an_unknown_name_is_answered_with_the_nearest() -> None:
+    for refused in (
+        lambda: Scene().replace(exposure_tme=1e-3),
+        lambda: Scene().value("exposure_tme"),
+        lambda: group_of("exposure_tme"),
+    ):
+        with pytest.raises(ParameterError, match=r"'exposure_tme'; did you mean exposure_time\?$"):
+            refused()
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_a_group_s_name_is_not_a_parameter_s(group: str) -> None:
+    with pytest.raises(ParameterError, match=f"^There is no parameter '{group}'; "):
+        Scene().replace(**{group: getattr(Scene(), group)})
+
+
+@pytest.mark.parametrize("number", [200, np.float32(200), np.int16(200), np.float64(200)], ids=repr)
+def test_a_scene_holds_plain_numbers_whatever_it_was_given(number: float) -> None:
+    scene = Scene().replace(iso=number, rows=int(number))
+    assert type(scene.value("iso")) is float
+    assert type(scene.value("rows")) is int
+    assert scene == Scene().replace(iso=200.0, rows=200)
+
+
+@given(frequency=st.floats(1.0, 1e9))
+def test_a_chip_lasts_one_over_the_switching_frequency(frequency: float) -> None:
+    transmitter = Scene().replace(switching_frequency=frequency).transmitter
+    assert transmitter.switching_period * frequency == pytest.approx(1.0, rel=1e-15)
+
+
+def test_a_26_mm_lens_sees_the_angle_of_its_35_mm_equivalent() -> None:
+    camera = Scene().replace(rows=2400, columns=3600, equivalent_focal_length=0.026).camera
+    # 24 mm x 36 mm has a diagonal of 43.27 mm: as many pixels a millimetre as 3600 over 36.
+    assert camera.focal_length_pixels == pytest.approx(26 * 3600 / 36, rel=1e-4)

@@ -1,0 +1,166 @@
+"""Scene files: TOML out and in."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from occ_model.declarations import ChipPattern, Choice, Count, Quantity
+from occ_model.errors import OccError, ParameterError, SceneFileError
+from occ_model.parameters import MAX_BITS, PARAMETERS
+from occ_model.scene import GROUPS, Scene
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> Scene:
+    """Any scene there can be."""
+    changes: dict[str, float | int | str] = {}
+    for name, parameter in PARAMETERS.items():
+        match parameter:
+            case Quantity():
+                changes[name] = draw(st.floats(parameter.low, parameter.high))
+            case Count():
+                changes[name] = draw(st.integers(parameter.low, parameter.high))
+            case Choice():
+                changes[name] = draw(st.sampled_from(parameter.choices))
+            case ChipPattern():
+                changes[name] = draw(st.text("01", max_size=40))
+    fewest = max(PARAMETERS["bits"].low, int(changes["code"]).bit_length())
+    changes["bits"] = draw(st.integers(fewest, MAX_BITS))
+    return Scene().replace(**changes)
+
+
+def exact(scene: Scene) -> list[str]:
+    """All values with every bit: also the sign of a zero."""
+    texts = []
+    for name in PARAMETERS:
+        value = scene.value(name)
+        texts.append(value.hex() if isinstance(value, float) else repr(value))
+    return texts
+
+
+@given(scene=scenes())
+def test_a_scene_comes_back_from_its_file_to_the_last_bit(scene: Scene) -> None:
+    read = Scene.from_toml(scene.to_toml())
+    assert read == scene
+    assert exact(read) == exact(scene)
+
+
+@given(scene=scenes())
+def test_a_scene_is_written_as_its_format_and_one_table_a_group(scene: Scene) -> None:
+    lines = scene.to_toml().splitlines()
+    assert lines[0] == "format = 1"
+    assert [line for line in lines if line.startswith("[")] == [f"[{group}]" for group in GROUPS]
+    for name in PARAMETERS:
+        assert sum(line.startswith(f"{name} = ") for line in lines) == 1
+
+
+@given(data=st.data())
+def test_a_partial_file_keeps_the_defaults_of_what_it_does_not_name(data: st.DataObject) -> None:
+    scene = data.draw(scenes())
+    kept = data.draw(st.sets(st.sampled_from(sorted(set(PARAMETERS) - {"code", "bits"}))))
+    lines = [
+        line
+        for line in scene.to_toml().splitlines()
+        if line.startswith(("[", "format")) or line.split(" = ")[0] in kept
+    ]
+    read = Scene.from_toml("\n".join(lines))
+    for name in PARAMETERS:
+        assert read.value(name) == (scene.value(name) if name in kept else Scene().value(name))
+
+
+def test_a_file_with_nothing_but_its_format_is_the_default_scene() -> None:
+    assert Scene.from_toml("format = 1") == Scene()
+    assert Scene.from_toml("# words\r\nformat = 1\r\n[camera]\r\n") == Scene()
+
+
+def test_a_whole_number_may_stand_for_a_real_one_and_the_other_way_round() -> None:
+    text = "format = 1\n[camera]\niso = 200\nrows = 300.0\n"
+    assert exact(Scene.from_toml(text)) == exact(Scene().replace(iso=200.0, rows=300))
+
+
+def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
+    for lines in ("bits = 12\ncode = 4095", "code = 4095\nbits = 12"):
+        scene = Scene.from_toml(f"format = 1\n[transmitter]\n{lines}")
+        assert (scene.value("code"), scene.value("bits")) == (4095, 12)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", r"^This is not a scene file: it has no line 'format = 1'\.$"),
+        ("[camera]\niso = 100", r"^This is not a scene file: it has no line 'format = 1'\.$"),
+        ("format = 2", r"^The scene file has format 2; this version reads format 1\.$"),
+        ("format = 0", r"^The scene file has format 0; this version reads format 1\.$"),
+        ("format = '1'", r"^The scene file has format '1'; this version reads format 1\.$"),
+        ("format = true", r"^The scene file has format True; this version reads format 1\.$"),
+        ("format = []", r"^The scene file has format \[\]; this version reads format 1\.$"),
+        ("format = 1\nformat = 1", r"^This is not a TOML file: Cannot overwrite .*\.$"),
+        ("<xml/>", r"^This is not a TOML file: .*line 1.*\.$"),
+        ("format = 1\n[camera\n", r"^This is not a TOML file: .*line 2.*\.$"),
+        ("format = 1\n\0", r"^This is not a TOML file: .*\.$"),
+        ("format = 1\n[lens]\n", r"^A scene file has no table \[lens\]; known are transmitter, "),
+        ("format = 1\nlens = 1\n", r"^A scene file has no table \[lens\]; known are transmitter, "),
+        ("format = 1\ncamera = 1\n", r"^camera must be a table: "),
+        ("format = 1\n[[camera]]\niso = 100\n", r"^camera must be a table: "),
+        ("format = 1\niso = 100\n", r"^A scene file has no table \[iso\]; "),
+        (
+            "format = 1\n[camera]\nexposure = 1e-3\n",
+            r"^Table \[camera\]: There is no parameter 'exposure'; did you mean exposure_time\?$",
+        ),
+        (
+            "format = 1\n[camera]\ndistance = 1.0\n",
+            r"^Table \[camera\]: There is no parameter 'distance'; ",
+        ),
+        ("format = " + "[" * 5000, r"^This is not a scene file: it is nested too deeply\.$"),
+        ("format = " + "9" * 5000, r"^This is not a TOML file: .*\.$"),
+    ],
+)
+def test_what_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str) -> None:
+    with pytest.raises(SceneFileError, match=sentence):
+        Scene.from_toml(text)
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("iso = 0", r"^iso is 0; allowed: 1 to "),
+        ("iso = nan", r"^iso is nan; allowed: 1 to "),
+        ("iso = inf", r"^iso is inf; allowed: 1 to "),
+        ("iso = 1e400", r"^iso is inf; allowed: 1 to "),
+        ("iso = '100'", r"^iso is '100', which is not a number; allowed: 1 to "),
+        ("iso = true", r"^iso is True, which is not a number; allowed: 1 to "),
+        ("iso = [100]", r"^iso is \[100\], which is not a number; allowed: 1 to "),
+        ("iso = 1979-05-27", r"^iso is datetime.*, which is not a number; allowed: 1 to "),
+        ("iso.x = 1", r"^iso is \{'x': 1\}, which is not a number; allowed: 1 to "),
+        ("exposure_time = -1e-6", r"^exposure_time is -1 µs; allowed: 1 ns to "),
+        ("rows = 0", r"^rows is 0; allowed: a whole number from 1 to "),
+        ("rows = 1.5", r"^rows is 1\.5; allowed: a whole number from 1 to "),
+        ("rows = 0x" + "f" * 5000, r"^rows is .*; allowed: a whole number from 1 to "),
+    ],
+    ids=lambda text: text[:20],
+)
+def test_a_bad_value_is_refused_by_the_parameter_s_name(line: str, sentence: str) -> None:
+    with pytest.raises(ParameterError, match=sentence):
+        Scene.from_toml(f"format = 1\n[camera]\n{line}\n")
+
+
+def test_a_code_that_does_not_fit_its_bits_is_refused() -> None:
+    with pytest.raises(ParameterError, match=r"^code is 718; allowed with 4 bits: 0 to 15\.$"):
+        Scene.from_toml("format = 1\n[transmitter]\nbits = 4\n")
+
+
+@given(data=st.data())
+def test_a_damaged_file_is_a_scene_or_refused(data: st.DataObject) -> None:
+    text = Scene().to_toml()
+    start = data.draw(st.integers(0, len(text)))
+    end = data.draw(st.integers(start, min(len(text), start + 40)))
+    damaged = text[:start] + data.draw(st.text(max_size=5)) + text[end:]
+    read, refusal = None, ""
+    try:
+        read = Scene.from_toml(damaged)
+    except OccError as error:
+        refusal = str(error)
+    if read is None:
+        assert refusal.endswith((".", "?"))
+    else:
+        assert Scene.from_toml(read.to_toml()) == read

@@ -1,0 +1,153 @@
+"""Scenes as a user asks for them: from a file, and by name=value."""
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from occ_model.declarations import Quantity
+from occ_model.errors import ParameterError, SceneFileError
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+from occ_model.settings import read_scene_file, with_settings
+
+QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
+
+
+@given(data=st.data(), quantity=st.sampled_from(QUANTITIES))
+def test_a_setting_changes_its_parameter_and_nothing_else(
+    data: st.DataObject, quantity: Quantity
+) -> None:
+    value = data.draw(st.floats(quantity.low, quantity.high))
+    scene = with_settings(Scene(), [f"{quantity.name}={value!r}"])
+    assert scene == Scene().replace(**{quantity.name: value})
+
+
+@pytest.mark.parametrize(
+    ("setting", "name", "value"),
+    [
+        ("switching_frequency=14kHz", "switching_frequency", 14e3),
+        ("exposure_time = 68 us", "exposure_time", 68e-6),
+        ("  exposure_time=1/8000", "exposure_time", 1 / 8000),
+        ("distance=60cm", "distance", 0.6),
+        ("yaw=0.5 rad", "yaw", 0.5),
+        ("rows=300", "rows", 300),
+        ("code=0b1011001110", "code", 718),
+        ("code=0x3ff", "code", 1023),
+        ("averaging=light", "averaging", "light"),
+        ("pattern=0101 1100", "pattern", "01011100"),
+        ("pattern=", "pattern", ""),
+    ],
+)
+def test_a_setting_is_read_as_its_kind_of_parameter_is_written(
+    setting: str, name: str, value: float | str
+) -> None:
+    start = Scene().replace(pattern="1")
+    assert with_settings(start, [setting]) == start.replace(**{name: value})
+
+
+def test_settings_are_taken_together_so_that_their_order_does_not_matter() -> None:
+    settings = ["code=4095", "bits=12"]
+    assert with_settings(Scene(), settings) == Scene().replace(code=4095, bits=12)
+    assert with_settings(Scene(), settings[::-1]) == Scene().replace(code=4095, bits=12)
+
+
+def test_no_settings_leave_the_scene_as_it_is() -> None:
+    scene = Scene().replace(iso=200)
+    assert with_settings(scene, []) == scene
+
+
+def test_the_last_of_two_settings_of_one_parameter_holds() -> None:
+    assert with_settings(Scene(), ["iso=200", "iso=400"]).value("iso") == 400
+
+
+@pytest.mark.parametrize(
+    ("setting", "sentence"),
+    [
+        ("iso", r"^'iso' is no setting; write NAME=VALUE\.$"),
+        ("", r"^'' is no setting; write NAME=VALUE\.$"),
+        ("=100", r"^There is no parameter ''; known are "),
+        ("is=100", r"^There is no parameter 'is'; did you mean iso\?$"),
+        ("iso=", r"^iso is '', which is not a number; allowed: 1 to "),
+        ("iso=fast", r"^iso is 'fast', which is not a number; allowed: 1 to "),
+        ("iso=0.5", r"^iso is 0\.5; allowed: 1 to "),
+        ("iso=100=200", r"^iso is '100=200', which is not a number; allowed: "),
+        ("exposure_time=10 Hz", r"^exposure_time is '10 Hz', which is not a number in µs; "),
+        ("rows=1.5", r"^rows is '1\.5'; allowed: a whole number from 1 to "),
+        ("code=1024", r"^code is 1024; allowed with 10 bits: 0 to 1023\.$"),
+        ("averaging=both", r"^averaging is 'both'; allowed: pixel-value, light\.$"),
+        ("pattern=012", r"^pattern is '012'; allowed: nothing, or up to "),
+    ],
+)
+def test_a_bad_setting_is_refused_in_a_sentence(setting: str, sentence: str) -> None:
+    with pytest.raises(ParameterError, match=sentence):
+        with_settings(Scene(), ["gamma=2", setting])
+
+
+def test_a_scene_file_is_read(tmp_path: Path) -> None:
+    scene = Scene().replace(switching_frequency=14e3, pattern="0110")
+    path = tmp_path / "Szene µ.toml"
+    path.write_text(f"# Größe\n{scene.to_toml()}", encoding="utf-8")
+    assert read_scene_file(path) == scene
+
+
+def test_a_missing_scene_file_is_refused_by_its_name(tmp_path: Path) -> None:
+    path = tmp_path / "none.toml"
+    with pytest.raises(SceneFileError) as refused:
+        read_scene_file(path)
+    assert str(refused.value) == f"{path} cannot be read: No such file or directory."
+
+
+def test_a_folder_is_no_scene_file(tmp_path: Path) -> None:
+    with pytest.raises(SceneFileError) as refused:
+        read_scene_file(tmp_path)
+    assert str(refused.value) == f"{tmp_path} cannot be read: Is a directory."
+
+
+@pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"\x89PNG\r\n\x1a\n", b"format = 1 # \xe9"])
+def test_a_file_that_is_not_text_is_no_scene_file(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_bytes(content)
+    with pytest.raises(SceneFileError) as refused:
+        read_scene_file(path)
+    assert str(refused.value) == f"{path} is not a scene file: it is not text."
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (PermissionError(13, os.strerror(13)), "Permission denied"),
+        (OSError(5, os.strerror(5)), "Input/output error"),
+        (OSError("the network is gone"), "the network is gone"),
+    ],
+)
+def test_a_scene_file_that_may_not_be_read_is_refused_with_the_reason(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, error: OSError, reason: str
+) -> None:
+    def fail(*_arguments: object, **_options: object) -> str:
+        raise error
+
+    path = tmp_path / "scene.toml"
+    path.write_text("format = 1")
+    for reader in ("open", "read_text", "read_bytes"):
+        monkeypatch.setattr(Path, reader, fail)
+    with pytest.raises(SceneFileError) as refused:
+        read_scene_file(path)
+    assert str(refused.value) == f"{path} cannot be read: {reason}."
+
+
+@pytest.mark.parametrize("text", ["", "iso = 100", "format = 1\n[lens]\n", "{}"])
+def test_text_that_is_no_scene_is_refused_as_a_scene_file(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    with pytest.raises(SceneFileError, match=r"\.$"):
+        read_scene_file(path)
+
+
+def test_a_bad_value_in_a_scene_file_is_refused_by_its_parameter(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text("format = 1\n[camera]\niso = 0\n")
+    with pytest.raises(ParameterError, match=r"^iso is 0; allowed: 1 to "):
+        read_scene_file(path)

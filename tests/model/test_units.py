@@ -1,0 +1,181 @@
+"""Reading and writing quantities."""
+
+import math
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from occ_model.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND, Unit
+
+UNITS = (NONE, SECOND, HERTZ, METRE, RADIAN, LUX, NIT)
+
+# As a power of ten in the text of a literal, so that Python's own reading is the judge.
+POWERS = {"n": -9, "u": -6, "µ": -6, "\u03bc": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+
+exact_integers = st.integers(-(2**53), 2**53)
+magnitudes = st.floats(1e-290, 1e290)
+
+
+@given(unit=st.sampled_from(UNITS), size=magnitudes, sign=st.sampled_from((-1.0, 1.0)))
+def test_what_is_written_with_17_digits_is_read_back(unit: Unit, size: float, sign: float) -> None:
+    value = sign * size
+    read = unit.parse(unit.format(value, 17))
+    assert read == pytest.approx(value, rel=1e-15, abs=0.0)
+
+
+@given(unit=st.sampled_from(UNITS), size=magnitudes)
+def test_what_is_written_with_6_digits_is_read_back_to_6_digits(unit: Unit, size: float) -> None:
+    assert unit.parse(unit.format(size)) == pytest.approx(size, rel=5.1e-6, abs=0.0)
+
+
+@pytest.mark.parametrize("prefix", POWERS)
+@given(
+    number=exact_integers,
+    unit=st.sampled_from((SECOND, HERTZ, METRE, LUX)),
+    space=st.sampled_from(("", " ")),
+)
+def test_a_prefixed_whole_number_is_python_s_own_literal(
+    prefix: str, number: int, unit: Unit, space: str
+) -> None:
+    read = unit.parse(f"{number}{space}{prefix}{unit.symbol}")
+    assert read == float(f"{number}e{POWERS[prefix]}")
+
+
+@given(above=exact_integers, below=exact_integers)
+def test_a_fraction_is_python_s_own_quotient(above: int, below: int) -> None:
+    assume(below != 0)
+    assert SECOND.parse(f"{above}/{below} s") == above / below
+
+
+@pytest.mark.parametrize(
+    ("unit", "text", "value"),
+    [
+        (SECOND, "68us", 68e-6),
+        (SECOND, "136 µs", 136e-6),
+        (SECOND, "136 \u03bcs", 136e-6),
+        (SECOND, "1/8000 s", 1 / 8000),
+        (SECOND, "1/8000", 1 / 8000),
+        (SECOND, " 1 / 8000 s ", 1 / 8000),
+        (SECOND, "14.565us", 14.565e-6),
+        (SECOND, "2 sec", 2.0),
+        (SECOND, "1.5e-3", 1.5e-3),
+        (HERTZ, "10kHz", 1e4),
+        (HERTZ, "10k", 1e4),
+        (HERTZ, "2.5 MHz", 2.5e6),
+        (METRE, "5m", 5.0),
+        (METRE, "5 mm", 5e-3),
+        (METRE, "120cm", 1.2),
+        (METRE, "-3 km", -3e3),
+        (METRE, ".6", 0.6),
+        (RADIAN, "0.5 rad", 0.5),
+        (RADIAN, "500 mrad", 0.5),
+        (RADIAN, "180°", math.pi),
+        (RADIAN, "-180 deg", -math.pi),
+        (NIT, "3600 cd/m2", 3600.0),
+        (NIT, "3.6 kcd/m²", 3600.0),
+        (NIT, "3600 nits", 3600.0),
+        (NONE, "+12.5", 12.5),
+    ],
+)
+def test_a_quantity_as_people_write_it_is_exactly_its_si_value(
+    unit: Unit, text: str, value: float
+) -> None:
+    assert unit.parse(text) == value
+
+
+@given(degrees=st.floats(-180, 180))
+def test_degrees_are_radians(degrees: float) -> None:
+    for spelling in ("°", " °", "deg", " deg"):
+        read = RADIAN.parse(f"{degrees!r}{spelling}")
+        assert read == pytest.approx(math.radians(degrees), rel=1e-15, abs=1e-320)
+
+
+@given(number=st.floats(-1e6, 1e6), plain=st.sampled_from((1e-6, 1e-3, 1e3)))
+def test_only_a_number_without_a_unit_is_worth_the_plain_unit(number: float, plain: float) -> None:
+    assert HERTZ.parse(f"{number!r}", plain) == pytest.approx(number * plain, rel=1e-15, abs=1e-320)
+    assert HERTZ.parse(f"{number!r} Hz", plain) == number
+
+
+# fmt: off
+NONSENSE = (
+    "", "  ", "1 2", "1 2 3", "1 V", "nan", "inf", "-inf", "infinity", "1/0", "1/0.0", "0/0", "/2",
+    "1/", "1/2/3", "1,5", "--1", "1e", "one", "0x10", "1_000", "1j", "s", "Hz", "°", "1V", "1kk",
+)
+# fmt: on
+
+
+@pytest.mark.parametrize("text", NONSENSE)
+def test_what_is_no_quantity_is_not_understood(text: str) -> None:
+    for unit in UNITS:
+        assert unit.parse(text) is None
+        assert unit.parse(f"{text} {unit.symbol or '!'}") is None
+
+
+@pytest.mark.parametrize(
+    ("unit", "text"),
+    [
+        (SECOND, "10 Hz"),
+        (SECOND, "10 kHz"),
+        (HERTZ, "10 us"),
+        (METRE, "1 s"),
+        (RADIAN, "1 s"),
+        (NONE, "10 k"),
+        (NONE, "100 %"),
+        (LUX, "290 cd/m2"),
+        (NIT, "290 lx"),
+        (SECOND, "68 us s"),
+        (SECOND, "68 uus"),
+    ],
+)
+def test_another_quantity_s_unit_is_not_understood(unit: Unit, text: str) -> None:
+    assert unit.parse(text) is None
+
+
+@given(text=st.text(max_size=20), unit=st.sampled_from(UNITS))
+def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
+    value = unit.parse(text)
+    assert value is None or not math.isnan(value)
+    assert value is None or any(character.isdecimal() for character in text)
+
+
+@pytest.mark.parametrize(
+    ("unit", "value", "text"),
+    [
+        (SECOND, 136e-6, "136 µs"),
+        (SECOND, 1e-3, "1 ms"),
+        (SECOND, 999e-6, "999 µs"),
+        (SECOND, -0.25, "-250 ms"),
+        (SECOND, 0.0, "0 s"),
+        (SECOND, 120.0, "120 s"),
+        (SECOND, 5e-11, "0.05 ns"),
+        (HERTZ, 10e3, "10 kHz"),
+        (HERTZ, 1e9, "1 GHz"),
+        (HERTZ, 999.0, "999 Hz"),
+        (HERTZ, 0.0, "0 Hz"),
+        (METRE, 0.6, "0.6 m"),
+        (METRE, 0.026, "26 mm"),
+        (METRE, 2000.0, "2 km"),
+        (RADIAN, math.radians(30), "30°"),
+        (RADIAN, 0.0, "0°"),
+        (NIT, 3600.0, "3600 cd/m²"),
+        (LUX, 290.0, "290 lx"),
+        (NONE, 2.48, "2.48"),
+    ],
+)
+def test_a_value_is_shown_in_the_unit_that_suits_its_size(
+    unit: Unit, value: float, text: str
+) -> None:
+    assert unit.format(value) == text
+
+
+@given(unit=st.sampled_from((SECOND, HERTZ)), exponent=st.floats(-9, 12))
+def test_where_a_prefix_fits_the_number_shown_is_from_1_to_1000(
+    unit: Unit, exponent: float
+) -> None:
+    value = 10.0**exponent
+    assume(value < (1e3 if unit is SECOND else 1e12))
+    assume(value >= (1e-9 if unit is SECOND else 1.0))
+    symbol, worth = unit.display(value)
+    assert symbol.endswith(unit.symbol)
+    assert 1 - 1e-9 <= value / worth < 1000

@@ -1,0 +1,93 @@
+"""The paper's results, as the reproduction must show them."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.study.paper_grid import (
+    DEVICES,
+    DISTANCES,
+    FREQUENCIES,
+    GridPoint,
+    ceases_at,
+    measure,
+    point_count,
+    point_scene,
+)
+from occ_model.transmitter.packet import HEADER, packet_length
+
+
+@cache
+def grid(preset: str, decoder: str = "threshold") -> tuple[GridPoint, ...]:
+    return tuple(measure([preset], [decoder]))
+
+
+def two_headers_fit(point: GridPoint) -> bool:
+    """Whether two whole headers lie in the panel's image wherever a packet happens to start."""
+    scene = point_scene(point.preset, point.switching_frequency, point.distance)
+    panel = np.clip(occ.panel_corners(scene)[:, 0], 0, scene.camera.columns - 1)
+    seconds = float(np.ptp(panel)) * scene.camera.readout_time
+    return seconds * point.switching_frequency >= 2 * packet_length(10) + len(HEADER)
+
+
+def rates(preset: str, low: float, high: float, decoder: str = "threshold") -> list[float]:
+    found = [
+        point.rate
+        for point in grid(preset, decoder)
+        if low <= point.switching_frequency <= high and two_headers_fit(point)
+    ]
+    assert found
+    return found
+
+
+def test_phone_at_68_us_reads_everything_from_4_to_20_khz() -> None:
+    assert set(rates("phone-68us", 4e3, 20e3)) == {100.0}
+
+
+def test_phone_at_136_us_reads_from_4_to_12_khz_past_the_exposure_limit_of_7_khz() -> None:
+    assert min(rates("phone-136us", 4e3, 12e3)) >= 95.0
+
+
+def test_phone_at_136_us_reads_nothing_to_rely_on_from_16_khz() -> None:
+    assert max(rates("phone-136us", 16e3, 20e3)) < 60.0
+
+
+@pytest.mark.parametrize(("preset", "paper"), [("phone-136us", 14e3), ("tablet-122us", 16e3)])
+def test_detection_ceases_within_a_step_of_where_the_paper_says(preset: str, paper: float) -> None:
+    ceased = ceases_at(grid(preset))
+    assert ceased is not None
+    assert abs(ceased - paper) <= 2e3
+
+
+@pytest.mark.parametrize("preset", ["phone-68us", "tablet-61us"])
+def test_detection_goes_on_to_20_khz_at_the_lowest_exposure(preset: str) -> None:
+    assert ceases_at(grid(preset)) is None
+
+
+@pytest.mark.parametrize("preset", DEVICES["tablet"])
+def test_tablet_at_2_khz_loses_codes_with_distance(preset: str) -> None:
+    by_distance = [p.rate for p in grid(preset) if p.switching_frequency == 2e3]
+    assert by_distance[0] == 100.0
+    assert by_distance[-1] == 0.0
+    # Five images a point: single points may stand out, the trend may not.
+    assert np.corrcoef(DISTANCES, by_distance)[0, 1] < -0.8
+
+
+def test_matched_decoder_reads_every_point_where_a_packet_fits() -> None:
+    assert set(rates("phone-136us", 4e3, 20e3, "matched")) == {100.0}
+
+
+def test_a_point_is_measured_again_by_its_own_seed() -> None:
+    point = next(p for p in grid("tablet-61us") if 0.0 < p.rate < 100.0)
+    scene = point_scene(point.preset, point.switching_frequency, point.distance)
+    assert occ.success_rate(scene, point.images, point.decoder, point.seed) == point.rate
+
+
+def test_the_grid_is_the_papers() -> None:
+    assert tuple(range(2000, 20001, 2000)) == FREQUENCIES
+    assert DISTANCES == (0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
+    calls: list[None] = []
+    points = list(measure(["tablet-61us"], ["threshold"], 1, 1, lambda: calls.append(None)))
+    assert len(points) == len(calls) == point_count(["tablet-61us"], ["threshold"]) == 80

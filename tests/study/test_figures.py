@@ -1,0 +1,88 @@
+"""The paper's figures as files."""
+
+import csv
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.scene import Scene
+from occ_model.study import paper_grid
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All figures, from one image a point."""
+    out = tmp_path_factory.mktemp("figures") / "deep" / "folder"
+    assert main(["figures", "--out", str(out), "--images", "1", "--seed", "3"]) == 0
+    return out
+
+
+def comments(path: Path) -> str:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return "\n".join(line[2:] for line in lines if line.startswith("#"))
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def test_every_figure_comes_as_pdf_png_and_csv(folder: Path) -> None:
+    expected = {f"figure-{n}.{end}" for n in range(2, 7) for end in ("pdf", "png", "csv")}
+    assert {path.name for path in folder.iterdir()} == expected
+    for path in folder.glob("*.pdf"):
+        assert path.read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("number", range(2, 7))
+def test_figures_carry_their_scene_and_version(folder: Path, number: int) -> None:
+    with Image.open(folder / f"figure-{number}.png") as picture:
+        inside = str(picture.info["Description"])
+    assert comments(folder / f"figure-{number}.csv") == inside
+    assert f"occ_model {occ.__version__}" in inside
+    text = inside[inside.index("format = ") :].split("\n\nscene ")[0]
+    assert isinstance(Scene.from_toml(text), Scene)
+
+
+def test_rates_carry_their_seed_and_stand_in_the_table(folder: Path) -> None:
+    assert "seed 3" in comments(folder / "figure-5.csv").splitlines()
+    table = rows(folder / "figure-5.csv")
+    assert len(table) == 2 * 2 * len(paper_grid.FREQUENCIES) * len(paper_grid.DISTANCES)
+    one = table[37]
+    scene = paper_grid.point_scene(
+        one["preset"], float(one["switching frequency (Hz)"]), float(one["distance (m)"])
+    )
+    again = occ.success_rate(scene, 1, one["decoder"], int(one["seed"]))
+    assert again == float(one["success rate (%)"])
+
+
+def test_figure_3_has_the_band_model_and_figure_4_has_not(folder: Path) -> None:
+    assert "band model (grey level)" in rows(folder / "figure-3.csv")[0]
+    assert "band model (grey level)" not in rows(folder / "figure-4.csv")[0]
+
+
+def test_figure_4_holds_the_simulated_profile(folder: Path) -> None:
+    profile = occ.column_profile(occ.load_preset("phone-136us"))
+    for row in rows(folder / "figure-4.csv"):
+        assert float(row["simulation (grey level)"]) == profile[int(float(row["column"]))]
+
+
+def test_a_photo_is_drawn_beside_the_simulation(tmp_path: Path) -> None:
+    photo = tmp_path / "photo.png"
+    Image.fromarray(occ.render(Scene().replace(rows=20)).image).save(photo)
+    from occ_model.export import paper_figures
+
+    paper_figures.write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
+    assert "photo (grey level)" in rows(tmp_path / "figure-3.csv")[0]
+    assert "photo.png" in comments(tmp_path / "figure-3.csv")
+
+
+def test_a_folder_that_cannot_be_made_is_a_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("in the way")
+    assert main(["figures", "--out", str(tmp_path / "file" / "x")]) == 2
+    assert "cannot be made" in capsys.readouterr().err

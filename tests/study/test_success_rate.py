@@ -1,0 +1,114 @@
+"""Laws of the success rate, and of the two ways to measure it."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.receiver.locate import locate
+from occ_model.scene import Scene
+from occ_model.study.observation import decode_profile, noisy_image
+
+
+@pytest.fixture
+def scene() -> Scene:
+    """A phone whose sensor has few rows, so that whole images are cheap."""
+    return occ.load_preset("phone-136us").replace(rows=250, panel_height=0.05, distance=1.0)
+
+
+def test_same_seed_same_rate_other_seed_other_images() -> None:
+    # Far enough for two headers to fit only where the start time is kind.
+    far = occ.load_preset("phone-136us").replace(switching_frequency=4e3, distance=1.8)
+    found = [occ.success_rate(far, 3, seed=seed) for seed in (1, 1, 2, 3, 4, 5)]
+    assert found[0] == found[1]
+    assert len(set(found)) > 1
+
+
+def test_rate_is_the_share_of_right_bits_in_percent(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from occ_model.results import DecodeResult
+    from occ_model.study import success_rate as module
+
+    sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
+    three_wrong = sent.copy()
+    three_wrong[:3] ^= 1
+    results = iter(
+        [
+            DecodeResult("x", bits=sent, code=718),
+            DecodeResult("x", bits=three_wrong, code=1),
+            DecodeResult("x", failure="Nothing."),
+            DecodeResult("x", bits=sent[:4]),
+        ]
+    )
+    monkeypatch.setattr(module, "decode_profile", lambda *_: next(results))
+    assert occ.success_rate(scene.replace(code=718), images=4) == pytest.approx(100 * 17 / 40)
+
+
+@pytest.mark.parametrize("decoder", ["threshold", "matched"])
+@pytest.mark.parametrize("frequency", [4e3, 10e3, 14e3, 18e3])
+def test_profile_path_and_image_path_give_the_same_rate(
+    scene: Scene, decoder: str, frequency: float
+) -> None:
+    at = scene.replace(switching_frequency=frequency)
+    by_image = occ.success_rate(at, 2, decoder, seed=7, path="image")
+    assert by_image == occ.success_rate(at, 2, decoder, seed=7, path="profile")
+
+
+def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None:
+    random = np.random.default_rng(1)
+    for distance in (0.5, 1.0, 2.5):
+        at = scene.replace(distance=distance)
+        by_profile = decode_profile(at, "threshold", 0.0, random)
+        region = locate(occ.render(at).image, at.receiver.bright_fraction)
+        assert by_profile is not None
+        assert by_profile.region == region
+
+
+def test_profile_path_sees_the_signal_that_the_image_shows_with_noise(scene: Scene) -> None:
+    noise = 3.0
+    by_profile = decode_profile(scene, "threshold", noise, np.random.default_rng(2))
+    assert by_profile is not None
+    assert by_profile.region is not None
+    region = by_profile.region
+    image = noisy_image(scene, noise, np.random.default_rng(3)).astype(float)
+    rows = slice(region.first_row, region.last_row)
+    columns = slice(region.first_column, region.last_column)
+    means = image[rows, columns].mean(axis=0)
+    spread = image[rows, columns].std(axis=0) / np.sqrt(region.rows)
+    deviation = (means - by_profile.signal) / np.sqrt(2 * np.maximum(spread, 0.05) ** 2)
+    # Two independent draws of the same distribution: deviations of mean 0 and variance 1 or less.
+    assert abs(deviation.mean()) < 5 / np.sqrt(len(deviation))
+    assert 0.5 < deviation.std() < 1.1
+
+
+def test_a_panel_that_is_not_level_is_measured_by_its_image(scene: Scene) -> None:
+    tilted = scene.replace(roll=0.02)
+    with pytest.raises(occ.ParameterError, match="level"):
+        occ.success_rate(tilted, 1, path="profile")
+    assert occ.success_rate(tilted, 1) == 100.0
+
+
+def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
+    assert occ.success_rate(scene.replace(offset_x=50.0), 2) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"images": 0}, "images is 0"),
+        ({"decoder": "psychic"}, "psychic"),
+        ({"noise": -1.0}, "noise"),
+        ({"noise": float("nan")}, "noise"),
+        ({"path": "guess"}, "guess"),
+    ],
+)
+def test_arguments_that_cannot_be_are_refused_with_a_sentence(
+    scene: Scene, arguments: dict[str, object], words: str
+) -> None:
+    with pytest.raises(occ.ParameterError, match=words):
+        occ.success_rate(scene, **arguments)  # type: ignore[arg-type]
+
+
+def test_a_raw_pattern_has_no_success_rate(scene: Scene) -> None:
+    with pytest.raises(occ.ParameterError, match="raw pattern"):
+        occ.success_rate(scene.replace(pattern="0110"))

@@ -23,6 +23,9 @@ from occ_model.photo.load import Photo
 from occ_model.presets import preset_named
 from occ_model.scene import Scene
 
+# What a sentence in the status line can be shown until.
+_CHANGE, _PICTURE, _PHOTO = "a change of the scene", "a picture", "a photo"
+
 
 class Application(QObject):
     """Store, controllers, views and window, connected.
@@ -56,10 +59,10 @@ class Application(QObject):
         self.controls.preset_chosen.connect(self._load_preset)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
-        self.controls.refused.connect(self.window.say)
+        self.controls.refused.connect(self._say_refusal)
         self.simulation.shown.connect(self._on_shown)
-        self.simulation.failed.connect(self.window.say)
-        self.photos.failed.connect(self.window.say)
+        self.simulation.failed.connect(lambda why: self.window.say(why, until=_PICTURE))
+        self.photos.failed.connect(lambda why: self.window.say(why, until=_PHOTO))
         self.photos.opened.connect(self._on_photo)
         self.files.said.connect(self.window.say)
         self.window.closing.connect(self.stop)
@@ -86,26 +89,30 @@ class Application(QObject):
         self.photos.open(path)
 
     def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
-        self.window.statusBar().clearMessage()
         self.store.change(gesture, **{name: value})
 
     def _load_preset(self, name: str) -> None:
         self.store.put(occ.load_preset(name), f"preset {name}", new_gesture())
 
     def _show_scene(self, scene: Scene) -> None:
+        self.window.happened(_CHANGE)
         self.controls.show_scene(scene)
         self.controls.show_preset(self._preset_names.get(scene))
 
     def _refuse(self, sentence: str) -> None:
         # The control that asked shows what was asked for: let it show again what holds.
         self.controls.show_scene(self.store.scene)
-        self.window.say(sentence)
+        self._say_refusal(sentence)
+
+    def _say_refusal(self, sentence: str) -> None:
+        self.window.say(sentence, until=_CHANGE)
 
     def _on_shown(self, snapshot: Snapshot) -> None:
+        self.window.happened(_PICTURE)
         self.window.show_timing(snapshot.seconds)
 
     def _on_photo(self, photo: Photo | None) -> None:
-        self.window.statusBar().clearMessage()
+        self.window.happened(_PHOTO)
         self.window.show_photo_name(None if photo is None else photo.path.name)
 
     def _scan_along(self, action: QAction) -> None:

@@ -55,6 +55,7 @@ class MainWindow(QMainWindow):
         self._make_edit_menu(undo_stack)
         self._make_view_menu(image)
         self._make_help_menu()
+        self._said_until = ""
         self._timing = QLabel()
         self.statusBar().addPermanentWidget(self._timing)
         self.resize(_FIRST_SIZE)
@@ -83,7 +84,7 @@ class MainWindow(QMainWindow):
         self._add(menu, "open_photo", self.tr("Open &photo…"), keys.Open)
         self._add(menu, "close_photo", self.tr("&Close photo")).setEnabled(False)
         menu.addSeparator()
-        self._add(menu, "open_scene", self.tr("Open s&cene…"))
+        self._add(menu, "open_scene", self.tr("Open sc&ene…"))
         self._add(menu, "save_scene", self.tr("&Save scene as…"), keys.Save)
         self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
         menu.addSeparator()
@@ -134,9 +135,23 @@ class MainWindow(QMainWindow):
         """Tell how long the last simulation took."""
         self._timing.setText(self.tr("simulated in {ms:.1f} ms").format(ms=1e3 * seconds))
 
-    def say(self, sentence: str) -> None:
-        """Show a sentence in the status line until the next one, or until it is cleared."""
+    def say(self, sentence: str, until: str = "") -> None:
+        """Show a sentence in the status line, until the next one or until ``until`` has happened.
+
+        Parameters
+        ----------
+        sentence
+            The sentence.
+        until
+            What :meth:`happened` will be told of.
+        """
+        self._said_until = until
         self.statusBar().showMessage(sentence)
+
+    def happened(self, what: str) -> None:
+        """Clear the sentence that was to be shown until this happened."""
+        if self._said_until == what:
+            self.statusBar().clearMessage()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
         """Tell before closing."""

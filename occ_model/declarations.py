@@ -69,10 +69,17 @@ class Quantity(Declaration):
         try:
             number = float(value)
         except OverflowError:
-            number = math.inf
+            number = math.inf if value > 0 else -math.inf
         if not self.low <= number <= self.high:
-            raise self.refuse(f"is {self.unit.format(number)}", self.allowed)
+            raise self.refuse(f"is {self._outside(number)}", self.allowed)
         return number
+
+    def _outside(self, number: float) -> str:
+        """Write a value that is not allowed with as many digits as tell it from the limits."""
+        text = self.unit.format(number)
+        if text in (self.unit.format(self.low), self.unit.format(self.high)):
+            return self.unit.format(number, digits=17)
+        return text
 
     def parse(self, text: str, plain: float = 1.0) -> float:
         """Read a value as people write it; a number without a unit is worth ``plain`` in SI."""
@@ -93,8 +100,9 @@ class Quantity(Declaration):
             value = low * (high / low) ** fraction
         else:
             value = low + (high - low) * fraction
-        factor = self.unit.display(value)[1]
-        return min(max(float(f"{value / factor:.4g}") * factor, low), high)
+        # By way of the text, so that typing what is shown gives the very same value.
+        rounded = self.unit.parse(self.unit.format(value, digits=4))
+        return min(max(value if rounded is None else rounded, low), high)
 
     def fraction(self, value: float) -> float:
         """Give a slider's position for a value, 0 or 1 where the value lies outside."""
@@ -103,6 +111,14 @@ class Quantity(Declaration):
         if self.scale == "log":
             return math.log(value / low) / math.log(high / low)
         return (value - low) / (high - low)
+
+
+def _written(number: int) -> str:
+    """Write a whole number, or what can be said of one that Python refuses to write."""
+    try:
+        return str(number)
+    except ValueError:
+        return "a number of thousands of digits"
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +141,7 @@ class Count(Declaration):
             raise self.refuse(f"is {value!r}", self.allowed)
         number = int(value)  # type: ignore[call-overload]  # Integral, or a whole float
         if not self.low <= number <= self.high:
-            raise self.refuse(f"is {number}", self.allowed)
+            raise self.refuse(f"is {_written(number)}", self.allowed)
         return int(number)
 
     def parse(self, text: str) -> int:

@@ -8,6 +8,17 @@ from pathlib import Path
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError
 
+_FORMATS = {
+    ".png": "PNG",
+    ".jpg": "JPEG",
+    ".jpeg": "JPEG",
+    ".tif": "TIFF",
+    ".tiff": "TIFF",
+    ".webp": "WEBP",
+    ".bmp": "BMP",
+}
+"""The image formats that are written, by the file's ending: those that hold any grey picture."""
+
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file so that it is there complete or not at all.
@@ -27,10 +38,12 @@ def write_whole(path: Path, content: bytes) -> None:
             file.write(content)
         temporary.chmod(0o666 & ~_umask())
         temporary.replace(path)
-    except OSError as error:
+    except BaseException as error:  # whatever happens, nothing half-written stays
         if temporary is not None:
             temporary.unlink(missing_ok=True)
-        raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from None
+        if isinstance(error, OSError):
+            raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from None
+        raise
 
 
 def write_image(path: Path, image: ByteArray) -> None:
@@ -45,15 +58,14 @@ def write_image(path: Path, image: ByteArray) -> None:
 
 
 def _encoded(path: Path, image: ByteArray) -> bytes:
-    # Pillow is slow to import, and only needed when a file is really written.
-    from PIL import Image
-
-    Image.init()
-    format_name = Image.registered_extensions().get(path.suffix.lower())
-    if format_name not in Image.SAVE:
+    format_name = _FORMATS.get(path.suffix.lower())
+    if format_name is None:
         raise OutputError(
             f"{path.name} has no ending of an image format; use .png, .jpg, .tif, .webp or .bmp."
         )
+    # Pillow is slow to import, and only needed when a file is really written.
+    from PIL import Image
+
     buffer = BytesIO()
     try:
         Image.fromarray(image).save(buffer, format=format_name)

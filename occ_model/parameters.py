@@ -71,14 +71,14 @@ _DECLARED: tuple[Parameter, ...] = (
         "Exposure time",
         "t",
         "How long one column gathers light.",
-        unit=SECOND, low=1e-9, high=1e6, slider=(10e-6, 2e-3), scale="log", default=136e-6,
+        unit=SECOND, low=1e-9, high=1e6, slider=(1e-5, 2e-3), scale="log", default=136e-6,
     ),
     Quantity(
         "readout_time",
         "Readout time",
         "t_r",
         "Delay from one column's start to the next column's.",
-        unit=SECOND, low=1e-9, high=10.0, slider=(1e-6, 100e-6), scale="log", default=8e-6,
+        unit=SECOND, low=1e-9, high=10.0, slider=(1e-6, 1e-4), scale="log", default=8e-6,
     ),
     Quantity(
         "iso",

@@ -26,7 +26,7 @@ def from_toml(text: str) -> dict[str, Any]:
     """
     try:
         content = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # a TOMLDecodeError, or a number of thousands of digits
         raise SceneFileError(f"This is not a TOML file: {error}.") from None
     except RecursionError:
         raise SceneFileError("This is not a scene file: it is nested too deeply.") from None

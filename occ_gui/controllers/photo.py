@@ -46,7 +46,7 @@ class PhotoController(QObject):
         self._scan_axis = "auto"
         self.runner: LatestWins[tuple[Path, str], Photo] = LatestWins(_read, "reading of the photo")
         self.runner.finished.connect(self._show)
-        self.runner.failed.connect(self.failed)
+        self.runner.failed.connect(self._keep_last)
 
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
@@ -56,8 +56,8 @@ class PhotoController(QObject):
     def scan_along(self, scan_axis: str) -> None:
         """Say which axis of the file the shutter scanned, and turn the photo that is open."""
         self._scan_axis = scan_axis
-        if self._path is not None:
-            self.open(self._path)
+        if self._wanted is not None:
+            self.open(self._wanted)
 
     def close(self) -> None:
         """Show no photo any more."""
@@ -69,6 +69,11 @@ class PhotoController(QObject):
             return
         self._path = photo.path
         self._hand_over(photo)
+
+    def _keep_last(self, sentence: str) -> None:
+        if self.runner.is_idle:  # no other photo is being read by now
+            self._wanted = self._path
+        self.failed.emit(sentence)
 
     def _hand_over(self, photo: Photo | None) -> None:
         for view in self._views:

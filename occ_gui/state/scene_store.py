@@ -80,4 +80,6 @@ class _Step(QUndoCommand):
         if not isinstance(other, _Step):
             return False
         self._after = other._after
+        # A gesture that ends where it began is no step.
+        self.setObsolete(self._after == self._before)
         return True

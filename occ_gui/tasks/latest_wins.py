@@ -43,6 +43,7 @@ class LatestWins(QObject, Generic[Request, Result]):
     def __init__(self, work: Callable[[Request], Result], name: str) -> None:
         super().__init__()
         self._busy = False
+        self._stopped = False
         self._waiting: tuple[Request] | None = None
         self._worker = _Worker(work, name)
         self._thread = QThread()
@@ -66,13 +67,16 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._ask.emit(request)
 
     def stop(self) -> None:
-        """Let the running work end and stop the thread; what waits is forgotten."""
+        """Let the running work end and stop the thread; nothing arrives any more."""
         self._waiting = None
+        self._stopped = True
         self._thread.quit()
         self._thread.wait()
 
     @Slot(object, str)
     def _on_done(self, result: Any, failure: str) -> None:
+        if self._stopped:  # whoever would show it is going away
+            return
         self._busy = False
         # The next request goes to work before this result is drawn: both cores are then busy.
         if self._waiting is not None:

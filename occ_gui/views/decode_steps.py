@@ -25,7 +25,12 @@ class SignalPlot(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.plot = new_plot(self.tr("column of the region"), self.tr("grey level"), self.palette())
+        self.plot = new_plot(
+            self.tr("Signal and chips"),
+            self.tr("column of the region"),
+            self.tr("grey level"),
+            self.palette(),
+        )
         self.legend = LineLegend()
         dash = Qt.PenStyle.DashLine
         self.legend.add_line("signal", thin(SIMULATION), self.tr("signal"))
@@ -97,7 +102,9 @@ class RunLengthPlot(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.plot = new_plot(self.tr("run length (columns)"), self.tr("runs"), self.palette())
+        self.plot = new_plot(
+            self.tr("Run lengths"), self.tr("run length (columns)"), self.tr("runs"), self.palette()
+        )
         title = QLabel(self.tr("Run lengths: ones up, zeros down, splits dashed"))
         title.setWordWrap(True)
         self.bars, self.splits = [], []

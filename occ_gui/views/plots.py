@@ -17,11 +17,15 @@ def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
     return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
-def new_plot(x: str, y: str, palette: QPalette, least_height: int = 120) -> pg.PlotWidget:
+def new_plot(
+    name: str, x: str, y: str, palette: QPalette, least_height: int = 100
+) -> pg.PlotWidget:
     """Make an empty plot that ranges itself only when told to.
 
     Parameters
     ----------
+    name
+        What it shows, for those who do not see it.
     x, y
         What the axes show.
     palette
@@ -30,6 +34,7 @@ def new_plot(x: str, y: str, palette: QPalette, least_height: int = 120) -> pg.P
         In pixels.
     """
     plot = pg.PlotWidget()
+    plot.setAccessibleName(name)
     plot.setBackground(palette.color(QPalette.ColorRole.Base))
     for side, label in (("bottom", x), ("left", y)):
         axis = plot.getAxis(side)

@@ -25,7 +25,9 @@ class ProfileView(QWidget):
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
         self._photo: Photo | None = None
-        self.plot = new_plot(self.tr("column"), self.tr("grey level"), self.palette())
+        self.plot = new_plot(
+            self.tr("Column profile"), self.tr("column"), self.tr("grey level"), self.palette()
+        )
         # Where several columns share a pixel their extremes are drawn, not one of them by chance.
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
@@ -48,6 +50,7 @@ class ProfileView(QWidget):
         }
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
+            self.legend.show_line(key, key == "simulation")
         self.simulation = self.plot.plot(pen=pens["simulation"][1])
         self.band = self.plot.plot(pen=pens["band"][1])
         self.photo = self.plot.plot(pen=pens["photo"][1])

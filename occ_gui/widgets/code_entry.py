@@ -55,6 +55,7 @@ class CodeEntry(QWidget):
     def _read_bits(self) -> None:
         text = "".join(self.bits.text().split())
         if re.fullmatch(f"[01]{{{self._bits}}}", text):
+            self.bits.setText(text)
             if int(text, 2) != self.number.value():
                 self._tell(int(text, 2))
             return

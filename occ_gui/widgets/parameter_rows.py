@@ -156,7 +156,10 @@ class PatternRow(ParameterRow):
             self.field.setText(self._shown)
             self.refused.emit(str(error))
             return
-        self._tell(value)
+        unchanged = value == self._shown
+        self.show_value(value)
+        if not unchanged:
+            self._tell(value)
 
 
 def row_for(declared: Parameter) -> ParameterRow:

@@ -75,6 +75,7 @@ class QuantityEdit(QAbstractSpinBox):
 
     def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
         """Move along the slider's scale, which is logarithmic where the slider is."""
+        self._read()  # what has been typed so far counts
         fraction = self._quantity.fraction(self._value) + steps * _STEP
         self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
         self.edited.emit(self._value)

@@ -9,6 +9,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import to_bytes
+from occ_model.camera.photometry import WHITE
 from occ_model.errors import ParameterError, PhotoError
 
 if TYPE_CHECKING:
@@ -87,9 +88,9 @@ def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
 
     try:
         with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", module="PIL")
             # Pillow warns of pictures too large to be honest, and raises only at twice that size.
             warnings.simplefilter("error", Image.DecompressionBombWarning)
-            warnings.filterwarnings("ignore", module="PIL")
             with Image.open(path) as opened:
                 notes = _exif_notes(opened)
                 upright = ImageOps.exif_transpose(opened)
@@ -110,9 +111,9 @@ def _grey(picture: "PillowImage") -> ByteArray:
     """Turn a Pillow image of any mode into luma of 8 bits."""
     if picture.mode.startswith("I") or picture.mode == "F":
         values = np.asarray(picture, dtype=np.float64)
-        # 16-bit files use the whole range; 32-bit ones say nothing about theirs.
-        scale = 257.0 if picture.mode.startswith("I") and values.max(initial=0) > 255 else 1.0
-        return to_bytes(values / scale)
+        # Whole numbers are of 16 bits, however dark the picture; others are grey levels as they are.
+        scale = 257.0 if picture.mode.startswith("I") else 1.0
+        return to_bytes(np.nan_to_num(values / scale, nan=0.0, posinf=WHITE, neginf=0.0))
     if picture.has_transparency_data:
         from PIL import Image
 

@@ -75,6 +75,24 @@ def test_a_right_bit_looks_as_it_was_sent(picture: Picture, bit: int) -> None:
 
 
 @pytest.mark.parametrize("bit", [0, 1])
+def test_what_was_received_does_not_change_how_the_sent_bits_look(
+    picture: Picture, bit: int
+) -> None:
+    right, wrong, missing = (picture([bit], received) for received in ([bit], [1 - bit], []))
+    above = slice(0, right.shape[0] // 2)
+    assert np.array_equal(right[above], wrong[above])
+    assert np.array_equal(right[above], missing[above])
+
+
+def test_the_place_of_a_missing_bit_is_outlined(picture: Picture) -> None:
+    cell = picture([1, 1], [1])[31:54, 66 + 27 : 66 + 27 + 24].astype(int)
+    background = int(cell[12, 12])
+    outline = np.abs(cell - background) > CLEARLY
+    assert outline.any()
+    assert not outline[3:-3, 3:-3].any()
+
+
+@pytest.mark.parametrize("bit", [0, 1])
 def test_a_missing_bit_differs_from_a_received_one_in_grey_print(
     picture: Picture, bit: int
 ) -> None:

@@ -175,6 +175,16 @@ def test_moving_the_plot_by_hand_ends_the_following_and_a_click_resumes_it(
     assert columns_in_view(view) == pytest.approx(followed)
 
 
+def test_where_the_panel_is_out_of_the_picture_all_columns_are_in_view(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of(offset_x=50.0)
+    view.show_snapshot(snapshot)
+    last_column = len(snapshot.frame.profile) - 1
+    button(view, "Whole panel").click()
+    assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
+
+
 @pytest.mark.parametrize("changes", [{"offset_x": 50.0}, {"columns": 1}, {"distance": 900.0}])
 def test_a_panel_hardly_or_not_in_the_picture_leaves_a_range_to_look_at(
     view: ProfileView, snapshot_of: SnapshotOf, changes: dict[str, float]

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from occ_gui.application import Application
 
+_LARGEST_SIDE = 16384
+"""Pixels of a window's side; a larger one could not be drawn."""
+
 _PATIENCE_MS = 60_000
 """How long a screenshot waits for the picture before it gives up."""
 
@@ -57,9 +60,12 @@ def _parser() -> argparse.ArgumentParser:
 
 def _size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{2,5})[xX](\d{2,5})", text)
-    if match is None:
-        raise argparse.ArgumentTypeError(f"{text!r} is no size; write it as 1280x800")
-    return int(match[1]), int(match[2])
+    width, height = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not 0 < max(width, height) <= _LARGEST_SIDE:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is no size; write it as 1280x800, each up to {_LARGEST_SIDE}"
+        )
+    return width, height
 
 
 def _scene(options: argparse.Namespace) -> Scene:

@@ -61,8 +61,8 @@ class Application(QObject):
         self.store.refused.connect(self._refuse)
         self.controls.refused.connect(self._say_refusal)
         self.simulation.shown.connect(self._on_shown)
-        self.simulation.failed.connect(lambda why: self.window.say(why, until=_PICTURE))
-        self.photos.failed.connect(lambda why: self.window.say(why, until=_PHOTO))
+        self.simulation.failed.connect(self._say_failure)
+        self.photos.failed.connect(self._say_photo_failure)
         self.photos.opened.connect(self._on_photo)
         self.files.said.connect(self.window.say)
         self.window.closing.connect(self.stop)
@@ -103,6 +103,12 @@ class Application(QObject):
         # The control that asked shows what was asked for: let it show again what holds.
         self.controls.show_scene(self.store.scene)
         self._say_refusal(sentence)
+
+    def _say_failure(self, sentence: str) -> None:
+        self.window.say(sentence, until=_PICTURE)
+
+    def _say_photo_failure(self, sentence: str) -> None:
+        self.window.say(sentence, until=_PHOTO)
 
     def _say_refusal(self, sentence: str) -> None:
         self.window.say(sentence, until=_CHANGE)

@@ -16,6 +16,14 @@ ParameterValue: TypeAlias = float | int | str
 MAX_PATTERN_CHIPS = 4096
 
 
+def _written(value: object) -> str:
+    """Write what was given, or what can be said of a number that Python refuses to write."""
+    try:
+        return repr(value)
+    except ValueError:
+        return "a number of thousands of digits"
+
+
 @dataclass(frozen=True, slots=True)
 class Declaration:
     """What every kind of parameter has.
@@ -65,11 +73,11 @@ class Quantity(Declaration):
     def check(self, value: object) -> float:
         """Return ``value`` as a float, or raise :class:`ParameterError`."""
         if isinstance(value, bool) or not isinstance(value, Real):
-            raise self.refuse(f"is {value!r}, which is not a number", self.allowed)
+            raise self.refuse(f"is {_written(value)}, which is not a number", self.allowed)
         try:
             number = float(value)
         except OverflowError:
-            number = math.inf if value > 0 else -math.inf
+            number = -math.inf if value < 0 else math.inf
         if not self.low <= number <= self.high:
             raise self.refuse(f"is {self._outside(number)}", self.allowed)
         return number
@@ -113,14 +121,6 @@ class Quantity(Declaration):
         return (value - low) / (high - low)
 
 
-def _written(number: int) -> str:
-    """Write a whole number, or what can be said of one that Python refuses to write."""
-    try:
-        return str(number)
-    except ValueError:
-        return "a number of thousands of digits"
-
-
 @dataclass(frozen=True, slots=True)
 class Count(Declaration):
     """A whole number."""
@@ -138,7 +138,7 @@ class Count(Declaration):
         """Return ``value`` as an int, or raise :class:`ParameterError`."""
         whole = isinstance(value, Integral) or (isinstance(value, float) and value.is_integer())
         if isinstance(value, bool) or not whole:
-            raise self.refuse(f"is {value!r}", self.allowed)
+            raise self.refuse(f"is {_written(value)}", self.allowed)
         number = int(value)  # type: ignore[call-overload]  # Integral, or a whole float
         if not self.low <= number <= self.high:
             raise self.refuse(f"is {_written(number)}", self.allowed)
@@ -172,7 +172,7 @@ class Choice(Declaration):
     def check(self, value: object) -> str:
         """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or value not in self.choices:
-            raise self.refuse(f"is {value!r}", self.allowed)
+            raise self.refuse(f"is {_written(value)}", self.allowed)
         return value
 
     def parse(self, text: str) -> str:
@@ -198,7 +198,7 @@ class ChipPattern(Declaration):
     def check(self, value: object) -> str:
         """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or set(value) - {"0", "1"}:
-            raise self.refuse(f"is {value!r}", self.allowed)
+            raise self.refuse(f"is {_written(value)}", self.allowed)
         if len(value) > MAX_PATTERN_CHIPS:
             raise self.refuse(f"has {len(value)} chips", self.allowed)
         return value

@@ -110,5 +110,6 @@ class _Worker(QObject):
             failure = str(error)
         except Exception as error:  # noqa: BLE001 - the window must outlive a mistake of ours
             _log.exception("%s failed for %r", self._name, request)
-            failure = f"The {self._name} failed: {type(error).__name__}: {error}."
+            reason = f"{type(error).__name__}: {error}".rstrip(": .")
+            failure = f"The {self._name} failed: {reason}."
         self.done.emit(result, failure)

@@ -42,7 +42,7 @@ class SignalPlot(QWidget):
         self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[], brush=SIMULATION)
         for item in (self.threshold, self.chips):
             self.plot.addItem(item, ignoreBounds=True)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -114,7 +114,7 @@ class RunLengthPlot(QWidget):
             self.plot.addItem(bars)
             self.bars.append(bars)
             self.splits.append(split)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)

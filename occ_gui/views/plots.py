@@ -18,7 +18,7 @@ def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
 
 
 def new_plot(
-    name: str, x: str, y: str, palette: QPalette, least_height: int = 100
+    name: str, x: str, y: str, palette: QPalette, least_height: int = 90
 ) -> pg.PlotWidget:
     """Make an empty plot that ranges itself only when told to.
 

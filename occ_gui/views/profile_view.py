@@ -45,7 +45,7 @@ class ProfileView(QWidget):
         pens = {
             "simulation": (self.tr("simulation"), thin(SIMULATION)),
             "band": (self.tr("band model"), thin(BAND, line.DashLine)),
-            "photo": (self.tr("photo, from the panel's first column"), thin(PHOTO)),
+            "photo": (self.tr("photo"), thin(PHOTO)),
             "threshold": (self.tr("threshold"), thin(THRESHOLD, line.DashDotLine)),
         }
         for key, (text, pen) in pens.items():
@@ -62,16 +62,16 @@ class ProfileView(QWidget):
             self.plot.addItem(item, ignoreBounds=True)
 
     def _make_controls(self) -> None:
-        self.enhanced = QCheckBox(self.tr("After enhancement"))
+        self.enhanced = QCheckBox(self.tr("Enhanced"))
         self.enhanced.setToolTip(
             self.tr("Show the simulated column values as they stand in the picture.")
         )
         self.enhanced.toggled.connect(self._redraw)
         self._packets = self._range_button(
-            self.tr("Two packets"), self.tr("Show the panel's first two packets, and follow them.")
+            self.tr("2 packets"), self.tr("Show the panel's first two packets, and follow them.")
         )
         self._panel = self._range_button(
-            self.tr("Whole panel"), self.tr("Show all columns of the panel, and follow it.")
+            self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")
         )
         self._packets.setChecked(True)
 

@@ -111,7 +111,7 @@ def _grey(picture: "PillowImage") -> ByteArray:
     """Turn a Pillow image of any mode into luma of 8 bits."""
     if picture.mode.startswith("I") or picture.mode == "F":
         values = np.asarray(picture, dtype=np.float64)
-        # Whole numbers are of 16 bits, however dark the picture; others are grey levels as they are.
+        # Whole numbers are of 16 bits, however dark the picture; others are grey levels.
         scale = 257.0 if picture.mode.startswith("I") else 1.0
         return to_bytes(np.nan_to_num(values / scale, nan=0.0, posinf=WHITE, neginf=0.0))
     if picture.has_transparency_data:

@@ -78,6 +78,13 @@ def test_a_refusal_is_forgotten_with_the_next_change_however_it_is_made(
     assert user.message == ""
 
 
+def test_a_refusal_is_forgotten_when_the_value_that_holds_is_typed(user: User) -> None:
+    user.enter("distance", "-3 m")
+    assert user.message
+    user.enter("distance", "1.2 m")
+    assert user.message == ""
+
+
 def test_what_was_opened_is_still_said_when_its_picture_is_there(
     application: Application, user: User, tmp_path: Path, small_scene: Scene
 ) -> None:

@@ -106,3 +106,30 @@ def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf)
     view.layout().activate()
     for label in (view.verdict, view.reason):
         assert label.height() >= label.heightForWidth(label.width())
+
+
+def test_each_decoder_has_a_tab_that_tells_whether_it_read_the_code(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
+    assert snapshot.decoded.failure
+    view.show_snapshot(snapshot)
+    shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
+    assert shown == ["threshold ✗", "matched ✓"]
+
+
+def test_the_decoder_that_was_chosen_stays_chosen_and_shows_its_own_result(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_snapshot(snapshot_of())
+    assert any(text.endswith(" grey levels") for text in texts(view))
+    view.decoders.setCurrentIndex(1)
+    assert not any(text.endswith(" grey levels") for text in texts(view))
+    for code in (3, 1000):
+        snapshot = snapshot_of(code=code, exposure_time=136e-6, switching_frequency=20e3)
+        view.show_snapshot(snapshot)
+        assert view.decoders.currentIndex() == 1
+        assert view.verdict.text() == f"✓ Code {code} read, all bits right"
+    view.decoders.setCurrentIndex(0)
+    assert view.verdict.text() == "✗ No code read"
+    assert view.reason.text() == snapshot.decoded.failure

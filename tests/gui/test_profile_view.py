@@ -153,9 +153,9 @@ def test_two_packets_are_in_view_until_the_whole_panel_is_asked_for(
     first, last = columns_in_view(view)
     assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
     assert first == pytest.approx(panel.min(), abs=20)
-    qtbot.mouseClick(button(view, "Whole panel"), Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(button(view, "Panel"), Qt.MouseButton.LeftButton)
     assert columns_in_view(view) == pytest.approx((panel.min(), panel.max()), abs=30)
-    assert not button(view, "Two packets").isChecked()
+    assert not button(view, "2 packets").isChecked()
 
 
 def test_moving_the_plot_by_hand_ends_the_following_and_a_click_resumes_it(
@@ -168,10 +168,10 @@ def test_moving_the_plot_by_hand_ends_the_following_and_a_click_resumes_it(
     box.sigRangeChangedManually.emit([True, True])
     view.show_snapshot(snapshot_of(distance=1.3))
     assert columns_in_view(view) == pytest.approx((10, 20))
-    assert not button(view, "Two packets").isChecked()
-    assert not button(view, "Whole panel").isChecked()
+    assert not button(view, "2 packets").isChecked()
+    assert not button(view, "Panel").isChecked()
     view.show_snapshot(snapshot_of())
-    qtbot.mouseClick(button(view, "Two packets"), Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(button(view, "2 packets"), Qt.MouseButton.LeftButton)
     assert columns_in_view(view) == pytest.approx(followed)
 
 
@@ -181,7 +181,7 @@ def test_where_the_panel_is_out_of_the_picture_all_columns_are_in_view(
     snapshot = snapshot_of(offset_x=50.0)
     view.show_snapshot(snapshot)
     last_column = len(snapshot.frame.profile) - 1
-    button(view, "Whole panel").click()
+    button(view, "Panel").click()
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
 
 

@@ -4,12 +4,14 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.controllers.simulation import SimulationController, simulate
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
+from occ_model.receiver.decoders import DECODERS
 from occ_model.scene import Scene
 
 BEHIND_THE_CAMERA = {"distance": 0.1, "yaw": 1.2}
@@ -127,6 +129,28 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(
     assert snapshot.seconds > 0
 
 
+def test_the_snapshot_holds_every_decoders_reading_of_the_same_picture(
+    snapshot_of: Callable[..., Snapshot],
+) -> None:
+    snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
+    results = (snapshot.decoded, *snapshot.others)
+    assert {result.decoder for result in results} == set(DECODERS)
+    for result in results:
+        alone = occ.decode(snapshot.frame.image, snapshot.frame.scene, result.decoder)
+        assert (result.code, result.failure) == (alone.code, alone.failure)
+        assert result.region == alone.region
+
+
+def test_where_no_panel_is_found_every_decoder_says_so(
+    snapshot_of: Callable[..., Snapshot],
+) -> None:
+    snapshot = snapshot_of(offset_x=50.0)
+    assert snapshot.decoded.signal is None
+    failures = {result.failure for result in (snapshot.decoded, *snapshot.others)}
+    assert len(failures) == 1
+    assert None not in failures
+
+
 def test_a_raw_pattern_sends_no_bits(snapshot_of: Callable[..., Snapshot]) -> None:
     snapshot = snapshot_of(pattern="01011")
     assert snapshot.sent == ()
@@ -149,7 +173,10 @@ def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
     assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
 
 
-def test_stopping_while_a_simulation_runs_returns(bench: Bench) -> None:
+def test_stopping_while_a_simulation_runs_returns_and_nothing_arrives_any_more(
+    bench: Bench,
+) -> None:
     bench.store.change(iso=200.0)
     bench.controller.stop()
+    QApplication.processEvents()
     assert len(bench.scenes) == 1

@@ -172,7 +172,7 @@ def test_a_lossy_format_gives_the_picture_back(
     assert np.abs(difference).max() < 8
 
 
-@pytest.mark.parametrize("name", ["picture", "picture.", "picture.txt", "picture.png.x", ".png"])
+@pytest.mark.parametrize("name", ["x", "x.", "x.txt", "x.png.x", ".png", "x.gif", "x.pdf"])
 def test_an_ending_of_no_image_format_is_refused_and_nothing_written(
     tmp_path: Path, name: str
 ) -> None:
@@ -184,7 +184,7 @@ def test_an_ending_of_no_image_format_is_refused_and_nothing_written(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("ending", ["webp", "gif", "tga", "pcx", "sgi", "xbm", "bufr"])
+@pytest.mark.parametrize("ending", ["webp", "jpg"])
 @pytest.mark.parametrize("shape", [(1, 70_000), (70_000, 1)], ids=["wide", "tall"])
 def test_a_picture_that_a_format_cannot_hold_is_refused_and_nothing_written(
     tmp_path: Path, ending: str, shape: tuple[int, int]

@@ -1,0 +1,155 @@
+"""The decoders' steps are drawn as they were taken."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pyqtgraph as pg
+import pytest
+from PySide6.QtWidgets import QLabel, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.decode_steps import RunLengthPlot, SignalPlot
+from occ_model.results import DecodeResult, RunHistogram
+
+SnapshotOf = Callable[..., Snapshot]
+
+
+@pytest.fixture
+def signal_plot(qtbot: QtBot) -> SignalPlot:
+    plot = SignalPlot()
+    qtbot.addWidget(plot)
+    plot.resize(360, 200)
+    plot.show()
+    return plot
+
+
+@pytest.fixture
+def run_length_plot(qtbot: QtBot) -> RunLengthPlot:
+    plot = RunLengthPlot()
+    qtbot.addWidget(plot)
+    plot.show()
+    return plot
+
+
+@pytest.fixture
+def paper(snapshot_of: SnapshotOf) -> Snapshot:
+    return snapshot_of()
+
+
+@pytest.fixture
+def matched(paper: Snapshot) -> DecodeResult:
+    (found,) = [result for result in paper.others if result.decoder == "matched"]
+    return found
+
+
+def levels(curve: pg.PlotDataItem) -> list[float]:
+    _, values = curve.getOriginalDataset()
+    return [] if values is None else values.tolist()
+
+
+def legend_texts(widget: QWidget) -> list[str]:
+    return [label.text() for label in widget.findChildren(QLabel) if label.isVisible()]
+
+
+def test_the_signal_and_its_threshold_are_drawn(signal_plot: SignalPlot, paper: Snapshot) -> None:
+    decoded = paper.decoded
+    signal_plot.show_result(decoded, paper.packet_columns)
+    assert decoded.signal is not None
+    assert levels(signal_plot.signal) == decoded.signal.tolist()
+    assert levels(signal_plot.model) == []
+    assert signal_plot.threshold.isVisible()
+    assert signal_plot.threshold.value() == decoded.threshold
+
+
+def test_every_chip_that_is_one_lies_under_columns_above_the_threshold(
+    signal_plot: SignalPlot, paper: Snapshot
+) -> None:
+    decoded = paper.decoded
+    signal_plot.show_result(decoded, paper.packet_columns)
+    drawn = signal_plot.chips.opts
+    assert signal_plot.chips.isVisible()
+    assert len(drawn["x0"]) == int((decoded.chips == 1).sum())
+    assert decoded.signal is not None
+    assert decoded.threshold is not None
+    assert drawn["y0"].max() + drawn["height"].max() <= decoded.signal.min()
+    assert (drawn["x0"] + drawn["width"]).max() <= len(decoded.signal)
+    centres = (drawn["x0"] + drawn["width"] / 2).astype(int)
+    assert (decoded.signal[centres] > decoded.threshold).mean() > 0.98
+
+
+def test_at_first_two_packets_are_in_view(signal_plot: SignalPlot, paper: Snapshot) -> None:
+    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    first, last = signal_plot.plot.getViewBox().viewRange()[0]
+    assert last - first == pytest.approx(2 * paper.packet_columns, rel=0.1)
+
+
+def test_a_decoder_that_folds_shows_the_folded_signal_beside_its_model(
+    signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
+) -> None:
+    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    signal_plot.show_result(matched, paper.packet_columns)
+    assert matched.folded is not None
+    assert matched.model is not None
+    assert levels(signal_plot.signal) == matched.folded.tolist()
+    assert levels(signal_plot.model) == matched.model.tolist()
+    assert not signal_plot.chips.isVisible()
+    assert not signal_plot.threshold.isVisible()
+    assert "model of the code" in legend_texts(signal_plot)
+    assert "threshold" not in legend_texts(signal_plot)
+
+
+def test_the_paper_decoders_signal_comes_back_without_the_model(
+    signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
+) -> None:
+    signal_plot.show_result(matched, paper.packet_columns)
+    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    assert levels(signal_plot.model) == []
+    assert "model of the code" not in legend_texts(signal_plot)
+    assert "grey level" in signal_plot.plot.getAxis("left").labelText
+
+
+def test_a_step_that_was_not_reached_shows_no_plot(
+    signal_plot: SignalPlot, run_length_plot: RunLengthPlot
+) -> None:
+    nothing = DecodeResult("threshold", failure="No panel found.")
+    signal_plot.show_result(nothing, 300.0)
+    run_length_plot.show_result(nothing)
+    assert not signal_plot.isVisible()
+    assert not run_length_plot.isVisible()
+
+
+def test_chips_of_the_last_result_go_when_the_next_has_none(
+    signal_plot: SignalPlot, paper: Snapshot
+) -> None:
+    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    flat = DecodeResult("threshold", failure="No stripes.", signal=np.full(50, 7.0))
+    signal_plot.show_result(flat, paper.packet_columns)
+    assert signal_plot.isVisible()
+    assert not signal_plot.chips.isVisible()
+    assert not signal_plot.threshold.isVisible()
+
+
+def test_run_lengths_are_counted_ones_up_and_zeros_down(run_length_plot: RunLengthPlot) -> None:
+    zeros = RunHistogram(np.array([0, 0, 5, 0, 3]), split=2)
+    ones = RunHistogram(np.array([0, 7, 0]), split=None)
+    run_length_plot.show_result(DecodeResult("threshold", histograms=(zeros, ones)))
+    bars = [
+        dict(zip(b.opts["x"].tolist(), b.opts["height"].tolist(), strict=True))
+        for b in run_length_plot.bars
+    ]
+    assert bars == [{2: -5, 4: -3}, {1: 7}]
+    first, last = run_length_plot.plot.getViewBox().viewRange()[0]
+    assert first <= 1
+    assert last >= 4
+    splits = [split.getOriginalDataset()[0] for split in run_length_plot.splits]
+    assert splits[0].tolist() == [2.5, 2.5]
+    assert splits[1] is None or not len(splits[1])
+
+
+def test_both_plots_are_tall_enough_to_be_read(
+    signal_plot: SignalPlot, run_length_plot: RunLengthPlot
+) -> None:
+    for widget in (signal_plot, run_length_plot):
+        least = max(widget.minimumSizeHint().height(), widget.minimumHeight())
+        assert least >= 100

@@ -89,6 +89,7 @@ class Application(QObject):
         self.photos.open(path)
 
     def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
+        self.window.happened(_CHANGE)  # also where the value that holds is entered again
         self.store.change(gesture, **{name: value})
 
     def _load_preset(self, name: str) -> None:

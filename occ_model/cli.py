@@ -122,7 +122,8 @@ def _decode(options: argparse.Namespace) -> int:
     scene = _scene(options)
     photo = occ.load_photo(options.file, options.scan_axis)
     result = occ.decode(photo.image, scene, options.decoder)
-    print("\n".join(_report(result)))
+    for line in _report(result):
+        print(line)
     if result.failure is not None:
         print(result.failure, file=sys.stderr)
         return EXIT_FAILURE

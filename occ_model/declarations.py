@@ -24,6 +24,17 @@ def _written(value: object) -> str:
         return "a number of thousands of digits"
 
 
+def _whole(value: object) -> int | None:
+    """Give a whole number of any numeric type as an int, None for anything else."""
+    if isinstance(value, bool):
+        return None
+    if isinstance(value, Integral):
+        return int(value)
+    if isinstance(value, Real) and float(value).is_integer():
+        return int(float(value))
+    return None
+
+
 @dataclass(frozen=True, slots=True)
 class Declaration:
     """What every kind of parameter has.
@@ -136,13 +147,12 @@ class Count(Declaration):
 
     def check(self, value: object) -> int:
         """Return ``value`` as an int, or raise :class:`ParameterError`."""
-        whole = isinstance(value, Integral) or (isinstance(value, float) and value.is_integer())
-        if isinstance(value, bool) or not whole:
+        number = _whole(value)
+        if number is None:
             raise self.refuse(f"is {_written(value)}", self.allowed)
-        number = int(value)  # type: ignore[call-overload]  # Integral, or a whole float
         if not self.low <= number <= self.high:
             raise self.refuse(f"is {_written(number)}", self.allowed)
-        return int(number)
+        return number
 
     def parse(self, text: str) -> int:
         """Read a whole number, also as ``0b...`` or ``0x...``."""

@@ -33,6 +33,28 @@ class Region:
         return self.last_column - self.first_column
 
 
+@dataclass(frozen=True, slots=True)
+class Location:
+    """Where a decoder found the panel, and how.
+
+    Parameters
+    ----------
+    region
+        The rectangle.
+    bright_level
+        The grey level from which a pixel counts as bright.
+    contours
+        How many contours the bright pixels formed.
+    growth
+        By how many pixels they were grown until one was left.
+    """
+
+    region: Region
+    bright_level: int
+    contours: int
+    growth: int
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Frame:
     """One simulated picture and what it was made of.
@@ -111,6 +133,8 @@ class DecodeResult:
 
     region
         The rectangle of the image that was read.
+    location
+        How the region was found, None where a profile was read.
     signal : ndarray of float64, shape (columns of the region,)
         Mean of each column in grey levels.
     threshold
@@ -142,6 +166,7 @@ class DecodeResult:
     code: int | None = None
     bits: ByteArray = field(default_factory=_nothing)
     region: Region | None = None
+    location: Location | None = None
     signal: FloatArray | None = None
     threshold: float | None = None
     runs: Runs | None = None

@@ -25,7 +25,10 @@ def read_scene_file(path: Path) -> Scene:
         raise SceneFileError(f"{path} cannot be read: {error.strerror or error}.") from None
     except UnicodeDecodeError:
         raise SceneFileError(f"{path} is not a scene file: it is not text.") from None
-    return Scene.from_toml(text)
+    try:
+        return Scene.from_toml(text)
+    except SceneFileError as error:
+        raise SceneFileError(f"{path} cannot be read. {error}") from None
 
 
 def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:

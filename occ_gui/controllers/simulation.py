@@ -66,7 +66,8 @@ def _read_alike(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
         if decoded.signal is None:  # no panel found: the same for all
             yield DecodeResult(name, failure=decoded.failure)
         else:
-            yield replace(decoder.read(decoded.signal, scene), region=decoded.region)
+            result = decoder.read(decoded.signal, scene)
+            yield replace(result, region=decoded.region, location=decoded.location)
 
 
 class SimulationController(QObject):

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.views.plots import BAND, SIMULATION, THRESHOLD, new_plot, thin
 from occ_gui.widgets.line_legend import LineLegend
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import DecodeResult
 
 _PACKETS = 2.0
@@ -81,13 +81,14 @@ class SignalPlot(QWidget):
         if result.threshold is not None:
             self.threshold.setValue(result.threshold)
         if result.chip_starts is not None:
-            self._show_chips(result.chips, result.chip_starts, low, strip)
+            edges = np.append(result.chip_starts, float(len(signal)))
+            self._show_chips(result.chips, edges, low, strip)
         shown = min(float(len(signal) - 1), _PACKETS * packet_columns)
         self.plot.setXRange(0, max(shown, 1.0), padding=0.02)
         self.plot.setYRange(low - 2 * strip, high, padding=0.04)
 
-    def _show_chips(self, chips: np.ndarray, starts: FloatArray, low: float, strip: float) -> None:
-        widths = np.diff(starts, append=2 * starts[-1] - starts[-2])
+    def _show_chips(self, chips: ByteArray, edges: FloatArray, low: float, strip: float) -> None:
+        starts, widths = edges[:-1], np.diff(edges)
         lit = chips == 1
         self.chips.setOpts(
             x0=starts[lit] + 0.05 * widths[lit],

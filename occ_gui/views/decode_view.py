@@ -6,9 +6,9 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.widgets.bit_strip import BitStrip
-from occ_model.results import DecodeResult
+from occ_model.results import DecodeResult, Location
 
-_STEPS = ("region", "threshold", "chip", "chips", "correlation", "confidence")
+_STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "confidence")
 
 
 class DecodeView(QWidget):
@@ -47,6 +47,7 @@ class DecodeView(QWidget):
         self._form = form = QFormLayout()
         form.setVerticalSpacing(2)
         titles = {
+            "bright": self.tr("Bright from"),
             "region": self.tr("Region"),
             "threshold": self.tr("Threshold"),
             "chip": self.tr("Chip length"),
@@ -106,10 +107,16 @@ class DecodeView(QWidget):
             )
         return self.tr("✓ Code {code} read, all bits right").format(code=decoded.code)
 
+    def _bright(self, location: Location) -> str:
+        return self.tr("{level}; contours: {contours}, grown by {growth} px").format(
+            level=location.bright_level, contours=location.contours, growth=location.growth
+        )
+
     def _measured(self, decoded: DecodeResult) -> dict[str, str]:
         """Say what was measured on the way; nothing for a step that was not taken."""
         region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
         found: dict[str, str | None] = {
+            "bright": None if decoded.location is None else self._bright(decoded.location),
             "region": None
             if region is None
             else self.tr("{columns} x {rows} px").format(columns=region.columns, rows=region.rows),

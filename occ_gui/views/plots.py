@@ -17,9 +17,7 @@ def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
     return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
-def new_plot(
-    name: str, x: str, y: str, palette: QPalette, least_height: int = 90
-) -> pg.PlotWidget:
+def new_plot(name: str, x: str, y: str, palette: QPalette, least_height: int = 90) -> pg.PlotWidget:
     """Make an empty plot that ranges itself only when told to.
 
     Parameters

@@ -8,8 +8,8 @@ from occ_model.errors import ProjectionError
 from occ_model.scene import Scene
 from occ_model.units import METRE
 
-MAX_PIXELS = 200_000_000
-"""The largest image that is made; a larger one is refused rather than left to fill the memory."""
+MAX_PIXELS = 170_000_000
+"""The largest image that is made or read; a larger one is refused, not left to fill the memory."""
 
 _NEAREST_SHARE = 1e-9
 """Depth, as a share of the distance, below which a corner counts as in the camera's plane."""

@@ -10,6 +10,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError
 
 if TYPE_CHECKING:
@@ -88,16 +89,18 @@ def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
 
     try:
         with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", module="PIL")
-            # Pillow warns of pictures too large to be honest, and raises only at twice that size.
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            # Of oddities in a file that can be read all the same; its size is checked below.
+            warnings.simplefilter("ignore")
             with Image.open(path) as opened:
+                if opened.width * opened.height > MAX_PIXELS:
+                    raise _too_large(path)
                 notes = _exif_notes(opened)
                 upright = ImageOps.exif_transpose(opened)
                 return _grey(upright), notes
-    except (Image.DecompressionBombError, Image.DecompressionBombWarning):
-        limit = (Image.MAX_IMAGE_PIXELS or 0) / 1e6
-        raise PhotoError(f"{path} has more than {limit:.0f} million pixels.") from None
+    except PhotoError:
+        raise
+    except Image.DecompressionBombError:  # Pillow's own limit, above ours
+        raise _too_large(path) from None
     except UnidentifiedImageError:
         raise PhotoError(f"{path} is not an image that can be read.") from None
     except OSError as error:
@@ -105,6 +108,10 @@ def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
         raise PhotoError(f"{path} cannot be read: {reason}.") from None
     except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
         raise PhotoError(f"{path} cannot be read: the file is damaged ({error}).") from None
+
+
+def _too_large(path: Path) -> PhotoError:
+    return PhotoError(f"{path} has more than {MAX_PIXELS // 1_000_000} million pixels.")
 
 
 def _grey(picture: "PillowImage") -> ByteArray:

@@ -50,12 +50,13 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeRe
         return replace(DECODERS[decoder].read(_levels(image), scene), region=whole)
     grey: ByteArray = image if image.dtype == np.uint8 else to_bytes(_levels(image))
     grey = np.ascontiguousarray(grey)
-    region = locate(grey, scene.receiver.bright_fraction)
-    if region is None:
+    found = locate(grey, scene.receiver.bright_fraction)
+    if found is None:
         return DecodeResult(
             decoder, failure=f"No panel found: every pixel has the grey level {grey.flat[0]}."
         )
-    return replace(DECODERS[decoder].read(column_means(grey, region), scene), region=region)
+    result = DECODERS[decoder].read(column_means(grey, found.region), scene)
+    return replace(result, region=found.region, location=found)
 
 
 def _levels(image: NDArray[Any]) -> FloatArray:

@@ -5,7 +5,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.receiver.otsu import otsu_split
-from occ_model.results import Region
+from occ_model.results import Location, Region
 
 _GRID = 512
 """Contours are grown on a grid of at most this many cells a side: their growth needs no pixels."""
@@ -14,14 +14,15 @@ _SPECK = 0.04
 """A cell with a smaller share of bright pixels holds a speck of noise, not part of a contour."""
 
 
-def locate(image: ByteArray, bright_fraction: float) -> Region | None:
+def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     """Find the rectangle round the panel, as the paper describes it.
 
     The brightest pixels that cover ``bright_fraction`` of the area are taken; their contours are
     grown until only one is left; its bounding rectangle is the region. Two things the paper leaves
     open: a pixel darker than the image's Otsu threshold never counts as bright, since a panel far
     away has fewer bright pixels than that share; and the rectangle is drawn round the bright
-    pixels inside the grown contour, so that growing does not push it into the surroundings.
+    pixels in the grown contour, so that growing does not push it into the surroundings. The growth
+    itself, which says how far apart the contours lie, thus leaves the rectangle as it is.
 
     Parameters
     ----------
@@ -32,7 +33,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Region | None:
 
     Returns
     -------
-    Region or None
+    Location or None
         None where all pixels have the same value.
     """
     counts = cv2.calcHist([image], [0], None, [256], [0, 256]).ravel().astype(np.int64)
@@ -48,8 +49,8 @@ def locate(image: ByteArray, bright_fraction: float) -> Region | None:
     if not cv2.hasNonZero(cells):
         cells = _above(share, 0)
     if not cv2.hasNonZero(cells):  # too few for the smallest share above nothing
-        return _bounds(bright, Region(0, rows, 0, columns))
-    x, y, width, height = cv2.boundingRect(cv2.bitwise_and(_grow_to_one(cells), cells))
+        return Location(_bounds(bright, Region(0, rows, 0, columns)), level, 1, 0)
+    x, y, width, height = cv2.boundingRect(cells)
     scale_y, scale_x = rows / grid_size[1], columns / grid_size[0]
     around = Region(
         max(0, int((y - 1) * scale_y)),
@@ -57,7 +58,8 @@ def locate(image: ByteArray, bright_fraction: float) -> Region | None:
         max(0, int((x - 1) * scale_x)),
         min(columns, int((x + width + 1) * scale_x)),
     )
-    return _bounds(bright, around)
+    reach = _growth_to_one(cells)
+    return Location(_bounds(bright, around), level, _contours(cells), reach * cell)
 
 
 def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
@@ -88,26 +90,27 @@ def _above(image: ByteArray, level: float) -> ByteArray:
     return np.asarray(cv2.threshold(image, level, 255, cv2.THRESH_BINARY)[1], dtype=np.uint8)
 
 
-def _grow_to_one(cells: ByteArray) -> ByteArray:
-    """Dilate the contours by the smallest number of cells that leaves a single one."""
+def _contours(cells: ByteArray) -> int:
+    return int(cv2.connectedComponents(cells)[0]) - 1  # the background is one of them
 
-    def grown(reach: int) -> ByteArray:
-        kernel = np.ones((2 * reach + 1, 2 * reach + 1), dtype=np.uint8)
-        return np.asarray(cv2.dilate(cells, kernel), dtype=np.uint8)
+
+def _growth_to_one(cells: ByteArray) -> int:
+    """Find the smallest number of cells by which the contours grow into a single one."""
 
     def is_one(reach: int) -> bool:
-        return cv2.connectedComponents(grown(reach))[0] <= 2  # the background is one of them
+        kernel = np.ones((2 * reach + 1, 2 * reach + 1), dtype=np.uint8)
+        return _contours(np.asarray(cv2.dilate(cells, kernel), dtype=np.uint8)) == 1
 
-    high = 1
     if is_one(0):
-        return cells
+        return 0
+    high = 1
     while not is_one(high):
         high *= 2
     low = high // 2
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (low, middle) if is_one(middle) else (middle, high)
-    return grown(high)
+    return high
 
 
 def _bounds(bright: ByteArray, within: Region) -> Region:

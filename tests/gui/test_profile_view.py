@@ -83,28 +83,17 @@ def test_where_the_band_model_is_undefined_a_sentence_takes_its_place(
 def test_a_photo_is_drawn_from_the_panels_first_column_and_taken_away(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
-    assert drawn(view.photo) == ([], [])
     view.show_photo(photo)
-    x, y = drawn(view.photo)
-    assert x[0] == round(snapshot.frame.corners[:, 0].min()) > 0
-    assert y == photo.profile.tolist()
+    for distance in (1.2, 2.0):
+        snapshot = snapshot_of(distance=distance)
+        view.show_snapshot(snapshot)
+        x, y = drawn(view.photo)
+        assert x[0] == round(snapshot.frame.corners[:, 0].min()) > 0
+        assert y == photo.profile.tolist()
     assert any(text.startswith("photo") for text in legend_texts(view))
     view.show_photo(None)
     assert drawn(view.photo) == ([], [])
     assert not any(text.startswith("photo") for text in legend_texts(view))
-
-
-def test_a_photo_follows_the_panel(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
-) -> None:
-    view.show_photo(photo)
-    firsts = []
-    for distance in (1.2, 2.0):
-        view.show_snapshot(snapshot_of(distance=distance))
-        firsts.append(drawn(view.photo)[0][0])
-    assert firsts[0] < firsts[1]
 
 
 def test_after_enhancement_shows_the_pictures_values_and_the_threshold(

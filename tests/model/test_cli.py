@@ -151,7 +151,7 @@ MISUSES = {
     "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
     "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",
     "render --scene folder.png": "folder.png cannot be read: Is a directory.",
-    "render --scene text.txt": "This is not a TOML file: ",
+    "render --scene text.txt": "text.txt cannot be read. This is not a TOML file: ",
     "render -o missing/out.png": "missing/out.png cannot be written: No such file or directory.",
     "render -o folder.png": "folder.png is a folder; name a file to write to.",
     "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",

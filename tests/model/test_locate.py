@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from numpy.typing import NDArray
 
 from occ_model.receiver.locate import locate
 from occ_model.results import Region
@@ -14,6 +15,11 @@ from occ_model.results import Region
 FRACTION = 0.05
 
 images = arrays.arrays(np.uint8, arrays.array_shapes(min_dims=2, max_dims=2, max_side=24))
+
+
+def region_in(image: NDArray[np.uint8], fraction: float) -> Region | None:
+    found = locate(image, fraction)
+    return None if found is None else found.region
 
 
 def dark(rows: int, columns: int, level: int = 20) -> np.ndarray:
@@ -40,7 +46,7 @@ def inside(rows: int, columns: int) -> st.SearchStrategy[Region]:
 
 @given(region=inside(60, 90).filter(lambda r: r.rows * r.columns < 60 * 90))
 def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> None:
-    assert locate(lit(60, 90, region), FRACTION) == region
+    assert region_in(lit(60, 90, region), FRACTION) == region
 
 
 @pytest.mark.parametrize("shape", [(700, 1500), (1501, 1103), (3, 3000), (2000, 5)])
@@ -49,7 +55,7 @@ def test_a_bright_rectangle_is_found_exactly_in_a_large_image_too(
     shape: tuple[int, int], data: st.DataObject
 ) -> None:
     region = data.draw(inside(*shape).filter(lambda r: r.rows * r.columns < shape[0] * shape[1]))
-    assert locate(lit(*shape, region), FRACTION) == region
+    assert region_in(lit(*shape, region), FRACTION) == region
 
 
 @pytest.mark.parametrize(
@@ -69,7 +75,7 @@ def test_a_bright_rectangle_is_found_exactly_in_a_large_image_too(
 def test_the_share_of_bright_pixels_asked_for_does_not_move_a_rectangle(
     region: Region, fraction: float
 ) -> None:
-    assert locate(lit(900, 1200, region), fraction) == region
+    assert region_in(lit(900, 1200, region), fraction) == region
 
 
 @pytest.mark.parametrize("period", [4, 10, 37, 120])
@@ -82,7 +88,7 @@ def test_a_striped_panel_is_found_from_its_first_to_its_last_bright_stripe(
     starts = range(first, last - period // 2, period)
     for start in starts:
         put(image, Region(top, bottom, start, start + period // 2), 220)
-    assert locate(image, FRACTION) == Region(top, bottom, first, starts[-1] + period // 2)
+    assert region_in(image, FRACTION) == Region(top, bottom, first, starts[-1] + period // 2)
 
 
 def test_stripes_of_several_brightnesses_are_one_panel() -> None:
@@ -91,14 +97,14 @@ def test_stripes_of_several_brightnesses_are_one_panel() -> None:
     edges = [50, 80, 110, 150, 160, 200]
     for (start, end), level in zip(pairwise(edges), levels, strict=True):
         put(image, Region(40, 160, start, end - 4), level)
-    assert locate(image, 0.5) == Region(40, 160, 50, 196)
+    assert region_in(image, 0.5) == Region(40, 160, 50, 196)
 
 
 def test_a_stripe_of_one_column_is_no_speck() -> None:
     image = dark(1200, 1600)
     for first, last in ((200, 201), (300, 310), (400, 410), (500, 501)):
         put(image, Region(100, 1000, first, last), 220)
-    assert locate(image, FRACTION) == Region(100, 1000, 200, 501)
+    assert region_in(image, FRACTION) == Region(100, 1000, 200, 501)
 
 
 @given(places=st.sets(st.tuples(st.integers(0, 74), st.integers(0, 124)), max_size=60))
@@ -111,7 +117,7 @@ def test_isolated_hot_pixels_away_from_the_panel_do_not_widen_it(
         # The contours live on a coarser grid: what lies within a cell of them is part of them.
         if not (14 <= row <= 45 and 24 <= column <= 85):
             image[20 * row, 20 * column] = 255
-    assert locate(image, FRACTION) == panel
+    assert region_in(image, FRACTION) == panel
 
 
 def test_a_panel_far_away_is_not_lost_among_the_surroundings_brightest_pixels() -> None:
@@ -119,7 +125,7 @@ def test_a_panel_far_away_is_not_lost_among_the_surroundings_brightest_pixels() 
     image = rng.integers(10, 30, (600, 800), dtype=np.uint8)
     panel = Region(250, 280, 390, 420)  # 0.2 % of the area
     put(image, panel, 200)
-    assert locate(image, FRACTION) == panel
+    assert region_in(image, FRACTION) == panel
 
 
 @given(
@@ -135,7 +141,7 @@ def test_a_constant_image_shows_no_panel(level: int, shape: tuple[int, int]) -> 
 def check_any(image: np.ndarray, fraction: float) -> None:
     """Check what holds for the region of any image."""
     before = image.copy()
-    region = locate(image, fraction)
+    region = region_in(image, fraction)
     np.testing.assert_array_equal(image, before)
     if region is None:
         assert np.ptp(image) == 0
@@ -175,9 +181,9 @@ def test_the_same_holds_for_images_of_one_row_or_one_column(
 def test_a_mirrored_or_turned_image_has_the_mirrored_or_turned_region(
     image: np.ndarray, fraction: float
 ) -> None:
-    region = locate(image, fraction)
-    turned = locate(np.ascontiguousarray(image.T), fraction)
-    mirrored = locate(np.ascontiguousarray(image[:, ::-1]), fraction)
+    region = region_in(image, fraction)
+    turned = region_in(np.ascontiguousarray(image.T), fraction)
+    mirrored = region_in(np.ascontiguousarray(image[:, ::-1]), fraction)
     if region is None:
         assert turned is None
         assert mirrored is None
@@ -192,3 +198,23 @@ def test_a_mirrored_or_turned_image_has_the_mirrored_or_turned_region(
         columns - region.last_column,
         columns - region.first_column,
     )
+
+
+def test_stripes_are_contours_of_their_own_that_grow_together_over_half_their_gaps() -> None:
+    image = np.zeros((120, 400), dtype=np.uint8)
+    for first in range(100, 300, 40):
+        image[30:90, first : first + 10] = 255
+    found = locate(image, FRACTION)
+    assert found is not None
+    assert found.bright_level == 255
+    assert found.contours == 5
+    # Gaps of 30 columns close when each side has grown by 15.
+    assert found.growth == 15
+
+
+def test_a_panel_without_stripes_is_one_contour_that_need_not_grow() -> None:
+    image = np.zeros((120, 400), dtype=np.uint8)
+    image[30:90, 100:200] = 255
+    found = locate(image, FRACTION)
+    assert found is not None
+    assert (found.contours, found.growth) == (1, 0)

@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 from occ_model.errors import ParameterError, PhotoError
+from occ_model.photo import load
 from occ_model.photo.load import load_photo
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
@@ -145,9 +146,9 @@ def test_a_photo_too_large_to_be_honest_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pixels: int
 ) -> None:
     path = saved(tmp_path, PICTURE)
-    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", STRIPES.size)
+    monkeypatch.setattr(load, "MAX_PIXELS", STRIPES.size)
     assert load_photo(path).image.size == STRIPES.size == 1536
-    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", pixels)
+    monkeypatch.setattr(load, "MAX_PIXELS", pixels)
     with pytest.raises(PhotoError, match=r"x\.png has more than \d+ million pixels\.$"):
         load_photo(path)
 

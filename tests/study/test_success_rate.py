@@ -59,9 +59,10 @@ def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None
     for distance in (0.5, 1.0, 2.5):
         at = scene.replace(distance=distance)
         by_profile = decode_profile(at, "threshold", 0.0, random)
-        region = locate(occ.render(at).image, at.receiver.bright_fraction)
+        found = locate(occ.render(at).image, at.receiver.bright_fraction)
         assert by_profile is not None
-        assert by_profile.region == region
+        assert found is not None
+        assert by_profile.region == found.region
 
 
 def test_profile_path_sees_the_signal_that_the_image_shows_with_noise(scene: Scene) -> None:

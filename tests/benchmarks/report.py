@@ -11,11 +11,15 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import count
 from pathlib import Path
 from statistics import median
 from time import perf_counter
 
 import occ_model as occ
+from occ_model.camera.enhancement import enhance
+from occ_model.receiver.code_book import code_book
 
 _ROUNDS = 41
 _COLD_STARTS = 7
@@ -92,14 +96,48 @@ def decode_cost() -> Row:
 
 
 def profile_path_cost() -> Row:
-    """Compare decoding the profile with decoding the image."""
+    """Compare simulating and decoding a profile with making and decoding the image."""
     scene = occ.load_preset("phone-136us")
-    frame = occ.render(scene)
+
+    def by_profile() -> None:
+        occ.decode(enhance(occ.column_profile(scene), scene.model.enhancement), scene)
+
+    a, b = side_by_side(by_profile, lambda: occ.decode(occ.render(scene).image, scene), rounds=201)
+    return Row(
+        "profile simulated and read by threshold, against the same by way of the image",
+        f"1 / {b / a:.0f} ({1e3 * a:.2f} ms)",
+        "under 0.5 ms",
+    )
+
+
+def matched_cost() -> Row:
+    """Compare the matched decoder with the threshold decoder, on a profile."""
+    scene = occ.load_preset("phone-136us")
+    profile = enhance(occ.column_profile(scene), scene.model.enhancement)
     a, b = side_by_side(
-        lambda: occ.decode(frame.image, scene), lambda: occ.decode(frame.enhanced, scene)
+        lambda: occ.decode(profile, scene, "matched"),
+        lambda: occ.decode(profile, scene, "threshold"),
+        rounds=201,
     )
     return Row(
-        "decoding the image against the profile alone", f"{a / b:.2f} ({1e3 * b:.2f} ms)", ""
+        "matched decoding of a profile against threshold decoding",
+        f"{a / b:.2f} ({1e3 * a:.2f} ms)",
+        "under 2 ms",
+    )
+
+
+def code_book_cost() -> Row:
+    """Compare making the forward model of all codes, once a setting, with one decoding."""
+    scene = occ.load_preset("phone-136us")
+    profile = enhance(occ.column_profile(scene), scene.model.enhancement)
+    exposures = (Fraction(n, 977) for n in count(1000))
+    a, b = side_by_side(
+        lambda: code_book(10, next(exposures)), lambda: occ.decode(profile, scene, "matched")
+    )
+    return Row(
+        "forward model of all 1024 codes, once a setting, against one matched decoding",
+        f"{a / b:.2f} ({1e3 * a:.2f} ms)",
+        "",
     )
 
 
@@ -121,7 +159,16 @@ def cold_start() -> Row:
     )
 
 
-_ALL = (profile_cost, frame_cost, tilted_frame_cost, decode_cost, profile_path_cost, cold_start)
+_ALL = (
+    profile_cost,
+    frame_cost,
+    tilted_frame_cost,
+    decode_cost,
+    profile_path_cost,
+    matched_cost,
+    code_book_cost,
+    cold_start,
+)
 
 
 def main() -> None:

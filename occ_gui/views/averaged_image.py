@@ -100,9 +100,24 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         ]
         # Along each axis only ever fewer pixels: enlarging is the painter's, without smoothing.
         smaller = (min(size[0], part.width()), min(size[1], part.height()))
-        if smaller != (part.width(), part.height()):
-            pixels = np.asarray(cv2.resize(pixels, smaller, interpolation=cv2.INTER_AREA))
-        pixels = np.ascontiguousarray(pixels)
+        pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
         rows, columns = pixels.shape
         image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
         return image.copy()  # so that it does not refer to memory that goes away
+
+
+def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
+    """Average an image down to a size that is no larger than its own.
+
+    Halving is what OpenCV averages many times faster than any other ratio; only the last step,
+    less than a half, is of another. An odd row or column at the edge, less than a pixel of the
+    screen, is left out by halving.
+    """
+    while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
+        half = (pixels.shape[1] // 2, pixels.shape[0] // 2)
+        even = pixels[: 2 * half[1], : 2 * half[0]]
+        pixels = np.asarray(cv2.resize(even, half, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    if pixels.shape == (rows, columns):
+        return pixels
+    smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)
+    return np.asarray(smaller, dtype=np.uint8)

@@ -28,7 +28,7 @@ class SignalPlot(QWidget):
         self.plot = new_plot(
             self.tr("Signal and chips"),
             self.tr("column of the region"),
-            self.tr("grey level"),
+            self.tr("level"),
             self.palette(),
         )
         self.legend = LineLegend()
@@ -73,7 +73,7 @@ class SignalPlot(QWidget):
     def _show_signal(self, result: DecodeResult, packet_columns: float) -> None:
         signal = result.signal if result.signal is not None else np.zeros(1)
         self.plot.setLabel("bottom", self.tr("column of the region"))
-        self.plot.setLabel("left", self.tr("grey level"))
+        self.plot.setLabel("left", self.tr("level"))
         _draw(self.signal, signal)
         self.model.setData([], [])
         low, high = float(signal.min()), float(signal.max())

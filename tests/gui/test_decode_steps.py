@@ -106,7 +106,7 @@ def test_the_paper_decoders_signal_comes_back_without_the_model(
     signal_plot.show_result(paper.decoded, paper.packet_columns)
     assert levels(signal_plot.model) == []
     assert "model of the code" not in legend_texts(signal_plot)
-    assert "grey level" in signal_plot.plot.getAxis("left").labelText
+    assert "level" in signal_plot.plot.getAxis("left").labelText
 
 
 def test_a_step_that_was_not_reached_shows_no_plot(

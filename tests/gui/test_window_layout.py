@@ -168,12 +168,15 @@ def test_the_window_opens_at_1280_by_800(application: Application) -> None:
     assert application.window.size() == QSize(1280, 800)
 
 
-def test_the_window_needs_no_more_room_before_the_first_picture(
-    application: Application,
+@pytest.mark.parametrize("changes", STATES, ids=str)
+def test_the_window_opens_at_the_size_asked_for_whatever_its_first_scene(
+    qtbot: QtBot, application: Application, changes: dict[str, float]
 ) -> None:
-    fresh = Application(application.store.scene)
+    fresh = Application(application.store.scene.replace(**changes))
     fresh.window.resize(SIZES[0])
     fresh.window.show()
+    qtbot.waitUntil(lambda: fresh.is_idle)
+    QApplication.processEvents()
     size = fresh.window.size()
     fresh.window.close()
     fresh.window.deleteLater()

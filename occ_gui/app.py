@@ -112,17 +112,42 @@ def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Applicatio
     return qt, Application(scene)
 
 
-def _take_screenshot(application: "Application", path: Path) -> None:
-    """Wait until all work is done and shown, and write a picture of the window."""
-    from PySide6.QtCore import QBuffer, QDeadlineTimer, QIODevice
+def wait_until_shown(application: "Application") -> None:
+    """Let the window work until all that was asked for is shown.
+
+    Raises
+    ------
+    OccError
+        The scene has no picture, or it took too long.
+    """
+    from PySide6.QtCore import QDeadlineTimer, QEventLoop, QTimer
     from PySide6.QtWidgets import QApplication
 
+    failures: list[str] = []
+    for controller in (application.simulation, application.photos):
+        controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
+    QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case
     while not (application.is_idle or deadline.hasExpired()):
-        QApplication.processEvents()
+        # Waiting, not spinning: the worker needs the interpreter.
+        QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
     QApplication.processEvents()
-    buffer = QBuffer()
-    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    application.window.grab().save(buffer, "PNG")
-    application.window.close()
+    if failures:
+        raise occ.OccError(failures[0])
+    if not application.is_idle:
+        raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
+
+
+def _take_screenshot(application: "Application", path: Path) -> None:
+    """Write a picture of the window, once everything is shown."""
+    from PySide6.QtCore import QBuffer, QIODevice
+
+    try:
+        wait_until_shown(application)
+        buffer = QBuffer()
+        buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+        if not application.window.grab().save(buffer, "PNG"):
+            raise occ.OutputError(f"{path} cannot be written: the window cannot be drawn.")
+    finally:
+        application.window.close()
     write_whole(path, bytes(buffer.data().data()))

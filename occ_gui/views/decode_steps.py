@@ -5,7 +5,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.views.plots import BAND, SIMULATION, THRESHOLD, new_plot, thin
+from occ_gui.views.plots import BAND, SIMULATION, THRESHOLD, dress_axis, new_plot, thin
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import DecodeResult
@@ -35,6 +35,7 @@ class SignalPlot(QWidget):
         dash = Qt.PenStyle.DashLine
         self.legend.add_line("signal", thin(SIMULATION), self.tr("signal"))
         self.legend.add_line("threshold", thin(THRESHOLD, dash), self.tr("threshold"))
+        self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), self.tr("chips: lit"))
         self.legend.add_line("model", thin(BAND, dash), self.tr("model of the code"))
         self.signal = self.plot.plot(pen=thin(SIMULATION))
         self.model = self.plot.plot(pen=thin(BAND, dash))
@@ -60,6 +61,7 @@ class SignalPlot(QWidget):
         self.chips.setVisible(not folded and bool(result.chips.size))
         self.legend.show_line("threshold", result.threshold is not None)
         self.legend.show_line("model", folded)
+        self.legend.show_line("chips", self.chips.isVisible())
         self.setVisible(result.signal is not None)
 
     def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
@@ -98,6 +100,15 @@ class SignalPlot(QWidget):
         )
 
 
+class _CountAxis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
+    """An axis on which bars that hang down count as those that stand."""
+
+    def tickStrings(  # noqa: N802 - pyqtgraph's name
+        self, values: list[float], _scale: float, _spacing: float
+    ) -> list[str]:
+        return [f"{abs(value):g}" for value in values]
+
+
 class RunLengthPlot(QWidget):
     """How often each run length occurs, of ones and of zeros, and where Otsu's threshold splits."""
 
@@ -106,8 +117,9 @@ class RunLengthPlot(QWidget):
         self.plot = new_plot(
             self.tr("Run lengths"), self.tr("run length (columns)"), self.tr("runs"), self.palette()
         )
+        self.plot.setAxisItems({"left": _CountAxis("left")})
+        dress_axis(self.plot, "left", self.tr("runs"), self.palette())
         title = QLabel(self.tr("Run lengths: ones up, zeros down, splits dashed"))
-        title.setWordWrap(True)
         self.bars, self.splits = [], []
         for colour in (BAND, SIMULATION):  # zeros, ones
             bars = pg.BarGraphItem(x=[], height=[], width=0.8, brush=colour, pen=colour)

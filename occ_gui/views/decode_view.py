@@ -42,6 +42,11 @@ class DecodeView(QWidget):
         layout.addWidget(self.signal, 1)
         layout.addWidget(self.run_lengths, 1)
         layout.addStretch()
+        # Before the first result there is nothing to show, and nothing that needs room.
+        for part in (self.strip, self.reason, self.signal, self.run_lengths):
+            part.hide()
+        for step in self._steps.values():
+            self._form.setRowVisible(step, False)
 
     def _make_form(self) -> QFormLayout:
         self._form = form = QFormLayout()

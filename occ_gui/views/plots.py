@@ -34,13 +34,18 @@ def new_plot(name: str, x: str, y: str, palette: QPalette, least_height: int = 9
     plot = pg.PlotWidget()
     plot.setAccessibleName(name)
     plot.setBackground(palette.color(QPalette.ColorRole.Base))
-    for side, label in (("bottom", x), ("left", y)):
-        axis = plot.getAxis(side)
-        axis.setPen(palette.color(QPalette.ColorRole.Mid))
-        axis.setTextPen(palette.color(QPalette.ColorRole.Text))
-        plot.setLabel(side, label)
+    dress_axis(plot, "bottom", x, palette)
+    dress_axis(plot, "left", y, palette)
     plot.setMinimumHeight(least_height)
     plot.setMenuEnabled(False)
     plot.hideButtons()
     plot.getViewBox().disableAutoRange()
     return plot
+
+
+def dress_axis(plot: pg.PlotWidget, side: str, label: str, palette: QPalette) -> None:
+    """Give an axis its label and the palette's colours."""
+    axis = plot.getAxis(side)
+    axis.setPen(palette.color(QPalette.ColorRole.Mid))
+    axis.setTextPen(palette.color(QPalette.ColorRole.Text))
+    plot.setLabel(side, label)

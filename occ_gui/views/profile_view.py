@@ -26,7 +26,7 @@ class ProfileView(QWidget):
         self._snapshot: Snapshot | None = None
         self._photo: Photo | None = None
         self.plot = new_plot(
-            self.tr("Column profile"), self.tr("column"), self.tr("grey level"), self.palette()
+            self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
         )
         # Where several columns share a pixel their extremes are drawn, not one of them by chance.
         self.plot.setDownsampling(auto=True, mode="peak")

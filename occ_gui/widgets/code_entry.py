@@ -48,6 +48,8 @@ class CodeEntry(QWidget):
             self.tr("The code sent, from 0 to {largest}.").format(largest=2**self._bits - 1)
         )
         self.bits.setText(f"{transmitter.code:0{self._bits}b}")
+        # A raw pattern is sent in place of the code.
+        self.setEnabled(not transmitter.pattern)
 
     def _tell(self, code: int) -> None:
         self.edited.emit("code", code, new_gesture())

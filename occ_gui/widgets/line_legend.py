@@ -38,7 +38,7 @@ def _sample(pen: QPen) -> QPixmap:
     pixmap.fill(Qt.GlobalColor.transparent)
     painter = QPainter(pixmap)
     thick = QPen(pen)
-    thick.setWidth(2)
+    thick.setWidth(max(2, pen.width()))
     painter.setPen(thick)
     painter.drawLine(0, _SAMPLE.height() // 2, _SAMPLE.width(), _SAMPLE.height() // 2)
     painter.end()

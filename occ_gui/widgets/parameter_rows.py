@@ -1,6 +1,6 @@
 """The controls of one parameter, one class for every kind of declaration."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QElapsedTimer, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.state.gesture import new_gesture
+from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.quantity_edit import QuantityEdit
 from occ_model.declarations import (
     ChipPattern,
@@ -25,6 +26,9 @@ from occ_model.declarations import (
 from occ_model.errors import ParameterError
 
 _SLIDER_STEPS = 1000
+
+_KEYS_PAUSE_MS = 700
+"""A pause between two keys that ends a gesture."""
 
 
 class ParameterRow(QWidget):
@@ -65,6 +69,8 @@ class QuantityRow(ParameterRow):
         layout.addWidget(self.field)
         for control in (self.slider, self.field):
             _name(control, quantity)
+            keep_wheel_for_scrolling(control)
+        self._since_key = QElapsedTimer()
         self.slider.sliderPressed.connect(self._begin_gesture)
         self.slider.valueChanged.connect(self._slide)
         self.field.edited.connect(self._take)
@@ -86,8 +92,10 @@ class QuantityRow(ParameterRow):
         self._gesture = new_gesture()
 
     def _slide(self, position: int) -> None:
-        if not self.slider.isSliderDown():  # a key or the wheel: a gesture of its own
-            self._begin_gesture()
+        if not self.slider.isSliderDown():  # keys or the wheel: one gesture while they go on
+            if not self._since_key.isValid() or self._since_key.hasExpired(_KEYS_PAUSE_MS):
+                self._begin_gesture()
+            self._since_key.start()
         value = self._quantity.at(position / _SLIDER_STEPS)
         self.field.set_value(value)
         self._tell(value, self._gesture)
@@ -105,6 +113,7 @@ class CountRow(ParameterRow):
         self.field = QSpinBox()
         self.field.setRange(declared.low, declared.high)
         self.field.setKeyboardTracking(False)
+        keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
         self.field.valueChanged.connect(self._tell)
 
@@ -122,6 +131,7 @@ class ChoiceRow(ParameterRow):
         super().__init__(declared, parent)
         self.field = QComboBox()
         self.field.addItems(declared.choices)
+        keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
         self.field.textActivated.connect(self._tell)
 

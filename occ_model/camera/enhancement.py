@@ -1,9 +1,11 @@
 """Contrast enhancement and rounding to 8 bits."""
 
 from collections.abc import Callable
+from typing import Any
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
@@ -12,9 +14,9 @@ _SMALLEST_SWING = 1.0
 """A profile that spans less than one grey level is flat: stretching it would invent stripes."""
 
 
-def to_bytes(values: FloatArray) -> ByteArray:
+def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
     """Round grey levels to the nearest of 0 to 255."""
-    return np.clip(np.rint(values), 0.0, WHITE).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(values), 0.0, WHITE), dtype=np.uint8)
 
 
 def enhancement_of(profile: FloatArray, method: str) -> Callable[[FloatArray], ByteArray]:

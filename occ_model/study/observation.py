@@ -50,7 +50,8 @@ def noisy_image(scene: Scene, noise: float, random: np.random.Generator) -> Byte
     image = paint(curve(profile), corners, rows, int(to_bytes(np.array(dark))))
     first, last = row_spans(corners, rows, len(profile))
     for row in range(rows if noise > 0.0 else 0):
-        deviations = random.normal(0.0, noise, len(profile))
+        # Single precision: noise needs no more, and it is drawn twice as fast.
+        deviations = noise * random.standard_normal(len(profile), dtype=np.float32)
         panel = slice(int(first[row]), int(last[row]))
         image[row] = to_bytes(dark + deviations)
         image[row, panel] = curve(profile[panel] + deviations[panel])

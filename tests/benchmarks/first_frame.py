@@ -3,15 +3,14 @@
 import sys
 
 import occ_model as occ
-from occ_gui.app import start
+from occ_gui.app import start, wait_until_shown
 
 
 def main() -> None:
     """End once the picture pane has painted a frame."""
-    qt, application = start(occ.load_preset("phone-68us"), sys.argv[:1])
+    _, application = start(occ.load_preset("phone-68us"), sys.argv[:1])
     application.window.show()
-    while not application.is_idle:
-        qt.processEvents()
+    wait_until_shown(application)
     application.window.grab()
     application.window.close()
 

@@ -17,11 +17,9 @@ from occ_model.study.observation import noisy_image
 
 POSES: dict[str, dict[str, float]] = {
     "level": {},
-    "roll 10°": {"roll": math.radians(10)},
     "roll 30°": {"roll": math.radians(30)},
     "yaw 30°": {"yaw": math.radians(30)},
     "pitch 30°": {"pitch": math.radians(30)},
-    "all three 20°": dict.fromkeys(("roll", "yaw", "pitch"), math.radians(20)),
     "a third outside": {"offset_x": 0.6},
 }
 NOISES = (1.0, 3.0, 10.0)

@@ -129,3 +129,18 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
     told = capsys.readouterr().out
     for option in ("--preset", "--scene", "--set", "--photo", "--screenshot", "--size"):
         assert option in told
+
+
+def test_a_scene_without_a_picture_is_answered_in_a_sentence_and_no_file(tmp_path: Path) -> None:
+    picture = tmp_path / "window.png"
+    behind = ["--set", "distance=0.1m", "--set", "yaw=70deg"]
+    ended = subprocess.run(
+        [sys.executable, "-m", "occ_gui", "--screenshot", str(picture), *behind],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 2
+    assert "behind the camera" in ended.stderr
+    assert "Traceback" not in ended.stderr
+    assert not picture.exists()

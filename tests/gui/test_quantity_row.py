@@ -3,7 +3,9 @@
 import math
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.parameter_rows import QuantityRow
@@ -97,7 +99,7 @@ def test_a_value_beyond_the_slider_is_kept_and_shown(qtbot: QtBot) -> None:
     assert row.field.text() == "50 m"
 
 
-def test_one_drag_is_one_gesture_and_every_key_is_one_of_its_own(qtbot: QtBot) -> None:
+def test_one_drag_is_one_gesture_and_so_are_keys_until_a_pause(qtbot: QtBot) -> None:
     told = Told("iso", qtbot)
     slider = told.row.slider
     for _ in range(2):
@@ -107,9 +109,11 @@ def test_one_drag_is_one_gesture_and_every_key_is_one_of_its_own(qtbot: QtBot) -
         slider.setSliderDown(False)
     assert len(told.edits) == 6
     assert len(told.gestures) == 2
-    for _ in range(3):
-        qtbot.keyClick(slider, Qt.Key.Key_Right)
-    assert len(told.gestures) == 5
+    for gestures in (3, 4):
+        for _ in range(3):
+            qtbot.keyClick(slider, Qt.Key.Key_Right)
+        assert len(told.gestures) == gestures
+        told.row._since_key.invalidate()  # as after a pause
 
 
 def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:
@@ -140,3 +144,31 @@ def test_rubbish_in_a_field_is_refused_by_the_row(qtbot: QtBot) -> None:
     assert sentence.startswith("exposure_time is 'soon'")
     assert told.edits == []
     assert row.slider.value() == position
+
+
+def test_the_wheel_scrolls_the_page_until_a_control_has_been_chosen(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    told.row.show()
+    slider = told.row.slider
+
+    def turn() -> None:
+        centre = slider.rect().center().toPointF()
+        turned = QWheelEvent(
+            centre,
+            slider.mapToGlobal(centre),
+            QPoint(),
+            QPoint(0, 120),
+            Qt.MouseButton.NoButton,
+            Qt.KeyboardModifier.NoModifier,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        )
+        QApplication.sendEvent(slider, turned)
+
+    slider.clearFocus()
+    turn()
+    assert told.edits == []
+    slider.setFocus()
+    qtbot.waitUntil(slider.hasFocus)
+    turn()
+    assert len(told.edits) == 1

@@ -17,6 +17,9 @@ BINS_PER_CHIP = 8
 _TONE_CODES = 256
 """Codes that the distribution of lit fractions is taken from; more of them do not change it."""
 
+_ROUNDING = 1e-12
+"""Variance of a profile, in lit fractions squared, that is nothing but rounding."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CodeBook:
@@ -33,7 +36,8 @@ class CodeBook:
     response : ndarray of float64, shape (bins,)
         Lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
     energy : ndarray of float64, shape (codes,)
-        Sum of the squares of each code's profile about its mean.
+        Sum of the squares of each code's profile about its mean; infinite where that is nothing
+        but rounding, so that such a profile correlates with none.
     levels : ndarray of float64, shape (bins,)
         Lit fractions that the codes' profiles take: evenly spaced quantiles of all of them.
     """
@@ -98,4 +102,5 @@ def _energies(packets: FloatArray, response: FloatArray) -> FloatArray:
     spectrum = np.abs(np.fft.rfft(packets, axis=1)) ** 2
     lags = np.fft.irfft(spectrum, packets.shape[1], axis=1)
     sums = packets.sum(axis=1) * response.sum()
-    return np.asarray(lags @ own - sums**2 / bins)
+    energies = lags @ own - sums**2 / bins
+    return np.where(energies > _ROUNDING * bins, energies, np.inf)

@@ -8,12 +8,16 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import to_bytes
+from occ_model.camera.photometry import WHITE
 from occ_model.errors import DecodeInputError, ParameterError
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Region
 from occ_model.scene import Scene
+
+_LARGEST_LEVEL = 1e5
+"""Beyond any grey level, of whatever bit depth: a value that is none."""
 
 
 def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeResult:
@@ -41,9 +45,14 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeRe
     ParameterError
         There is no such decoder.
     """
-    if decoder not in DECODERS:
+    if not isinstance(decoder, str) or decoder not in DECODERS:
         raise ParameterError(f"There is no decoder {decoder!r}; known: {', '.join(DECODERS)}.")
-    image = np.asarray(image)
+    try:
+        image = np.asarray(image)
+    except ValueError:
+        raise DecodeInputError(
+            "The image is no array: its rows are of different lengths."
+        ) from None
     _check(image)
     if image.ndim == 1:
         whole = Region(0, 1, 0, len(image))
@@ -77,5 +86,12 @@ def _check(image: NDArray[Any]) -> None:
         raise DecodeInputError(
             f"The image has pixels of type {image.dtype}; allowed: uint8, uint16, floating point."
         )
-    if np.issubdtype(image.dtype, np.floating) and not np.isfinite(image).all():
+    if not np.issubdtype(image.dtype, np.floating):
+        return
+    if not np.isfinite(image).all():
         raise DecodeInputError("The image holds values that are not numbers (NaN or infinity).")
+    largest = float(np.abs(image).max())
+    if largest > _LARGEST_LEVEL:
+        raise DecodeInputError(
+            f"The image holds the value {largest:.3g}; grey levels reach from 0 to {WHITE:.0f}."
+        )

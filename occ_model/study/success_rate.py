@@ -1,9 +1,11 @@
 """The success rate, as the paper defines it."""
 
+from numbers import Real
 from typing import Literal
 
 import numpy as np
 
+from occ_model.camera.photometry import WHITE
 from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPERS
@@ -57,12 +59,12 @@ def success_rate(
     Raises
     ------
     ParameterError
-        There are no images, no such decoder or path, the noise is negative, the scene sends a raw
-        pattern, or it is not level and ``path`` is ``"profile"``.
+        There are no images, no such decoder or path, seed or noise are out of range, the scene
+        sends a raw pattern, or it is not level and ``path`` is ``"profile"``.
     ProjectionError
         The scene has no picture.
     """
-    _check(scene, images, decoder, noise, path)
+    _check(scene, images, decoder, seed, noise, path)
     transmitter = scene.transmitter
     sent = np.array(bits_of(transmitter.code, transmitter.bits))
     duration = packet_length(transmitter.bits) * transmitter.switching_period
@@ -87,13 +89,19 @@ def _decode(
     return decode(noisy_image(scene, noise, random), scene, decoder)
 
 
-def _check(scene: Scene, images: int, decoder: str, noise: float, path: Path) -> None:
-    if images < 1:
-        raise ParameterError(f"images is {images}; allowed: a whole number from 1.")
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _check(scene: Scene, images: int, decoder: str, seed: int, noise: float, path: Path) -> None:
+    if not isinstance(images, int | np.integer) or isinstance(images, bool) or images < 1:
+        raise ParameterError(f"images is {images!r}; allowed: a whole number from 1.")
+    if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or seed < 0:
+        raise ParameterError(f"seed is {seed!r}; allowed: a whole number from 0.")
     if decoder not in DECODERS:
         raise ParameterError(f"There is no decoder {decoder!r}; known: {', '.join(DECODERS)}.")
-    if not 0.0 <= noise < np.inf:
-        raise ParameterError(f"noise is {noise} grey levels; allowed: 0 and more.")
+    if not _is_number(noise) or not 0.0 <= noise <= WHITE:
+        raise ParameterError(f"noise is {noise!r} grey levels; allowed: 0 to {WHITE:.0f}.")
     if path not in ("auto", "profile", "image"):
         raise ParameterError(f"path is {path!r}; allowed: auto, profile, image.")
     if scene.transmitter.pattern:

@@ -159,6 +159,8 @@ def test_noise_gives_a_sentence_and_never_an_exception() -> None:
         (np.zeros((4, 5), dtype=np.int32), "int32"),
         (np.full((4, 5), np.nan), "not numbers"),
         (np.array([1.0, np.inf]), "not numbers"),
+        (np.array([-1e308, 1e308] * 50), "grey levels reach"),
+        ([[1.0], [1.0, 2.0]], "different lengths"),
     ],
 )
 def test_arrays_that_are_no_grey_image_are_refused_with_a_sentence(
@@ -168,6 +170,7 @@ def test_arrays_that_are_no_grey_image_are_refused_with_a_sentence(
         occ.decode(image, Scene())
 
 
-def test_an_unknown_decoder_is_refused_with_the_names_there_are() -> None:
+@pytest.mark.parametrize("decoder", ["psychic", None, []])
+def test_an_unknown_decoder_is_refused_with_the_names_there_are(decoder: object) -> None:
     with pytest.raises(occ.ParameterError, match="threshold"):
-        occ.decode(np.zeros((2, 2), dtype=np.uint8), Scene(), decoder="psychic")
+        occ.decode(np.zeros((2, 2), dtype=np.uint8), Scene(), decoder)  # type: ignore[arg-type]

@@ -134,3 +134,11 @@ def test_pictures_without_a_code_give_a_sentence(image: np.ndarray) -> None:
     assert result.code is None
     assert result.failure is not None
     assert result.failure.endswith(".")
+
+
+@pytest.mark.parametrize("packets", [1, 2, 1000])
+def test_an_exposure_of_whole_packets_is_told_from_a_picture_that_is_too_bad(packets: int) -> None:
+    scene = Scene().replace(switching_frequency=8192.0, exposure_time=packets * 24 / 8192)
+    result = occ.decode(np.random.default_rng(1).normal(100, 9, 3000), scene, "matched")
+    assert result.failure is not None
+    assert "whole number of packets" in result.failure

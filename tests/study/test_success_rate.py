@@ -100,6 +100,11 @@ def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
         ({"decoder": "psychic"}, "psychic"),
         ({"noise": -1.0}, "noise"),
         ({"noise": float("nan")}, "noise"),
+        ({"noise": 1e6}, "0 to 255"),
+        ({"noise": "much"}, "noise"),
+        ({"images": 2.5}, "images is 2.5"),
+        ({"seed": -1}, "seed is -1"),
+        ({"seed": None}, "seed is None"),
         ({"path": "guess"}, "guess"),
     ],
 )

@@ -71,6 +71,11 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             "the panel's image; come closer or raise the frequency.",
         )
     book = code_book(bits, Fraction(scene.camera.exposure_time) * Fraction(frequency))
+    if not np.isfinite(book.energy).any():
+        return replace(
+            result,
+            failure="All codes look alike: the exposure time is a whole number of packets.",
+        )
     return _best_code(result, _fold(signal, scene, packet_length(bits)), book, bits)
 
 
@@ -144,8 +149,12 @@ def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:
     """Correlate each row of one array with the same row of another."""
     a = a - a.mean(axis=1, keepdims=True)
     b = b - b.mean(axis=1, keepdims=True)
-    energy = (a**2).sum(axis=1) * (b**2).sum(axis=1)
-    return np.asarray(np.minimum((a * b).sum(axis=1) / np.sqrt(energy), 1.0))
+    energy = np.sqrt((a**2).sum(axis=1) * (b**2).sum(axis=1))
+    product = (a * b).sum(axis=1)
+    # A row without any variance correlates with nothing.
+    correlations = np.zeros(len(product))
+    np.divide(product, energy, out=correlations, where=energy > 0.0)
+    return np.clip(correlations, -1.0, 1.0)
 
 
 DECODER = Decoder("matched", "Matched: correlates with every code", read_signal)

@@ -49,10 +49,10 @@ def _equalization(rounded: ByteArray) -> ByteArray:
     """Give what each of the 256 grey levels becomes."""
     # One row, given as such: a one-dimensional array means different shapes to OpenCV 4 and 5.
     equalized = cv2.equalizeHist(rounded[None, :])[0]
-    levels, where = np.unique(rounded, return_index=True)
+    curve = np.zeros(256, dtype=np.uint8)
+    curve[rounded] = equalized
     # A level that no column has becomes what the next darker one does: no more are below it.
-    at_or_below = np.searchsorted(levels, np.arange(256), side="right") - 1
-    return np.asarray(equalized[where][np.maximum(at_or_below, 0)], dtype=np.uint8)
+    return np.maximum.accumulate(curve)
 
 
 def enhance(profile: FloatArray, method: str) -> ByteArray:

@@ -51,7 +51,9 @@ def column_phases(scene: Scene, period: int) -> Phases:
     over = fraction >= 1.0
     fraction[over] = 0.0
     chip += carry + over + start_chip
-    return Phases(np.mod(chip, period).astype(np.int64), fraction)
+    # Exact: a whole number is never so near to a multiple of the period without being one.
+    chip -= period * np.floor(chip / period)
+    return Phases(chip.astype(np.int64), fraction)
 
 
 def lit_fraction(scene: Scene) -> FloatArray:

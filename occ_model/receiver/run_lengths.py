@@ -28,7 +28,7 @@ _VANISHED = 1.0
 """What speaks against a widening of a whole chip: single chips of the other kind would vanish."""
 
 _IMPROVEMENTS = 3
-"""Rounds of least squares; the whole numbers of chips do not change after the second."""
+"""Rounds of least squares at the most; they end when the whole numbers of chips stay."""
 
 
 def runs_of(binary: ByteArray) -> Runs:
@@ -124,8 +124,8 @@ def _best_fit(
         counts = np.rint((lengths - sign * widening[:, None]) / chip_length[:, None])
         return np.asarray(np.maximum(counts, 1.0))
 
+    n = chips()
     for _ in range(_IMPROVEMENTS):
-        n = chips()
         # Normal equations of lengths = chip_length * n + widening * sign.
         nn, ns, ss = (n * n) @ repeats, n @ (repeats * sign), float(repeats.sum())
         nl, sl = n @ (repeats * lengths), float((sign * lengths) @ repeats)
@@ -134,13 +134,16 @@ def _best_fit(
         usable = better > 0.0
         widening = np.where(usable, (nn * sl - ns * nl) / determinant, widening)
         chip_length = np.where(usable, better, chip_length)
+        before, n = n, chips()
+        if np.array_equal(before, n):
+            break
 
-    n = chips()
     residual = (lengths - sign * widening[:, None]) / chip_length[:, None] - n
     misfit = distrust + np.sqrt((residual**2) @ repeats / repeats.sum())
     misfit += (n > _LONGEST[values]) @ repeats / repeats.sum()
     misfit += np.where(np.abs(widening) >= chip_length, _VANISHED, 0.0)
-    has_header = (np.isin(n, _HEADER_RUNS) & (values == 1)).any(axis=1)
+    longest = n[:, values == 1]
+    has_header = ((longest >= min(_HEADER_RUNS)) & (longest <= max(_HEADER_RUNS))).any(axis=1)
     misfit += np.where(has_header, 0.0, _NO_HEADER)
     best = int(misfit.argmin())
     return ChipFit(float(chip_length[best]), float(widening[best]), float(misfit[best]))

@@ -8,10 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.photometry import WHITE
-
-_SMALLEST_SWING = 1.0
-"""A profile that spans less than one grey level is flat: stretching it would invent stripes."""
+from occ_model.camera.photometry import FLAT, WHITE
 
 
 def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
@@ -37,7 +34,7 @@ def enhancement_of(profile: FloatArray, method: str) -> Callable[[FloatArray], B
         rounded. A profile that spans less than one grey level gets rounding only.
     """
     low, high = float(profile.min()), float(profile.max())
-    if method == "none" or high - low < _SMALLEST_SWING:
+    if method == "none" or high - low < FLAT:
         return to_bytes
     if method == "stretch":
         return lambda values: to_bytes((values - low) * (WHITE / (high - low)))

@@ -11,6 +11,9 @@ from occ_model.scene import Camera, Scene
 WHITE = 255.0
 """The largest pixel value."""
 
+FLAT = 1.0
+"""Grey levels that values must span to differ at all: stretching less would invent stripes."""
+
 _MID_GREY = 118.0
 """The pixel value of a scene of the luminance that the meter is calibrated to."""
 

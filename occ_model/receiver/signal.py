@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.photometry import FLAT
 from occ_model.receiver.otsu import otsu_split
 from occ_model.results import Region
 
@@ -23,16 +24,21 @@ def column_means(image: ByteArray, region: Region) -> FloatArray:
     return np.asarray(sums, dtype=np.float64).ravel() / region.rows
 
 
-def otsu_threshold(signal: FloatArray) -> float | None:
-    """Find the grey level that parts ones from zeros, None for a constant signal.
+def why_flat(signal: FloatArray) -> str | None:
+    """Say in a sentence that a signal shows no stripes, None where it does."""
+    swing = float(signal.max() - signal.min())
+    if swing >= FLAT:
+        return None
+    return f"No stripes: the signal spans only {swing:.2g} grey levels."
+
+
+def otsu_threshold(signal: FloatArray) -> float:
+    """Find the grey level that parts ones from zeros in a signal that is not flat.
 
     The histogram has 256 bins from the signal's smallest value to its largest.
     """
     low, high = float(signal.min()), float(signal.max())
-    if high <= low:
-        return None
     bins = np.rint((signal - low) * ((_BINS - 1) / (high - low))).astype(np.int64)
     split = otsu_split(np.bincount(bins, minlength=_BINS))
-    if split is None:
-        return None
+    assert split is not None  # noqa: S101 - the first bin and the last are filled
     return low + (split + 0.5) * (high - low) / (_BINS - 1)

@@ -14,12 +14,10 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import column_phases
 from occ_model.receiver.code_book import BINS_PER_CHIP, CodeBook, code_book
 from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene import Scene
 from occ_model.transmitter.packet import bits_of, packet_length
-
-_SMALLEST_SWING = 1.0
-"""Grey levels that a signal must span to hold stripes."""
 
 _LEAST_CORRELATION = 0.7
 """A code whose profile explains less than half of the signal's variance explains nothing."""
@@ -53,14 +51,11 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     DecodeResult
         With correlation and confidence, the folded signal and the best code's profile.
     """
-    result = DecodeResult(DECODER.name, signal=signal)
+    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    if result.failure is not None:
+        return result
     if scene.transmitter.pattern:
         return replace(result, failure="A raw chip pattern is sent, which holds no packets.")
-    swing = float(signal.max() - signal.min())
-    if swing < _SMALLEST_SWING:
-        return replace(
-            result, failure=f"No stripes: the signal spans only {swing:.2g} grey levels."
-        )
     bits = scene.transmitter.bits
     frequency = scene.transmitter.switching_frequency
     chips_seen = len(signal) * scene.camera.readout_time * frequency

@@ -8,12 +8,9 @@ from occ_model.arrays import FloatArray
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.framing import read_packet
 from occ_model.receiver.run_lengths import fit_chips, run_histogram, runs_of
-from occ_model.receiver.signal import otsu_threshold
+from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene import Scene
-
-_SMALLEST_SWING = 1.0
-"""Grey levels that a signal must span to hold stripes."""
 
 _FEWEST_RUNS = 3
 """Whole runs below which nothing can be said about a chip's length."""
@@ -34,13 +31,10 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     DecodeResult
         With every step as far as it came; the region is the caller's to add.
     """
-    result = DecodeResult(DECODER.name, signal=signal)
-    swing = float(signal.max() - signal.min()) if signal.size else 0.0
-    threshold = otsu_threshold(signal) if swing >= _SMALLEST_SWING else None
-    if threshold is None:
-        return replace(
-            result, failure=f"No stripes: the signal spans only {swing:.2g} grey levels."
-        )
+    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    if result.failure is not None:
+        return result
+    threshold = otsu_threshold(signal)
     runs = runs_of((signal > threshold).astype(np.uint8))
     result = replace(result, threshold=threshold, runs=runs)
     whole = Runs(runs.values[1:-1], runs.lengths[1:-1])

@@ -1,0 +1,92 @@
+"""The laws of `resources/start.py` on the Python that runs it and on where the window goes."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
+
+
+# The Python that runs the script
+
+
+@pytest.mark.parametrize("version", [(2, 7), (3, 6), (3, 10), (3, 14), (4, 0)])
+def test_an_unsupported_python_is_named_in_the_sentence(
+    start: ModuleType, version: tuple[int, int]
+) -> None:
+    assert "this is Python {}.{}.".format(*version) in start.version_problem(*version)
+
+
+def test_the_supported_pythons_are_those_of_the_project(
+    start: ModuleType, project_folder: Path
+) -> None:
+    project = tomllib.loads((project_folder / "pyproject.toml").read_text())["project"]
+    (major, oldest), (_, newest) = start.OLDEST, start.NEWEST
+    assert project["requires-python"] == f">={major}.{oldest},<{major}.{newest + 1}"
+    for minor in range(oldest, newest + 1):
+        assert start.version_problem(major, minor) == ""
+        assert f"{major}.{minor}" in start.version_problem(2, 7)
+
+
+@pytest.mark.parametrize("version", ["(3, 8, 18)", "(3, 14, 0)"])
+def test_an_unsupported_python_stops_with_one_sentence(
+    script: Path, run_captured: Callable[..., subprocess.CompletedProcess[str]], version: str
+) -> None:
+    pretend = f"import runpy, sys; sys.version_info = {version}; runpy.run_path({str(script)!r})"
+    run = run_captured([sys.executable, "-c", pretend])
+    assert run.returncode == 1
+    assert run.stderr.startswith("This project needs Python 3.11")
+    assert run.stderr.count("\n") == 1
+
+
+def test_the_script_keeps_to_syntax_that_an_old_python_reads(script: Path) -> None:
+    assert ast.parse(script.read_text(), feature_version=(3, 7)).body
+
+
+# Where the window goes
+
+
+@pytest.mark.parametrize(
+    ("arguments", "environment", "platform"),
+    [
+        ([], {}, ""),
+        ([], {"DISPLAY": ":0"}, "xcb"),
+        ([], {"DISPLAY": ""}, ""),
+        ([], {"WAYLAND_DISPLAY": "wayland-0"}, "wayland"),
+        ([], {"WAYLAND_DISPLAY": "wayland-0", "DISPLAY": ":0"}, "wayland"),
+        ([], {"WAYLAND_DISPLAY": "wayland-0", "DISPLAY": ":0", "QT_QPA_PLATFORM": "xcb"}, "xcb"),
+        ([], {"QT_QPA_PLATFORM": "xcb"}, ""),
+        ([], {"QT_QPA_PLATFORM": "offscreen"}, "offscreen"),
+        ([], {"QT_QPA_PLATFORM": "vnc:size=800x600", "DISPLAY": ":0"}, "vnc"),
+        ([], {"QT_QPA_PLATFORM": "minimal;xcb"}, "minimal"),
+        (["--screenshot", "window.png"], {}, "offscreen"),
+        (["--screenshot=window.png"], {"DISPLAY": ":0"}, "offscreen"),
+        (["--help"], {}, "offscreen"),
+        (["--version"], {}, "offscreen"),
+        (["picture.png"], {}, ""),
+    ],
+)
+def test_qt_platform_follows_arguments_then_qts_variable_then_displays(
+    start: ModuleType, arguments: list[str], environment: dict[str, str], platform: str
+) -> None:
+    assert start.qt_platform(arguments, environment) == platform
+
+
+def test_without_display_the_set_up_is_done_then_a_picture_is_offered(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for variable in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
+        monkeypatch.delenv(variable, raising=False)
+    done: list[str] = []
+    monkeypatch.setattr(start, "set_up", lambda platform, extras: done.append(platform))
+    assert start.main([]) == 1
+    assert done == [""]
+    output = capsys.readouterr()
+    assert "--screenshot window.png" in output.err
+    assert output.out == ""

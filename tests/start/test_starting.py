@@ -1,0 +1,173 @@
+"""The laws of `resources/start.py` on the start itself."""
+
+import json
+import os
+import select
+import stat
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import NoReturn
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
+
+
+@pytest.fixture
+def echoing_venv(start: ModuleType, put_program: Callable[[Path, str], None]) -> None:
+    """Make a finished .venv whose Python echoes what it is asked to run."""
+    put_program(start.PYTHON, 'if [ "$1" = -I ]; then echo 3 12; else echo "$@"; fi')
+    start.STAMP.write_text(json.dumps(start.wanted_stamp("3.12", ["test"])))
+
+
+def script_of(start: ModuleType) -> Path:
+    """Return the copy of the script that was imported."""
+    return Path(str(start.__file__))
+
+
+@pytest.mark.usefixtures("echoing_venv")
+def test_a_second_start_adds_little_and_leaves_standard_output_to_the_application(
+    start: ModuleType,
+    run_captured: Callable[..., subprocess.CompletedProcess[str]],
+    tmp_path: Path,
+) -> None:
+    command = [sys.executable, str(script_of(start)), "--version", "two words"]
+    # No program is in reach, so that the start cannot install anything.
+    environment = {"PATH": str(tmp_path), "HOME": str(tmp_path)}
+    began = time.monotonic()
+    run = run_captured(command, environment)
+    assert time.monotonic() - began < 2
+    assert run.stdout == "-m occ_gui --version two words\n"
+    assert run.returncode == 0
+
+
+def test_what_the_set_up_runs_speaks_on_standard_error(
+    start: ModuleType, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert start.run_visibly(["sh", "-c", "echo $WORDS"], WORDS="from pip")
+    assert not start.run_visibly(["sh", "-c", "exit 3"])
+    assert capfd.readouterr() == ("", "from pip\n")
+
+
+def test_the_application_takes_the_place_of_the_script_with_its_arguments(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    became: list[Sequence[str]] = []
+    monkeypatch.setattr(start, "set_up", lambda platform, extras: None)
+
+    def become(program: str, command: Sequence[str]) -> NoReturn:
+        became.append(command)
+        raise SystemExit
+
+    monkeypatch.setattr(os, "execv", become)
+    with pytest.raises(SystemExit):
+        start.main(["--screenshot", "a b.png"])
+    assert became == [[str(start.PYTHON), "-m", "occ_gui", "--screenshot", "a b.png"]]
+
+
+@pytest.mark.parametrize(("codes", "exit_code"), [([0] * 5, 0), ([1, 0, 1, 0, 0], 1), ([1] * 5, 1)])
+def test_every_check_runs_and_any_failure_counts(
+    start: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    codes: list[int],
+    exit_code: int,
+) -> None:
+    ran: list[list[str]] = []
+
+    def run(command: list[str], **options: object) -> SimpleNamespace:
+        ran.append([Path(command[0]).name, *command[1:]])
+        return SimpleNamespace(returncode=codes[len(ran) - 1])
+
+    monkeypatch.setattr(subprocess, "run", run)
+    assert start.run_checks(["-k", "one or two"]) == exit_code
+    assert ran == [
+        ["ruff", "check", "."],
+        ["ruff", "format", "--check", "."],
+        ["mypy"],
+        ["lint-imports"],
+        ["pytest", "-k", "one or two"],
+    ]
+    summary = capsys.readouterr().out.splitlines()[-1]
+    assert ("mypy" in summary) == bool(codes[2])
+    assert ("lint-imports" in summary) == bool(codes[3])
+
+
+@pytest.mark.parametrize(("given", "used"), [(None, "offscreen"), ("minimal", "minimal")])
+def test_the_checks_run_without_a_display_unless_told_otherwise(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, given: str | None, used: str
+) -> None:
+    monkeypatch.setenv("QT_QPA_PLATFORM", given or "")
+    if given is None:
+        monkeypatch.delenv("QT_QPA_PLATFORM")
+    set_ups: list[tuple[str, list[str]]] = []
+    monkeypatch.setattr(
+        start, "set_up", lambda platform, extras: set_ups.append((platform, extras))
+    )
+    monkeypatch.setattr(start, "run_checks", lambda arguments: 7 if arguments == ["-x"] else 0)
+    assert start.main(["test", "-x"]) == 7
+    assert set_ups == [(used, ["test"])]
+    assert os.environ["QT_QPA_PLATFORM"] == used
+
+
+@pytest.mark.parametrize(
+    ("failure", "exit_code", "words"),
+    [
+        (KeyboardInterrupt(), 130, ""),
+        (PermissionError(13, "Permission denied"), 1, "Permission denied"),
+    ],
+)
+def test_a_set_up_that_stops_leaves_no_traceback(
+    start: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    failure: BaseException,
+    exit_code: int,
+    words: str,
+) -> None:
+    def stop(platform: str, extras: Sequence[str]) -> None:
+        raise failure
+
+    monkeypatch.setattr(start, "set_up", stop)
+    assert start.main(["--help"]) == exit_code
+    output = capsys.readouterr()
+    assert words in output.err
+    assert bool(output.err) == bool(words)
+    assert output.out == ""
+
+
+@pytest.mark.usefixtures("echoing_venv")
+def test_a_start_waits_while_another_sets_up_and_then_goes_on(
+    start: ModuleType, tmp_path: Path
+) -> None:
+    command = [sys.executable, str(script_of(start)), "--version"]
+    environment = {"PATH": str(tmp_path), "HOME": str(tmp_path)}
+    with start.one_at_a_time():
+        other = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        )
+        assert other.stderr is not None
+        assert select.select([other.stderr], [], [], 10)[0], "the other start said nothing"
+        assert other.poll() is None
+    output, errors = other.communicate(timeout=10)
+    assert errors.startswith("Waiting for another start")
+    assert output == "-m occ_gui --version\n"
+
+
+def test_ci_runs_the_checks_from_the_project_and_passes_their_exit_code_on(
+    project_folder: Path,
+    put_program: Callable[[Path, str], None],
+    run_captured: Callable[..., subprocess.CompletedProcess[str]],
+    tmp_path: Path,
+) -> None:
+    script = project_folder / ".ci" / "run"
+    assert script.stat().st_mode & stat.S_IXUSR
+    put_program(tmp_path / "python3", 'echo "$PWD" "$@"; exit 5')
+    environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    run = run_captured(["bash", str(script)], environment)
+    assert run.stdout.split() == [str(project_folder), "resources/start.py", "test"]
+    assert run.returncode == 5

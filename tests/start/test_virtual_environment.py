@@ -1,0 +1,116 @@
+"""The laws of `resources/start.py` on the virtual environment."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
+
+
+@pytest.mark.parametrize(
+    ("body", "version"),
+    [
+        ("echo 3 11", "3.11"),
+        ("echo 3 13", "3.13"),
+        ("echo 3 10", ""),
+        ("echo 3 14", ""),
+        ("echo 3 11; exit 1", ""),
+    ],
+)
+def test_a_venv_serves_when_its_python_answers_with_a_supported_version(
+    start: ModuleType, put_program: Callable[[Path, str], None], body: str, version: str
+) -> None:
+    put_program(start.PYTHON, body)
+    assert start.venv_version() == version
+
+
+def damage_nothing(start: ModuleType) -> None:
+    """Leave a venv as it is."""
+
+
+def damage_python(start: ModuleType) -> None:
+    """Take away the Python that a venv links to."""
+    start.PYTHON.unlink()
+    start.PYTHON.symlink_to(start.ROOT / "removed")
+
+
+def damage_making(start: ModuleType) -> None:
+    """Stop a venv in the making."""
+    start.UNFINISHED.touch()
+
+
+def damage_place(start: ModuleType) -> None:
+    """Move a venv with its project."""
+    start.STAMP.write_text(json.dumps({"root": "/elsewhere"}))
+
+
+@pytest.mark.parametrize(
+    ("damage", "usable"),
+    [
+        (damage_nothing, True),
+        (damage_python, False),
+        (damage_making, False),
+        (damage_place, False),
+    ],
+)
+def test_a_half_made_or_moved_venv_does_not_serve(
+    start: ModuleType,
+    put_program: Callable[[Path, str], None],
+    damage: Callable[[ModuleType], None],
+    usable: bool,
+) -> None:
+    put_program(start.PYTHON, "echo 3 12")
+    damage(start)
+    assert bool(start.venv_version()) == usable
+
+
+def test_a_venv_without_pip_does_not_serve(start: ModuleType) -> None:
+    assert start.venv_version() == ""
+    make = [sys.executable, "-m", "venv", "--without-pip", str(start.VENV)]
+    subprocess.run(make, check=True)
+    assert start.PYTHON.exists()
+    assert start.venv_version() == ""
+
+
+def test_making_a_venv_replaces_what_was_there_and_marks_it_finished(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    start.VENV.mkdir()
+    (start.VENV / "rest").touch()
+
+    def make(command: Sequence[str], **options: object) -> SimpleNamespace:
+        assert start.UNFINISHED.exists()
+        return SimpleNamespace(returncode=0)
+
+    monkeypatch.setattr(subprocess, "run", make)
+    start.make_venv()
+    assert list(start.VENV.iterdir()) == []
+
+
+def test_a_failed_making_says_so_and_leaves_the_venv_marked(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    failure = SimpleNamespace(returncode=1, stdout="", stderr="the disk is full")
+    monkeypatch.setattr(subprocess, "run", lambda command, **options: failure)
+    with pytest.raises(start.SetUpError, match="could not make the virtual environment"):
+        start.make_venv()
+    assert "the disk is full" in capsys.readouterr().err
+    assert start.UNFINISHED.exists()
+
+
+def test_a_link_in_place_of_the_venv_is_replaced_and_its_target_kept(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    kept = tmp_path / "target" / "kept"
+    kept.parent.mkdir()
+    kept.touch()
+    start.VENV.symlink_to(kept.parent)
+    monkeypatch.setattr(subprocess, "run", lambda command, **options: SimpleNamespace(returncode=0))
+    start.make_venv()
+    assert kept.exists()
+    assert not start.VENV.is_symlink()

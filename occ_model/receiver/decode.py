@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import WHITE
-from occ_model.errors import DecodeInputError, ParameterError
-from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.errors import DecodeInputError
+from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Region
@@ -45,8 +45,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeRe
     ParameterError
         There is no such decoder.
     """
-    if not isinstance(decoder, str) or decoder not in DECODERS:
-        raise ParameterError(f"There is no decoder {decoder!r}; known: {', '.join(DECODERS)}.")
+    read = decoder_named(decoder).read
     try:
         image = np.asarray(image)
     except ValueError:
@@ -56,7 +55,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeRe
     _check(image)
     if image.ndim == 1:
         whole = Region(0, 1, 0, len(image))
-        return replace(DECODERS[decoder].read(_levels(image), scene), region=whole)
+        return replace(read(_levels(image), scene), region=whole)
     grey: ByteArray = image if image.dtype == np.uint8 else to_bytes(_levels(image))
     grey = np.ascontiguousarray(grey)
     found = locate(grey, scene.receiver.bright_fraction)
@@ -64,7 +63,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeRe
         return DecodeResult(
             decoder, failure=f"No panel found: every pixel has the grey level {grey.flat[0]}."
         )
-    result = DECODERS[decoder].read(column_means(grey, found.region), scene)
+    result = read(column_means(grey, found.region), scene)
     return replace(result, region=found.region, location=found)
 
 

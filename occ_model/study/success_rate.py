@@ -1,14 +1,14 @@
 """The success rate, as the paper defines it."""
 
-from numbers import Real
 from typing import Literal
 
 import numpy as np
 
 from occ_model.camera.photometry import WHITE
+from occ_model.checks import check_count, check_level, check_seed
 from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.results import DecodeResult
 from occ_model.scene import Scene
 from occ_model.study.observation import decode_profile, noisy_image
@@ -89,19 +89,11 @@ def _decode(
     return decode(noisy_image(scene, noise, random), scene, decoder)
 
 
-def _is_number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)
-
-
 def _check(scene: Scene, images: int, decoder: str, seed: int, noise: float, path: Path) -> None:
-    if not isinstance(images, int | np.integer) or isinstance(images, bool) or images < 1:
-        raise ParameterError(f"images is {images!r}; allowed: a whole number from 1.")
-    if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or seed < 0:
-        raise ParameterError(f"seed is {seed!r}; allowed: a whole number from 0.")
-    if decoder not in DECODERS:
-        raise ParameterError(f"There is no decoder {decoder!r}; known: {', '.join(DECODERS)}.")
-    if not _is_number(noise) or not 0.0 <= noise <= WHITE:
-        raise ParameterError(f"noise is {noise!r} grey levels; allowed: 0 to {WHITE:.0f}.")
+    check_count("images", images, 1)
+    check_seed(seed)
+    check_level("noise", noise, WHITE)
+    decoder_named(decoder)
     if path not in ("auto", "profile", "image"):
         raise ParameterError(f"path is {path!r}; allowed: auto, profile, image.")
     if scene.transmitter.pattern:

@@ -3,6 +3,7 @@
 import pkgutil
 from importlib import import_module
 
+from occ_model.errors import ParameterError
 from occ_model.receiver.decoder import Decoder
 
 
@@ -21,3 +22,16 @@ PAPERS = "threshold"
 
 DECODERS: dict[str, Decoder] = _found()
 """The decoders by name."""
+
+
+def decoder_named(name: str) -> Decoder:
+    """Find a decoder.
+
+    Raises
+    ------
+    ParameterError
+        There is none of that name; the names there are stand in the message.
+    """
+    if not isinstance(name, str) or name not in DECODERS:
+        raise ParameterError(f"There is no decoder {name!r}; known: {', '.join(DECODERS)}.")
+    return DECODERS[name]

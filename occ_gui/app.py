@@ -3,6 +3,7 @@
 import argparse
 import os
 import re
+import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,12 +12,17 @@ from typing import TYPE_CHECKING
 import occ_model as occ
 from occ_model.output import write_whole
 from occ_model.scene import Scene
-from occ_model.settings import read_scene_file, with_settings
+from occ_model.settings import add_scene_options, scene_of
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
+
+_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+"""Environment variables one of which says where a window can be drawn."""
+
+_TURN_MS = 200
 
 _LARGEST_SIDE = 16384
 """Pixels of a window's side; a larger one could not be drawn."""
@@ -29,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the application; return the process's exit code."""
     options = _parser().parse_args(arguments)
     try:
-        return _run(options, _scene(options))
+        return _run(options, scene_of(options))
     except occ.OccError as error:
         print(f"occ-gui: {error}", file=sys.stderr)  # noqa: T201 - this is the command line
         return 2
@@ -40,13 +46,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="occ-gui", description="Explore optical camera communication."
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
-    start = parser.add_mutually_exclusive_group()
-    start.add_argument("--preset", default="phone-68us", help="default: %(default)s")
-    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
-    parser.add_argument(
-        "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
-        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
-    )  # fmt: skip
+    add_scene_options(parser)
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
         "--screenshot", type=Path, metavar="FILE",
@@ -68,13 +68,10 @@ def _size(text: str) -> tuple[int, int]:
     return width, height
 
 
-def _scene(options: argparse.Namespace) -> Scene:
-    scene = read_scene_file(options.scene) if options.scene else occ.load_preset(options.preset)
-    return with_settings(scene, options.settings)
-
-
 def _run(options: argparse.Namespace, scene: Scene) -> int:
     if options.screenshot:
+        if options.screenshot.suffix.lower() != ".png":
+            raise occ.OutputError(f"{options.screenshot}: a screenshot is a .png file; name one.")
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
@@ -88,7 +85,19 @@ def _run(options: argparse.Namespace, scene: Scene) -> int:
     if options.screenshot:
         _take_screenshot(application, options.screenshot)
         return 0
+    _close_on_interrupt(application)
     return qt.exec()
+
+
+def _close_on_interrupt(application: "Application") -> None:
+    """Close the window on Ctrl+C in the terminal that started it."""
+    from PySide6.QtCore import QTimer
+
+    signal.signal(signal.SIGINT, lambda *_: application.window.close())
+    # Python sees to signals only when it gets a turn, which Qt gives it for this.
+    turns = QTimer(application)
+    turns.timeout.connect(lambda: None)
+    turns.start(_TURN_MS)
 
 
 def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Application]":
@@ -101,6 +110,9 @@ def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Applicatio
     arguments
         What Qt may read from the command line.
     """
+    if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
+        # Qt itself would end the process, with a core dump for all explanation.
+        raise occ.OccError("There is no display to open a window on; use --screenshot FILE.")
     # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
     from PySide6.QtWidgets import QApplication
 

@@ -8,12 +8,13 @@ from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
+from occ_model.photo.load import SCAN_AXES
 
 _FIRST_SIZE = QSize(1280, 800)
 
 
 class MainWindow(QMainWindow):
-    """Docks and menus; what they do is connected in :mod:`occ_gui.app`.
+    """Docks and menus; what they do is connected in :mod:`occ_gui.application`.
 
     Parameters
     ----------
@@ -107,14 +108,15 @@ class MainWindow(QMainWindow):
         over.toggled.connect(image.set_over)
         axes = menu.addMenu(self.tr("Photo was &scanned"))
         self.scan_axes = QActionGroup(self)
-        for axis, text in (
-            ("auto", self.tr("&Automatic: across its stripes")),
-            ("columns", self.tr("Column by &column")),
-            ("lines", self.tr("&Line by line")),
-        ):
-            action = self._add(axes, f"scan_{axis}", text)
+        texts = {
+            "auto": self.tr("&Automatic: across its stripes"),
+            "columns": self.tr("Column by &column"),
+            "lines": self.tr("&Line by line"),
+        }
+        for axis in SCAN_AXES:
+            action = self._add(axes, f"scan_{axis}", texts[axis])
             action.setCheckable(True)
-            action.setChecked(axis == "auto")
+            action.setChecked(axis == SCAN_AXES[0])
             action.setData(axis)
             self.scan_axes.addAction(action)
         menu.addSeparator()

@@ -69,9 +69,9 @@ def band_profile(scene: Scene) -> FloatArray:
             )
         columns = np.arange(0.5, len(phases.chip))
         columns += _literal_start(scene, chips, positions)
-    dark, bright = saturate(level_values(scene))
+    dark, bright = level_values(scene)
     values = np.interp(np.mod(columns, positions[-1]), positions, lit)
-    return np.asarray(dark + (bright - dark) * values)
+    return saturate(dark + (bright - dark) * values)
 
 
 def _knots(
@@ -93,7 +93,7 @@ def _knots(
 
 def _literal_start(scene: Scene, chips: ByteArray, positions: FloatArray) -> float:
     """Say at which column of the packet's polyline the picture starts."""
-    start = column_phases(scene.replace(columns=1), len(chips))
+    start = column_phases(scene, len(chips), columns=1)
     chip = int(start.chip[0])
     into_chip = float(start.fraction[0]) * scene.transmitter.switching_period
     return float(positions[2 * chip]) + round(into_chip / scene.camera.readout_time)

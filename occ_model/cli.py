@@ -7,18 +7,16 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import occ_model as occ
+from occ_model.checks import check_count, check_seed
 from occ_model.output import write_image, write_whole
 from occ_model.parameters import PARAMETERS
-from occ_model.photo.load import Photo
+from occ_model.photo.load import SCAN_AXES, Photo
 from occ_model.presets import preset_named
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import DecodeResult
-from occ_model.scene import Scene
-from occ_model.settings import read_scene_file, with_settings
+from occ_model.settings import add_scene_options, scene_of
 from occ_model.study.paper_grid import DEVICES, IMAGES, GridPoint, ceases_at, measure, point_count
 from occ_model.units import HERTZ
-
-_DEFAULT_PRESET = "phone-136us"
 
 EXIT_FAILURE = 1
 """Nothing was wrong with the command, but no code could be read."""
@@ -51,18 +49,18 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     render = commands.add_parser("render", help="simulate a picture and write it")
-    _add_scene_options(render)
+    add_scene_options(render)
     render.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     render.add_argument("--save-scene", type=Path, metavar="FILE", help="also write the scene")
     render.set_defaults(command=_render)
 
     decode = commands.add_parser("decode", help="read the code from a picture or photo")
     decode.add_argument("file", type=Path, help="image file")
-    _add_scene_options(decode)
+    add_scene_options(decode)
     decode.add_argument("--decoder", choices=tuple(DECODERS), default=PAPERS)
     decode.add_argument(
         "--scan-axis",
-        choices=("auto", "columns", "lines"),
+        choices=SCAN_AXES,
         default="auto",
         help="what the shutter scanned in the file; auto: across the stripes (default)",
     )
@@ -87,27 +85,8 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_scene_options(parser: argparse.ArgumentParser) -> None:
-    start = parser.add_mutually_exclusive_group()
-    start.add_argument("--preset", default=_DEFAULT_PRESET, help="default: %(default)s")
-    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
-    )
-
-
-def _scene(options: argparse.Namespace) -> Scene:
-    scene = read_scene_file(options.scene) if options.scene else occ.load_preset(options.preset)
-    return with_settings(scene, options.settings)
-
-
 def _render(options: argparse.Namespace) -> int:
-    scene = _scene(options)
+    scene = scene_of(options)
     frame = occ.render(scene)
     write_image(options.out, frame.image)
     if options.save_scene:
@@ -119,7 +98,7 @@ def _render(options: argparse.Namespace) -> int:
 
 
 def _decode(options: argparse.Namespace) -> int:
-    scene = _scene(options)
+    scene = scene_of(options)
     photo = occ.load_photo(options.file, options.scan_axis)
     result = occ.decode(photo.image, scene, options.decoder)
     for line in _report(result):
@@ -142,12 +121,17 @@ def _report(result: DecodeResult) -> list[str]:
         )
     if result.chip_length is not None:
         lines.append(f"chip length  {result.chip_length:.2f} columns")
+    if result.confidence is not None:
+        lines.append(f"confidence   {result.confidence:.3f}")
+        lines.append(f"correlation  {result.correlation:.4f}")
     if result.chips.size:
         lines.append(f"chips        {''.join(map(str, result.chips))}")
     return lines
 
 
 def _figures(options: argparse.Namespace) -> int:
+    check_count("images", options.images, 1)
+    check_seed(options.seed)
     # matplotlib takes half a second to import: only for those who want a figure.
     from occ_model.export import paper_figures
     from occ_model.export.drawing import house_style
@@ -178,7 +162,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
             points = list(measure(presets, decoders, options.images, options.seed, bar.update))
             paper_figures.write_rate_figure(options.out, number, device, points, options.seed)
             for preset in presets:
-                print(_ceasing(preset, points))
+                bar.write(_ceasing(preset, points), file=sys.stdout)
 
 
 def _ceasing(preset: str, points: list[GridPoint]) -> str:

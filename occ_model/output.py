@@ -28,10 +28,10 @@ def write_whole(path: Path, content: bytes) -> None:
     OutputError
         It cannot be written; a file that was there before is untouched.
     """
-    if path.is_dir():
-        raise OutputError(f"{path} is a folder; name a file to write to.")
     temporary: Path | None = None
     try:
+        if path.is_dir():
+            raise OutputError(f"{path} is a folder; name a file to write to.")
         descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         temporary = Path(name)
         with os.fdopen(descriptor, "wb") as file:

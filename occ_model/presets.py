@@ -1,8 +1,10 @@
 """Scenes that come with the package, each value with its source or the reason it is assumed."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
+from types import MappingProxyType
 
 from occ_model import scene_file
 from occ_model.errors import PresetError, SceneFileError
@@ -34,8 +36,8 @@ class Preset:
     name: str
     title: str
     scene: Scene
-    sources: dict[str, str]
-    assumed: dict[str, str]
+    sources: Mapping[str, str]
+    assumed: Mapping[str, str]
 
 
 def presets() -> tuple[str, ...]:
@@ -65,8 +67,8 @@ def preset_named(name: str) -> Preset:
     known = presets()
     if name not in known:
         near = get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]}? " if near else ""
-        raise PresetError(f"There is no preset {name!r}; {hint}Known are {', '.join(known)}.")
+        hint = f" Did you mean {near[0]}?" if near else ""
+        raise PresetError(f"There is no preset {name!r}.{hint} Known are {', '.join(known)}.")
     return _load(name)
 
 
@@ -88,9 +90,17 @@ def _load(name: str) -> Preset:
         name=name,
         title=title,
         scene=base.scene.with_tables(content),
-        sources={k: v for k, v in base.sources.items() if k not in assumed} | sources,
-        assumed={k: v for k, v in base.assumed.items() if k not in sources} | assumed,
+        sources=_over(base.sources, sources, without=assumed),
+        assumed=_over(base.assumed, assumed, without=sources),
     )
+
+
+def _over(
+    base: Mapping[str, str], own: Mapping[str, str], without: Mapping[str, str]
+) -> Mapping[str, str]:
+    """Lay a preset's own notes over its base's, less what it says otherwise; read-only."""
+    kept = {name: note for name, note in base.items() if name not in without}
+    return MappingProxyType({**kept, **own})
 
 
 def _notes(table: dict[str, str]) -> dict[str, str]:

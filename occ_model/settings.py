@@ -1,12 +1,17 @@
-"""Scenes as a user asks for them: from a file, and by ``name=value``."""
+"""Scenes as a user asks for them: by preset, from a file, and by ``name=value``."""
 
+import argparse
 from collections.abc import Iterable
 from pathlib import Path
 
 from occ_model.declarations import ParameterValue
 from occ_model.errors import ParameterError, SceneFileError
 from occ_model.parameters import parameter_named
+from occ_model.presets import load_preset
 from occ_model.scene import Scene
+
+DEFAULT_PRESET = "phone-68us"
+"""The scene where none is asked for: one that all models and decoders have an answer to."""
 
 
 def read_scene_file(path: Path) -> Scene:
@@ -46,3 +51,30 @@ def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
             raise ParameterError(f"{setting!r} is no setting; write NAME=VALUE.")
         changes[name.strip()] = parameter_named(name.strip()).parse(text)
     return scene.replace(**changes)
+
+
+def add_scene_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say which scene is meant; :func:`scene_of` reads it."""
+    start = parser.add_mutually_exclusive_group()
+    start.add_argument("--preset", default=DEFAULT_PRESET, help="default: %(default)s")
+    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
+    parser.add_argument(
+        "--set",
+        dest="settings",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
+    )
+
+
+def scene_of(options: argparse.Namespace) -> Scene:
+    """Make the scene that a command line asks for.
+
+    Raises
+    ------
+    OccError
+        There is no such preset, file or parameter, or a value is out of range.
+    """
+    scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
+    return with_settings(scene, options.settings)

@@ -12,7 +12,8 @@ from occ_model.errors import OccError
 from occ_model.output import write_image, write_whole
 from occ_model.settings import read_scene_file
 
-_PHOTOS = "*.png *.jpg *.jpeg *.tif *.tiff *.webp *.bmp"
+_PICTURES = "*.png *.jpg *.jpeg *.tif *.tiff *.webp *.bmp"
+_PHOTOS = f"{_PICTURES} *.heic *.heif"
 
 
 class FileController(QObject):
@@ -94,7 +95,7 @@ class FileController(QObject):
             self._window,
             self.tr("Save simulated picture"),
             "simulation.png",
-            self.tr("Pictures ({patterns})").format(patterns=_PHOTOS),
+            self.tr("Pictures ({patterns})").format(patterns=_PICTURES),
         )
         if name:
             self.save_picture(Path(name))

@@ -2,7 +2,6 @@
 
 import pyqtgraph as pg
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QGraphicsRectItem,
     QHBoxLayout,
@@ -15,12 +14,13 @@ from PySide6.QtWidgets import (
 
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.averaged_image import AveragedImage
+from occ_gui.views.plots import REGION
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.arrays import ByteArray
 from occ_model.photo.load import Photo
 from occ_model.results import Region
 
-_REGION_PEN = pg.mkPen(QColor("#E69F00"), width=2)
+_REGION_PEN = pg.mkPen(REGION, width=2)
 
 
 class PicturePane(QWidget):

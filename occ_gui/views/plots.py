@@ -4,12 +4,13 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette, QPen
 
-# Okabe and Ito's colours, told apart by any eye; in grey print the kind of line tells.
-SIMULATION = QColor("#0072B2")
-BAND = QColor("#D55E00")
-PHOTO = QColor("#009E73")
-THRESHOLD = QColor("#CC79A7")
-REGION = QColor(230, 159, 0, 40)
+from occ_model import colours
+
+SIMULATION = QColor(colours.SIMULATION)
+BAND = QColor(colours.BAND)
+PHOTO = QColor(colours.PHOTO)
+THRESHOLD = QColor(colours.THRESHOLD)
+REGION = QColor(colours.REGION)
 
 
 def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.state.snapshot import Snapshot
@@ -12,6 +13,9 @@ from occ_gui.views.plots import BAND, PHOTO, REGION, SIMULATION, THRESHOLD, new_
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import FloatArray
 from occ_model.photo.load import Photo
+
+_SHADE = 40
+"""How much of the region's colour lies under the curves, of 255."""
 
 
 class ProfileView(QWidget):
@@ -55,7 +59,9 @@ class ProfileView(QWidget):
         self.band = self.plot.plot(pen=pens["band"][1])
         self.photo = self.plot.plot(pen=pens["photo"][1])
         self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
-        self._region = pg.LinearRegionItem(brush=REGION, pen=pg.mkPen(None), movable=False)
+        shade = QColor(REGION)
+        shade.setAlpha(_SHADE)
+        self._region = pg.LinearRegionItem(brush=shade, pen=pg.mkPen(None), movable=False)
         self._region.setZValue(-10)
         for item in (self._region, self.threshold):
             item.hide()

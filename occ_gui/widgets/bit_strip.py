@@ -6,12 +6,14 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from occ_model import colours
+
 _CELL = 24
 _GAP = 3
 _LABEL = 66
 
-_RIGHT = QColor("#0072B2")
-_WRONG = QColor("#D55E00")
+_RIGHT = QColor(colours.RIGHT)
+_WRONG = QColor(colours.WRONG)
 
 
 class BitStrip(QWidget):

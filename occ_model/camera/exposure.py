@@ -15,7 +15,7 @@ from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 
-def column_phases(scene: Scene, period: int) -> Phases:
+def column_phases(scene: Scene, period: int, columns: int | None = None) -> Phases:
     """Say where in the sent period each column's exposure starts.
 
     The start and the step from column to column are reduced to one period in exact arithmetic,
@@ -29,6 +29,8 @@ def column_phases(scene: Scene, period: int) -> Phases:
         The scene.
     period
         The number of chips of one sent period.
+    columns
+        How many columns, by default those of the camera.
 
     Returns
     -------
@@ -41,7 +43,8 @@ def column_phases(scene: Scene, period: int) -> Phases:
     fine = float(step - Fraction(coarse))
     start_chip = start.numerator // start.denominator
 
-    column = np.arange(scene.camera.columns, dtype=np.float64)
+    count = scene.camera.columns if columns is None else columns
+    column = np.arange(count, dtype=np.float64)
     position = column * coarse
     chip = np.floor(position)
     fraction = (position - chip) + (column * fine + float(start - start_chip))

@@ -8,13 +8,14 @@ from typing import Any
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from occ_model import colours
 from occ_model.export.provenance import Provenance
 from occ_model.output import write_whole
 
-# Okabe and Ito's colours, told apart by any eye; with line styles, also in grey print.
-SIMULATION = {"color": "#0072B2", "linestyle": "-"}
-BAND = {"color": "#D55E00", "linestyle": "--"}
-PHOTO = {"color": "#009E73", "linestyle": ":"}
+# The styles tell the lines apart in grey print, too.
+SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
+BAND = {"color": colours.BAND, "linestyle": "--"}
+PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
 
 _LOOK: dict[Any, Any] = {
     "font.size": 9,

@@ -23,6 +23,7 @@ from occ_model.scene import Scene
 from occ_model.simulation import render
 from occ_model.study.paper_grid import DEVICES, DISTANCES, FREQUENCIES, GridPoint
 from occ_model.transmitter.packet import packet
+from occ_model.units import HERTZ, METRE
 
 _PICTURE_STEP = 8
 """Every figure of a picture shows means of this many pixels a side: print has no more."""
@@ -43,16 +44,24 @@ def write_process_figure(folder: Path) -> None:
     covered = np.broadcast_to(frame.enhanced, (rows, columns))
     for ax, picture in zip(axes, (None, mask, covered, frame.image), strict=True):
         _show_picture(ax, picture, rows, columns)
-    axes[0].add_patch(Polygon(frame.corners, closed=True, fill=False, color="#0072B2"))
-    axes[0].plot(*frame.corners.T, "o", color="#D55E00", markersize=4)
+    axes[0].add_patch(Polygon(frame.corners, closed=True, fill=False, color=SIMULATION["color"]))
+    axes[0].plot(*frame.corners.T, "o", color=BAND["color"], markersize=4)
     titles = ("(a) corners", "(b) mask", "(c) calculated values", "(d) simulated picture")
     for ax, title in zip(axes, titles, strict=True):
         ax.set_title(title, fontsize=9)
     axes[0].set_ylabel("row")
-    provenance = Provenance("Figure 2: from the panel's corners to the picture", {"phone": scene})
+    places = "; ".join(f"column {x:.2f}, row {y:.2f}" for x, y in frame.corners.tolist())
+    title = "Figure 2: from the panel's corners to the picture"
+    provenance = Provenance(title, {"phone-68us": scene}, notes=(f"corners: {places}",))
     save_figure(figure, folder, "figure-2", provenance)
-    corners = [(f"corner {n + 1}", *point) for n, point in enumerate(frame.corners.tolist())]
-    write_table(folder / "figure-2.csv", ("corner", "column", "row"), corners, provenance)
+    lit = mask > 0
+    header = (
+        "column", "calculated value (grey level)", "first row of the mask", "rows of the mask",
+    )  # fmt: skip
+    table = np.stack(
+        [np.arange(columns), frame.enhanced, lit.argmax(axis=0), lit.sum(axis=0)], axis=1
+    )
+    write_table(folder / "figure-2.csv", header, table.tolist(), provenance)
 
 
 def _show_picture(ax: Axes, picture: np.ndarray | None, rows: int, columns: int) -> None:
@@ -100,7 +109,9 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     figure.legend(loc="outside upper center", ncols=4, frameon=False)
     if undefined:
         ax.set_title(undefined, fontsize=8)
-    title = f"Figure {number}: pixel values, {preset} at 10 kHz and 120 cm"
+    frequency = HERTZ.format(scene.transmitter.switching_frequency)
+    distance = METRE.format(scene.pose.distance)
+    title = f"Figure {number}: pixel values, {preset} at {frequency} and {distance}"
     notes = () if photo is None else (f"photo {photo.path.name}, drawn from column {first}",)
     provenance = Provenance(title, {preset: scene}, notes=notes)
     save_figure(figure, folder, f"figure-{number}", provenance)

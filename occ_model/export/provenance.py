@@ -19,6 +19,8 @@ class Provenance:
         The scenes by name.
     seed
         Of all random numbers, None where there are none.
+    notes
+        Further lines.
     """
 
     title: str

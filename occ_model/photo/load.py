@@ -1,6 +1,7 @@
 """Read a photograph as a grey image whose columns are the scan axis."""
 
 import warnings
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -75,8 +76,6 @@ def load_photo(path: str | Path, scan_axis: str = "auto") -> Photo:
     if scan_axis not in SCAN_AXES:
         raise ParameterError(f"scan_axis is {scan_axis!r}; allowed: {', '.join(SCAN_AXES)}.")
     path = Path(path)
-    if path.is_dir():
-        raise PhotoError(f"{path} is a folder, not a photo.")
     grey, notes = _read(path)
     turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(grey))
     image = np.ascontiguousarray(grey.T if turned else grey)
@@ -88,6 +87,9 @@ def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
+        if path.is_dir():
+            raise PhotoError(f"{path} is a folder, not a photo.")
+        _read_heic_too()
         with warnings.catch_warnings():
             # Of oddities in a file that can be read all the same; its size is checked below.
             warnings.simplefilter("ignore")
@@ -108,6 +110,14 @@ def _read(path: Path) -> tuple[ByteArray, dict[str, float | None]]:
         raise PhotoError(f"{path} cannot be read: {reason}.") from None
     except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
         raise PhotoError(f"{path} cannot be read: the file is damaged ({error}).") from None
+
+
+def _read_heic_too() -> None:
+    """Let Pillow read HEIC photos where the extra ``heic`` is installed."""
+    with suppress(ImportError):
+        from pillow_heif import register_heif_opener
+
+        register_heif_opener()
 
 
 def _too_large(path: Path) -> PhotoError:

@@ -75,7 +75,10 @@ def code_book(bits: int, exposure: Fraction) -> CodeBook:
     some = packets[:: max(1, len(packets) // _TONE_CODES)]
     shares = (bins + 0.5) / len(bins)
     levels = np.quantile(_profiles(some, response), shares)
-    return CodeBook(packets, response, _energies(packets, response), levels)
+    book = CodeBook(packets, response, _energies(packets, response), levels)
+    for array in (book.chips, book.response, book.energy, book.levels):
+        array.flags.writeable = False  # it is kept, and given to everyone
+    return book
 
 
 @lru_cache(maxsize=4)

@@ -27,6 +27,9 @@ _NO_HEADER = 0.1
 _VANISHED = 1.0
 """What speaks against a widening of a whole chip: single chips of the other kind would vanish."""
 
+_WIDENINGS = 19
+"""How many differences between ones and zeros are tried where the framing tells nothing."""
+
 _IMPROVEMENTS = 3
 """Rounds of least squares at the most; they end when the whole numbers of chips stay."""
 
@@ -109,12 +112,43 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     return _best_fit(runs, chip_length, one_length - one_chips * chip_length, distrust)
 
 
+def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
+    """Find the length of one chip of a raw pattern, near a length that is known.
+
+    Without packets nothing in the runs tells one chip from two, so that the scale must be known:
+    the switching period over the readout time. How much wider ones are than zeros is tried, the
+    smaller the likelier; where an enhancement has moved the threshold by more than half a chip,
+    the runs of one pattern can look like those of another.
+
+    Parameters
+    ----------
+    runs
+        Runs that are not cut off by the region's edges, of both kinds.
+    nominal
+        Columns that a chip should have.
+
+    Returns
+    -------
+    ChipFit
+    """
+    widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
+    # A chip may not have drifted far from its length; a threshold is rarely far off the middle.
+    distrust = 0.05 * np.abs(widening) / nominal
+    chip_length = np.full(_WIDENINGS, nominal)
+    return _best_fit(runs, chip_length, widening, distrust, nominal=nominal)
+
+
 def _best_fit(
-    runs: Runs, chip_length: FloatArray, widening: FloatArray, distrust: FloatArray
+    runs: Runs,
+    chip_length: FloatArray,
+    widening: FloatArray,
+    distrust: FloatArray,
+    nominal: float | None = None,
 ) -> ChipFit:
     """Improve first guesses by least squares over the runs' whole chips, and take the best.
 
     All guesses, shape (guesses,), are improved at once, and equal runs are counted, not repeated.
+    With a ``nominal`` length, nearness to it decides in place of the framing.
     """
     kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
     values, lengths = kinds % 2, (kinds // 2).astype(np.float64)
@@ -140,10 +174,13 @@ def _best_fit(
 
     residual = (lengths - sign * widening[:, None]) / chip_length[:, None] - n
     misfit = distrust + np.sqrt((residual**2) @ repeats / repeats.sum())
-    misfit += (n > _LONGEST[values]) @ repeats / repeats.sum()
     misfit += np.where(np.abs(widening) >= chip_length, _VANISHED, 0.0)
-    longest = n[:, values == 1]
-    has_header = ((longest >= min(_HEADER_RUNS)) & (longest <= max(_HEADER_RUNS))).any(axis=1)
-    misfit += np.where(has_header, 0.0, _NO_HEADER)
+    if nominal is not None:
+        misfit += np.abs(chip_length / nominal - 1.0)
+    else:
+        misfit += (n > _LONGEST[values]) @ repeats / repeats.sum()
+        ones = n[:, values == 1]
+        has_header = ((ones >= min(_HEADER_RUNS)) & (ones <= max(_HEADER_RUNS))).any(axis=1)
+        misfit += np.where(has_header, 0.0, _NO_HEADER)
     best = int(misfit.argmin())
     return ChipFit(float(chip_length[best]), float(widening[best]), float(misfit[best]))

@@ -122,7 +122,7 @@ def _noisy_means(
     random: np.random.Generator,
 ) -> FloatArray:
     """Average noisy, enhanced pixels over rows, by the distribution that they have."""
-    if noise == 0.0:
+    if noise * _GRID * _REACH < 1.0:  # nothing that the steps could show
         return curve(panel).astype(np.float64)
     reach = int(np.ceil(_REACH * noise * _GRID))
     offsets = np.arange(-reach, reach + 1) / _GRID

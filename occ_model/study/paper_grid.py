@@ -36,6 +36,8 @@ class GridPoint:
         Their names.
     switching_frequency, distance
         In Hz and m.
+    images
+        How many were read.
     seed
         ``success_rate`` with this seed gives the same rate again.
     rate

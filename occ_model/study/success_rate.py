@@ -17,7 +17,7 @@ from occ_model.transmitter.packet import bits_of, packet_length
 PIXEL_NOISE = 1.0
 """Standard deviation of a pixel's noise in grey levels, before enhancement."""
 
-Path = Literal["auto", "profile", "image"]
+Way = Literal["auto", "profile", "image"]
 
 
 def success_rate(
@@ -27,7 +27,7 @@ def success_rate(
     seed: int = 1,
     *,
     noise: float = PIXEL_NOISE,
-    path: Path = "auto",
+    path: Way = "auto",
 ) -> float:
     """Give the share of bits read rightly over several images, in percent.
 
@@ -69,7 +69,9 @@ def success_rate(
     sent = np.array(bits_of(transmitter.code, transmitter.bits))
     duration = packet_length(transmitter.bits) * transmitter.switching_period
     correct = 0
-    for stream in np.random.default_rng(seed).spawn(images):
+    root = np.random.default_rng(seed)
+    for _ in range(images):
+        (stream,) = root.spawn(1)
         start_time = float(stream.uniform(0.0, duration))
         seen = _decode(scene.replace(start_time=start_time), decoder, noise, path, stream)
         if seen.bits.size == sent.size:
@@ -78,7 +80,7 @@ def success_rate(
 
 
 def _decode(
-    scene: Scene, decoder: str, noise: float, path: Path, random: np.random.Generator
+    scene: Scene, decoder: str, noise: float, path: Way, random: np.random.Generator
 ) -> DecodeResult:
     if path != "image":
         result = decode_profile(scene, decoder, noise, random)
@@ -89,7 +91,7 @@ def _decode(
     return decode(noisy_image(scene, noise, random), scene, decoder)
 
 
-def _check(scene: Scene, images: int, decoder: str, seed: int, noise: float, path: Path) -> None:
+def _check(scene: Scene, images: int, decoder: str, seed: int, noise: float, path: Way) -> None:
     check_count("images", images, 1)
     check_seed(seed)
     check_level("noise", noise, WHITE)

@@ -20,7 +20,7 @@ POSES: dict[str, dict[str, float]] = {
     "roll 30°": {"roll": math.radians(30)},
     "yaw 30°": {"yaw": math.radians(30)},
     "pitch 30°": {"pitch": math.radians(30)},
-    "a third outside": {"offset_x": 0.6},
+    "two thirds outside": {"offset_x": 0.6},
 }
 NOISES = (1.0, 3.0, 10.0)
 

@@ -76,7 +76,7 @@ def test_a_saved_scene_renders_the_same_picture_again(command: Command, tmp_path
     first, again, file = tmp_path / "1.png", tmp_path / "2.png", tmp_path / "scene.toml"
     made = command("render", *SMALL, "--set", "code=5", "-o", first, "--save-scene", file)
     assert made.code == 0
-    scene = occ.load_preset("phone-136us").replace(rows=300, code=5)
+    scene = occ.load_preset("phone-68us").replace(rows=300, code=5)
     assert occ.Scene.from_toml(file.read_text("utf-8")) == scene
     assert command("render", "--scene", file, "-o", again).code == 0
     assert first.read_bytes() == again.read_bytes()
@@ -140,7 +140,7 @@ def test_parameters_lists_what_can_be_set_and_what_is_allowed(command: Command) 
 
 
 MISUSES = {
-    "render --preset phone": "There is no preset 'phone'; did you mean phone-68us? Known are ",
+    "render --preset phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
     "render --set exposure=1ms": "There is no parameter 'exposure'; did you mean exposure_time?",
     "render --set iso=0": "iso is 0; allowed: 1 to ",
     "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
@@ -158,7 +158,7 @@ MISUSES = {
     "decode missing.png": "missing.png cannot be read: No such file or directory.",
     "decode folder.png": "folder.png is a folder, not a photo.",
     "decode text.txt": "text.txt is not an image that can be read.",
-    "presets phone": "There is no preset 'phone'; did you mean phone-68us? Known are ",
+    "presets phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
 }
 
 

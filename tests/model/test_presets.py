@@ -158,14 +158,14 @@ def test_an_unknown_preset_is_refused_with_the_names_there_are(name: str) -> Non
     with pytest.raises(PresetError) as refused:
         load_preset(name)
     sentence = str(refused.value)
-    assert sentence.startswith(f"There is no preset {name!r}; ")
+    assert sentence.startswith(f"There is no preset {name!r}.")
     assert sentence.endswith(f"Known are {', '.join(presets())}.")
     with pytest.raises(PresetError, match=r"^There is no preset "):
         preset_named(name)
 
 
 def test_a_misspelt_preset_is_answered_with_the_nearest() -> None:
-    with pytest.raises(PresetError, match=r"^There is no preset 'phone-138us'; did you mean phone"):
+    with pytest.raises(PresetError, match=r"^There is no preset 'phone-138us'. Did you mean phone"):
         load_preset("phone-138us")
 
 

@@ -59,12 +59,14 @@ def test_an_exposure_of_exactly_one_period_is_the_last_defined() -> None:
     code=st.integers(0, 1023),
     start=st.floats(0.0, 0.01),
     readout=st.floats(1e-6, 2e-4),
+    iso=st.floats(50.0, 10_000.0),
 )
 def test_the_charitable_reading_is_the_exact_profile_wherever_it_is_defined(
-    share: float, code: int, start: float, readout: float
+    share: float, code: int, start: float, readout: float, iso: float
 ) -> None:
     scene = Scene().replace(
         code=code,
+        iso=iso,
         exposure_time=share * 1e-4,
         start_time=start,
         readout_time=readout,

@@ -1,5 +1,7 @@
 """What the receiver must read, and what it must say when it cannot."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -112,6 +114,33 @@ def test_an_exposure_of_exactly_two_periods_shows_no_alternating_stripes() -> No
     failure = occ.decode(occ.render(scene).image, scene).failure
     assert failure is not None
     assert "No panel found" in failure or "No stripes" in failure
+
+
+@pytest.mark.parametrize("pattern", ["01", "0011", "0101100", "010100010110001001000"])
+@pytest.mark.parametrize("frequency", [2e3, 5e3, 10e3])
+def test_the_chips_of_a_raw_pattern_are_read(
+    covered: Scene, pattern: str, frequency: float
+) -> None:
+    scene = covered.replace(pattern=pattern, switching_frequency=frequency, enhancement="stretch")
+    result = occ.decode(occ.render(scene).image, scene)
+    assert result.chip_length == pytest.approx(1 / frequency / 8e-6, rel=0.01)
+    whole = "".join(map(str, result.chips[3:-3]))  # the runs at the edges are cut off
+    assert len(whole) > 40
+    assert whole in pattern * 200
+
+
+@pytest.mark.photos
+def test_the_chips_of_real_photos_are_read(photos: Path) -> None:
+    square = Scene().replace(pattern="01", switching_frequency=2e3, readout_time=14.565e-6)
+    result = occ.decode(occ.load_photo(photos / "led_1khz_frame.png").image, square)
+    assert result.chip_length == pytest.approx(500e-6 / 14.565e-6, rel=0.01)
+    assert "".join(map(str, result.chips[1:-1])) in "01" * 50
+    pattern = "010100010110001001000"
+    # 13.9 columns a chip.
+    striped = Scene().replace(pattern=pattern, switching_frequency=1e4, readout_time=1e-4 / 13.9)
+    result = occ.decode(occ.load_photo(photos / "vlcdetector_stripes.png").image, striped)
+    assert result.chip_length == pytest.approx(13.9, rel=0.01)
+    assert "".join(map(str, result.chips[2:-2])) in pattern * 5
 
 
 def test_a_raw_pattern_gives_its_chips_and_says_that_it_holds_no_packet(covered: Scene) -> None:

@@ -96,12 +96,12 @@ def test_a_wrong_code_never_comes_with_high_confidence() -> None:
     for _ in range(1000):
         scene = base.replace(
             code=int(rng.integers(1024)),
-            switching_frequency=float(rng.uniform(4e3, 60e3)),
+            switching_frequency=float(rng.uniform(40e3, 60e3)),
             start_time=float(rng.uniform(0, 0.02)),
-            columns=int(rng.integers(300, 1800)),
+            columns=int(rng.integers(80, 300)),
         )
         profile = occ.column_profile(scene)
-        noisy = profile + rng.normal(0, float(10 ** rng.uniform(-2, 1.5)), len(profile))
+        noisy = profile + rng.normal(0, float(10 ** rng.uniform(0, 1)), len(profile))
         result = occ.decode(noisy, scene, "matched")
         if result.code is not None and result.code != scene.transmitter.code:
             wrong += 1

@@ -77,7 +77,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
     """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
     bins = period * BINS_PER_CHIP
-    phases = column_phases(scene.replace(start_time=0.0, columns=len(signal)), period)
+    # From whatever column the signal starts: the packet's phase is found, not known.
+    phases = column_phases(scene, period, columns=len(signal))
     nearest = np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
     counts = np.bincount(nearest, minlength=bins)
     sums = np.bincount(nearest, signal, minlength=bins)

@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.framing import read_packet
-from occ_model.receiver.run_lengths import fit_chips, run_histogram, runs_of
+from occ_model.receiver.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
 from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene import Scene
@@ -18,6 +18,8 @@ _FEWEST_RUNS = 3
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code from a signal, knowing nothing of the scene but the number of bits.
+
+    Only for a raw pattern, whose runs tell no scale, the length of a chip is taken as known.
 
     Parameters
     ----------
@@ -44,7 +46,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
             "come closer or raise the frequency.",
         )
-    read = _read_chips(result, runs, whole)
+    read = _read_chips(result, runs, whole, scene)
     if scene.transmitter.pattern:
         return replace(
             read,
@@ -61,10 +63,13 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     )
 
 
-def _read_chips(result: DecodeResult, runs: Runs, whole: Runs) -> DecodeResult:
+def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
     """Turn runs into chips; the first and last run count as far as the image shows them."""
     histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
-    fit = fit_chips(whole, histograms)
+    if scene.transmitter.pattern:
+        fit = fit_pattern(whole, scene.transmitter.switching_period / scene.camera.readout_time)
+    else:
+        fit = fit_chips(whole, histograms)
     counts = fit.chips_in(runs)
     ends = np.cumsum(runs.lengths).astype(np.float64)
     starts = ends - runs.lengths

@@ -1,0 +1,10 @@
+"""The colours of curves, on screen and in print: told apart by any eye (Okabe and Ito)."""
+
+SIMULATION = "#0072B2"
+BAND = "#D55E00"
+PHOTO = "#009E73"
+THRESHOLD = "#CC79A7"
+REGION = "#E69F00"
+
+RIGHT = SIMULATION
+WRONG = BAND

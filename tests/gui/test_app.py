@@ -144,3 +144,21 @@ def test_a_scene_without_a_picture_is_answered_in_a_sentence_and_no_file(tmp_pat
     assert "behind the camera" in ended.stderr
     assert "Traceback" not in ended.stderr
     assert not picture.exists()
+
+
+def test_without_a_display_a_screenshot_is_offered(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(sys, "platform", "linux")
+    assert main([]) == 2
+    assert "no display" in capsys.readouterr().err
+
+
+def test_a_screenshot_of_another_kind_than_png_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["--screenshot", str(tmp_path / "window.jpg")]) == 2
+    assert ".png" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

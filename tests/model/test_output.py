@@ -192,3 +192,8 @@ def test_a_picture_that_a_format_cannot_hold_is_refused_and_nothing_written(
     with pytest.raises(OutputError, match=r"^picture\..* cannot be encoded as .*\.$"):
         write_image(tmp_path / f"picture.{ending}", np.zeros(shape, dtype=np.uint8))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_too_long_for_the_file_system_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_whole(tmp_path / ("a" * 300), b"content")

@@ -86,3 +86,23 @@ def test_a_folder_that_cannot_be_made_is_a_sentence(
     (tmp_path / "file").write_text("in the way")
     assert main(["figures", "--out", str(tmp_path / "file" / "x")]) == 2
     assert "cannot be made" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("wrong", [("--seed", "-1"), ("--images", "0")])
+def test_a_number_that_cannot_be_is_refused_before_anything_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], wrong: tuple[str, str]
+) -> None:
+    assert main(["figures", "--out", str(tmp_path / "figures"), *wrong]) == 2
+    assert wrong[0].removeprefix("--") in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_figure_2_holds_the_calculated_values_and_the_mask(folder: Path) -> None:
+    frame = occ.render(occ.load_preset("phone-68us"))
+    table = rows(folder / "figure-2.csv")
+    values = [float(row["calculated value (grey level)"]) for row in table]
+    assert values == frame.enhanced.tolist()
+    covered = [int(row["rows of the mask"]) > 0 for row in table]
+    left, right = frame.corners[:, 0].min(), frame.corners[:, 0].max()
+    assert covered == [left <= column <= right for column in range(len(table))]
+    assert "corners: column 862.24" in comments(folder / "figure-2.csv")

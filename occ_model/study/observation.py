@@ -83,7 +83,7 @@ def decode_profile(
     rows, columns = scene.camera.rows, scene.camera.columns
     first, last = row_spans(corners, rows, columns)
     lit_rows = np.flatnonzero(last > first)
-    if np.ptp(corners[[0, 3], 0]) + np.ptp(corners[[1, 2], 0]) > 1e-6:
+    if lit_rows.size and np.ptp(first[lit_rows]) + np.ptp(last[lit_rows]) > 0:
         return None
     profile = column_profile(scene)
     curve = enhancement_of(profile, scene.model.enhancement)

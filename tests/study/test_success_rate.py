@@ -83,6 +83,9 @@ def test_profile_path_sees_the_signal_that_the_image_shows_with_noise(scene: Sce
 
 
 def test_a_panel_that_is_not_level_is_measured_by_its_image(scene: Scene) -> None:
+    for axis in ("yaw", "pitch"):
+        with pytest.raises(occ.ParameterError, match="level"):
+            occ.success_rate(scene.replace(rows=3000, **{axis: 0.3}), 1, path="profile")
     tilted = scene.replace(roll=0.02)
     with pytest.raises(occ.ParameterError, match="level"):
         occ.success_rate(tilted, 1, path="profile")

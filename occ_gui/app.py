@@ -7,7 +7,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
 from occ_model.output import write_whole
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables one of which says where a window can be drawn."""
+
+_NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
 _TURN_MS = 200
 
@@ -37,8 +39,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return _run(options, scene_of(options))
     except occ.OccError as error:
-        print(f"occ-gui: {error}", file=sys.stderr)  # noqa: T201 - this is the command line
-        return 2
+        return _refuse(str(error))
+
+
+def _refuse(sentence: str) -> int:
+    print(f"occ-gui: {sentence}", file=sys.stderr, flush=True)  # noqa: T201 - the command line
+    return 2
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -111,17 +117,23 @@ def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Applicatio
         What Qt may read from the command line.
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
-        # Qt itself would end the process, with a core dump for all explanation.
-        raise occ.OccError("There is no display to open a window on; use --screenshot FILE.")
+        # Qt would find out by itself, but say more about it than helps.
+        raise occ.OccError(_NO_DISPLAY)
     # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
     from occ_gui.qt_messages import log_qt_messages
 
-    log_qt_messages()
+    log_qt_messages(_end_without_display)
     qt = QApplication(arguments)
+    log_qt_messages()
     return qt, Application(scene)
+
+
+def _end_without_display() -> NoReturn:
+    # A display that is named but does not answer: only Qt finds out, and it returns to nobody.
+    os._exit(_refuse(_NO_DISPLAY))
 
 
 def wait_until_shown(application: "Application") -> None:

@@ -116,7 +116,7 @@ class Application(QObject):
 
     def _on_shown(self, snapshot: Snapshot) -> None:
         self.window.happened(_PICTURE)
-        self.window.show_timing(snapshot.seconds)
+        self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
 
     def _on_photo(self, photo: Photo | None) -> None:
         self.window.happened(_PHOTO)

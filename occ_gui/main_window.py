@@ -133,9 +133,13 @@ class MainWindow(QMainWindow):
         title = self.tr("Optical Camera Communication")
         self.setWindowTitle(f"{name} – {title}" if name else title)  # noqa: RUF001 - a dash
 
-    def show_timing(self, seconds: float) -> None:
-        """Tell how long the last simulation took."""
-        self._timing.setText(self.tr("simulated in {ms:.1f} ms").format(ms=1e3 * seconds))
+    def show_timing(self, simulation: float, reading: float) -> None:
+        """Tell how many seconds the last simulation took, and the reading of its picture."""
+        self._timing.setText(
+            self.tr("simulated in {simulation:.1f} ms, read in {reading:.1f} ms").format(
+                simulation=1e3 * simulation, reading=1e3 * reading
+            )
+        )
 
     def say(self, sentence: str, until: str = "") -> None:
         """Show a sentence in the status line, until the next one or until ``until`` has happened.

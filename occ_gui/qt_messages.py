@@ -1,6 +1,8 @@
 """Qt's own messages, into Python's logging."""
 
 import logging
+from collections.abc import Callable
+from typing import NoReturn
 
 from PySide6.QtCore import QMessageLogContext, QtMsgType, qInstallMessageHandler
 
@@ -14,15 +16,23 @@ _LEVELS = {
     QtMsgType.QtFatalMsg: logging.CRITICAL,
 }
 
-_HARMLESS = "This plugin does not support propagateSizeHints()"
+HARMLESS = "This plugin does not support propagateSizeHints()"
 """What a platform without windows says of every window."""
 
 
-def log_qt_messages() -> None:
-    """Send what Qt has to say to the logger ``qt``."""
-    qInstallMessageHandler(_log_message)
+def log_qt_messages(give_up: Callable[[], NoReturn] | None = None) -> None:
+    """Send what Qt has to say to the logger ``qt``.
 
+    Parameters
+    ----------
+    give_up
+        Ends the process in place of Qt, which would leave a core dump. It must not raise: an
+        exception cannot pass through Qt.
+    """
 
-def _log_message(kind: QtMsgType, _context: QMessageLogContext, message: str) -> None:
-    level = logging.DEBUG if message == _HARMLESS else _LEVELS[kind]
-    _log.log(level, message)
+    def log(kind: QtMsgType, _context: QMessageLogContext, message: str) -> None:
+        if kind == QtMsgType.QtFatalMsg and give_up is not None:
+            give_up()
+        _log.log(logging.DEBUG if message == HARMLESS else _LEVELS[kind], message)
+
+    qInstallMessageHandler(log)

@@ -9,10 +9,10 @@ from occ_gui.controllers.photo import PhotoController
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.errors import OccError
-from occ_model.output import write_image, write_whole
+from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.settings import read_scene_file
 
-_PICTURES = "*.png *.jpg *.jpeg *.tif *.tiff *.webp *.bmp"
+_PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
 _PHOTOS = f"{_PICTURES} *.heic *.heif"
 
 

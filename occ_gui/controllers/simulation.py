@@ -32,9 +32,10 @@ def simulate(scene: Scene) -> Snapshot:
     ProjectionError
         The panel has no picture in this pose.
     """
-    start = perf_counter()
     frame = occ.render(scene)
+    start = perf_counter()
     decoded = occ.decode(frame.image, scene)
+    reading_seconds = perf_counter() - start
     others = tuple(_read_alike(decoded, scene))
     band, undefined = None, ""
     try:
@@ -53,7 +54,7 @@ def simulate(scene: Scene) -> Snapshot:
         panel_origin=(max(left, 0.0), max(top, 0.0)),
         band=band,
         band_undefined=undefined,
-        seconds=perf_counter() - start,
+        reading_seconds=reading_seconds,
         others=others,
     )
 

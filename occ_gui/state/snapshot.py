@@ -29,8 +29,8 @@ class Snapshot:
         The band model's profile, None where ``band_undefined`` says why there is none.
     band_undefined
         A sentence, empty where there is a profile.
-    seconds
-        Time that all of it took.
+    reading_seconds
+        Time that the paper's decoder took.
     """
 
     frame: Frame
@@ -40,5 +40,10 @@ class Snapshot:
     panel_origin: tuple[float, float]
     band: FloatArray | None
     band_undefined: str
-    seconds: float
+    reading_seconds: float
     others: tuple[DecodeResult, ...] = ()
+
+    @property
+    def simulation_seconds(self) -> float:
+        """Time that the simulation of the picture took."""
+        return sum(self.frame.timings.values())

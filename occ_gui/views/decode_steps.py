@@ -5,16 +5,23 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.views.plots import BAND, SIMULATION, THRESHOLD, dress_axis, new_plot, thin
+from occ_gui.views.plots import BAND, PACKETS_IN_VIEW, SIMULATION, THRESHOLD, new_plot, thin
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import DecodeResult
 
-_PACKETS = 2.0
-"""Packets of the signal that are shown; the rest can be panned to."""
-
 _CHIP_BAND = 0.16
 """Height of the chips' strip below the signal, as a share of the signal's range."""
+
+
+class _LevelAxis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
+    """An axis without numbers below zero, where no level lies but only the chips' strip."""
+
+    def tickStrings(  # noqa: N802 - pyqtgraph's name
+        self, values: list[float], scale: float, spacing: float
+    ) -> list[str]:
+        texts = super().tickStrings(values, scale, spacing)
+        return [text if value >= 0 else "" for value, text in zip(values, texts, strict=True)]
 
 
 class SignalPlot(QWidget):
@@ -30,6 +37,7 @@ class SignalPlot(QWidget):
             self.tr("column of the region"),
             self.tr("level"),
             self.palette(),
+            _LevelAxis("left"),
         )
         self.legend = LineLegend()
         dash = Qt.PenStyle.DashLine
@@ -85,7 +93,7 @@ class SignalPlot(QWidget):
         if result.chip_starts is not None:
             edges = np.append(result.chip_starts, float(len(signal)))
             self._show_chips(result.chips, edges, low, strip)
-        shown = min(float(len(signal) - 1), _PACKETS * packet_columns)
+        shown = min(float(len(signal) - 1), PACKETS_IN_VIEW * packet_columns)
         self.plot.setXRange(0, max(shown, 1.0), padding=0.02)
         self.plot.setYRange(low - 2 * strip, high, padding=0.04)
 
@@ -115,10 +123,12 @@ class RunLengthPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plot = new_plot(
-            self.tr("Run lengths"), self.tr("run length (columns)"), self.tr("runs"), self.palette()
+            self.tr("Run lengths"),
+            self.tr("run length (columns)"),
+            self.tr("runs"),
+            self.palette(),
+            _CountAxis("left"),
         )
-        self.plot.setAxisItems({"left": _CountAxis("left")})
-        dress_axis(self.plot, "left", self.tr("runs"), self.palette())
         title = QLabel(self.tr("Run lengths: ones up, zeros down, splits dashed"))
         self.bars, self.splits = [], []
         for colour in (BAND, SIMULATION):  # zeros, ones

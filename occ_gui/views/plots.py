@@ -1,4 +1,4 @@
-"""How plots look: one place for their axes, pens and colours."""
+"""How plots look: one place for their axes, pens and colours, and for how much is in view."""
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
@@ -12,13 +12,20 @@ PHOTO = QColor(colours.PHOTO)
 THRESHOLD = QColor(colours.THRESHOLD)
 REGION = QColor(colours.REGION)
 
+PACKETS_IN_VIEW = 2
+"""Packets that a plot over columns shows at first; the rest can be panned to."""
+
+_LEAST_HEIGHT = 90
+
 
 def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
     """Make a pen of width one: wider ones cost hundreds of milliseconds on a noisy curve."""
     return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
-def new_plot(name: str, x: str, y: str, palette: QPalette, least_height: int = 90) -> pg.PlotWidget:
+def new_plot(
+    name: str, x: str, y: str, palette: QPalette, left: pg.AxisItem | None = None
+) -> pg.PlotWidget:
     """Make an empty plot that ranges itself only when told to.
 
     Parameters
@@ -29,24 +36,19 @@ def new_plot(name: str, x: str, y: str, palette: QPalette, least_height: int = 9
         What the axes show.
     palette
         Whose colours it takes.
-    least_height
-        In pixels.
+    left
+        The axis of what is shown upwards, where a plain one does not suit.
     """
-    plot = pg.PlotWidget()
+    plot = pg.PlotWidget(axisItems={} if left is None else {"left": left})
     plot.setAccessibleName(name)
     plot.setBackground(palette.color(QPalette.ColorRole.Base))
-    dress_axis(plot, "bottom", x, palette)
-    dress_axis(plot, "left", y, palette)
-    plot.setMinimumHeight(least_height)
+    for side, label in (("bottom", x), ("left", y)):
+        axis = plot.getAxis(side)
+        axis.setPen(palette.color(QPalette.ColorRole.Mid))
+        axis.setTextPen(palette.color(QPalette.ColorRole.Text))
+        plot.setLabel(side, label)
+    plot.setMinimumHeight(_LEAST_HEIGHT)
     plot.setMenuEnabled(False)
     plot.hideButtons()
     plot.getViewBox().disableAutoRange()
     return plot
-
-
-def dress_axis(plot: pg.PlotWidget, side: str, label: str, palette: QPalette) -> None:
-    """Give an axis its label and the palette's colours."""
-    axis = plot.getAxis(side)
-    axis.setPen(palette.color(QPalette.ColorRole.Mid))
-    axis.setTextPen(palette.color(QPalette.ColorRole.Text))
-    plot.setLabel(side, label)

@@ -9,7 +9,16 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.plots import BAND, PHOTO, REGION, SIMULATION, THRESHOLD, new_plot, thin
+from occ_gui.views.plots import (
+    BAND,
+    PACKETS_IN_VIEW,
+    PHOTO,
+    REGION,
+    SIMULATION,
+    THRESHOLD,
+    new_plot,
+    thin,
+)
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import FloatArray
 from occ_model.photo.load import Photo
@@ -74,7 +83,8 @@ class ProfileView(QWidget):
         )
         self.enhanced.toggled.connect(self._redraw)
         self._packets = self._range_button(
-            self.tr("2 packets"), self.tr("Show the panel's first two packets, and follow them.")
+            self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW),
+            self.tr("Show the panel's first packets, and follow them."),
         )
         self._panel = self._range_button(
             self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")
@@ -154,7 +164,7 @@ class ProfileView(QWidget):
         if last - first < 1.0:  # the panel is out of the picture
             first, last = 0.0, float(last_column)
         if self._packets.isChecked():
-            last = min(last, first + 2.0 * snapshot.packet_columns)
+            last = min(last, first + PACKETS_IN_VIEW * snapshot.packet_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
     def _stop_following(self) -> None:

@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
-from occ_gui.state.gesture import new_gesture
+from occ_gui.state.gesture import Gestures
 from occ_model.scene import Scene
 
 
@@ -22,6 +22,7 @@ class CodeEntry(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._bits = 0
+        self._gestures = Gestures()
         self.number = QSpinBox()
         self.number.setKeyboardTracking(False)
         self.number.setAccessibleName(self.tr("Code as a number"))
@@ -33,6 +34,8 @@ class CodeEntry(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.number)
         layout.addWidget(self.bits, 1)
+        for line in (self.number.lineEdit(), self.bits):
+            line.textEdited.connect(self._gestures.end)
         self.number.valueChanged.connect(self._tell)
         self.bits.editingFinished.connect(self._read_bits)
 
@@ -52,7 +55,7 @@ class CodeEntry(QWidget):
         self.setEnabled(not transmitter.pattern)
 
     def _tell(self, code: int) -> None:
-        self.edited.emit("code", code, new_gesture())
+        self.edited.emit("code", code, self._gestures.of_change())
 
     def _read_bits(self) -> None:
         text = "".join(self.bits.text().split())

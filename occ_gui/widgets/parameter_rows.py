@@ -1,6 +1,6 @@
 """The controls of one parameter, one class for every kind of declaration."""
 
-from PySide6.QtCore import QElapsedTimer, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -11,7 +11,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.state.gesture import new_gesture
+from occ_gui.state.gesture import Gestures
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.quantity_edit import QuantityEdit
 from occ_model.declarations import (
@@ -27,9 +27,6 @@ from occ_model.errors import ParameterError
 
 _SLIDER_STEPS = 1000
 
-_KEYS_PAUSE_MS = 700
-"""A pause between two keys that ends a gesture."""
-
 
 class ParameterRow(QWidget):
     """Controls that show one parameter and let the user change it."""
@@ -43,13 +40,14 @@ class ParameterRow(QWidget):
     def __init__(self, declaration: Declaration, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.name = declaration.name
+        self._gestures = Gestures()
 
     def show_value(self, value: ParameterValue) -> None:
         """Show a value without telling of it."""
         raise NotImplementedError
 
-    def _tell(self, value: ParameterValue, gesture: int | None = None) -> None:
-        self.edited.emit(self.name, value, new_gesture() if gesture is None else gesture)
+    def _tell(self, value: ParameterValue, held: bool = False) -> None:
+        self.edited.emit(self.name, value, self._gestures.of_change(held))
 
 
 class QuantityRow(ParameterRow):
@@ -58,7 +56,6 @@ class QuantityRow(ParameterRow):
     def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
         super().__init__(quantity, parent)
         self._quantity = quantity
-        self._gesture = new_gesture()
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setPageStep(_SLIDER_STEPS // 20)
@@ -70,8 +67,9 @@ class QuantityRow(ParameterRow):
         for control in (self.slider, self.field):
             _name(control, quantity)
             keep_wheel_for_scrolling(control)
-        self._since_key = QElapsedTimer()
-        self.slider.sliderPressed.connect(self._begin_gesture)
+        self.slider.sliderPressed.connect(self._gestures.end)
+        self.slider.sliderReleased.connect(self._gestures.end)
+        self.field.lineEdit().textEdited.connect(self._gestures.end)
         self.slider.valueChanged.connect(self._slide)
         self.field.edited.connect(self._take)
         self.field.refused.connect(self.refused)
@@ -88,17 +86,10 @@ class QuantityRow(ParameterRow):
         self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
         self.slider.blockSignals(False)
 
-    def _begin_gesture(self) -> None:
-        self._gesture = new_gesture()
-
     def _slide(self, position: int) -> None:
-        if not self.slider.isSliderDown():  # keys or the wheel: one gesture while they go on
-            if not self._since_key.isValid() or self._since_key.hasExpired(_KEYS_PAUSE_MS):
-                self._begin_gesture()
-            self._since_key.start()
         value = self._quantity.at(position / _SLIDER_STEPS)
         self.field.set_value(value)
-        self._tell(value, self._gesture)
+        self._tell(value, held=self.slider.isSliderDown())
 
     def _take(self, value: float) -> None:
         self._place_slider(value)
@@ -115,6 +106,7 @@ class CountRow(ParameterRow):
         self.field.setKeyboardTracking(False)
         keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
+        self.field.lineEdit().textEdited.connect(self._gestures.end)
         self.field.valueChanged.connect(self._tell)
 
     def show_value(self, value: ParameterValue) -> None:
@@ -150,6 +142,7 @@ class PatternRow(ParameterRow):
         self.field = QLineEdit()
         self.field.setPlaceholderText(self.tr("empty: packets"))
         _fill(self, self.field, declared)
+        self.field.textEdited.connect(self._gestures.end)
         self.field.editingFinished.connect(self._read)
 
     def show_value(self, value: ParameterValue) -> None:

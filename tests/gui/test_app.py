@@ -13,6 +13,8 @@ from occ_gui.app import main
 PROJECT = Path(__file__).resolve().parents[2]
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 
+DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+
 REGION = (0xE6, 0x9F, 0x00)
 """The colour of the rectangle round what the decoder read."""
 
@@ -149,11 +151,27 @@ def test_a_scene_without_a_picture_is_answered_in_a_sentence_and_no_file(tmp_pat
 def test_without_a_display_a_screenshot_is_offered(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
+    for name in DISPLAYS:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(sys, "platform", "linux")
     assert main([]) == 2
     assert "no display" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "named",
+    [{"QT_QPA_PLATFORM": "xcb", "DISPLAY": ":59999"}, {"QT_QPA_PLATFORM": "none such"}],
+)
+def test_a_display_that_does_not_answer_is_answered_in_a_sentence(named: dict[str, str]) -> None:
+    here = {k: v for k, v in ENVIRONMENT.items() if k not in DISPLAYS}
+    ended = subprocess.run(
+        [sys.executable, "-m", "occ_gui"],
+        cwd=PROJECT, env=here | named, capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+    assert ended.returncode == 2
+    *_, sentence = ended.stderr.splitlines(keepends=True)
+    assert is_one_sentence(sentence)
+    assert "no display" in sentence
 
 
 def test_a_screenshot_of_another_kind_than_png_is_refused(

@@ -1,6 +1,7 @@
 """What the user does with the real widgets arrives in the scene, the picture and every view."""
 
 import gc
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -13,6 +14,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.application import Application
+from occ_gui.state import gesture
 from occ_gui.widgets.parameter_rows import QuantityRow
 from occ_model.scene import Scene
 
@@ -96,9 +98,25 @@ def test_undo_and_redo_bring_the_controls_and_the_picture_back(
         assert np.array_equal(grey_picture(application.image), picture)
 
 
-def test_the_window_tells_how_long_the_simulation_took(application: Application) -> None:
+def test_the_window_tells_how_long_simulating_and_reading_took(application: Application) -> None:
     texts = [label.text() for label in application.window.statusBar().findChildren(QLabel)]
-    assert any(text.startswith("simulated in ") and text.endswith(" ms") for text in texts)
+    assert any(re.fullmatch(r"simulated in [\d.]+ ms, read in [\d.]+ ms", text) for text in texts)
+    application.window.show_timing(0.0123, 0.0091)
+    texts = [label.text() for label in application.window.statusBar().findChildren(QLabel)]
+    assert "simulated in 12.3 ms, read in 9.1 ms" in texts
+
+
+def test_quick_steps_of_a_field_are_undone_at_once(
+    qtbot: QtBot, application: Application, user: User, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gesture, "_PAUSE_MS", 60_000)  # however slow the machine
+    before = application.store.scene
+    for _ in range(3):
+        qtbot.keyClick(user.row("distance").field, Qt.Key.Key_Up)
+        user.rest()
+    assert application.store.scene.pose.distance > 1.2
+    user.choose("&Undo")
+    assert application.store.scene == before
 
 
 def test_about_tells_the_version(

@@ -55,6 +55,14 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
     return Bench(qtbot)
 
 
+def test_quick_steps_of_the_number_are_one_step_to_undo(bench: Bench, qtbot: QtBot) -> None:
+    for _ in range(3):
+        qtbot.keyClick(bench.entry.number, Qt.Key.Key_Up)
+    assert bench.codes == [719, 720, 721]
+    bench.store.undo_stack.undo()
+    assert bench.shown() == (718, "1011001110")
+
+
 def test_the_bits_follow_the_number(bench: Bench) -> None:
     assert bench.shown() == (718, "1011001110")
     bench.enter_number("3")

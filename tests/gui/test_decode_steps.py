@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.views import decode_steps
 from occ_gui.views.decode_steps import RunLengthPlot, SignalPlot
 from occ_model.results import DecodeResult, RunHistogram
 
@@ -78,10 +79,27 @@ def test_every_chip_that_is_one_lies_under_columns_above_the_threshold(
     assert (decoded.signal[centres] > decoded.threshold).mean() > 0.98
 
 
-def test_at_first_two_packets_are_in_view(signal_plot: SignalPlot, paper: Snapshot) -> None:
+@pytest.mark.parametrize("packets", [1, 2])
+def test_at_first_so_many_packets_are_in_view(
+    signal_plot: SignalPlot, paper: Snapshot, packets: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(decode_steps, "PACKETS_IN_VIEW", packets)
     signal_plot.show_result(paper.decoded, paper.packet_columns)
     first, last = signal_plot.plot.getViewBox().viewRange()[0]
-    assert last - first == pytest.approx(2 * paper.packet_columns, rel=0.1)
+    assert last - first == pytest.approx(packets * paper.packet_columns, rel=0.1)
+
+
+def test_the_level_axis_has_no_numbers_where_only_the_chips_lie(signal_plot: SignalPlot) -> None:
+    signal = np.tile([1.0, 250.0], 200)
+    signal_plot.show_result(DecodeResult("threshold", signal=signal), 100.0)
+    axis = signal_plot.plot.getAxis("left")
+    low, high = signal_plot.plot.getViewBox().viewRange()[1]
+    texts: dict[float, str] = {}
+    for spacing, values in axis.tickValues(low, high, 200):
+        texts |= zip(values, axis.tickStrings(values, 1.0, spacing), strict=True)
+    assert min(texts) < 0
+    assert {text for value, text in texts.items() if value < 0} == {""}
+    assert all(float(text) == value for value, text in texts.items() if value >= 0)
 
 
 def test_a_decoder_that_folds_shows_the_folded_signal_beside_its_model(

@@ -13,6 +13,7 @@ from occ_gui.controllers.files import FileController
 from occ_gui.controllers.photo import PhotoController
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
+from occ_model.output import PICTURE_ENDINGS
 from occ_model.scene import Scene
 
 
@@ -140,6 +141,21 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     with qtbot.waitSignal(bench.photos.opened) as opened:
         bench.files.ask_for_photo()
     assert opened.args[0].path == photo_file
+
+
+def test_the_dialogs_offer_the_pictures_that_can_be_written_and_read(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    offered: list[str] = []
+    for ask in ("getOpenFileName", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, ask, lambda *asked: (offered.append(asked[-1]), ""))
+    bench.files.ask_to_save_picture()
+    bench.files.ask_for_photo()
+    written = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
+    assert offered == [
+        f"Pictures ({written})",
+        f"Photos ({written} *.heic *.heif);;All files (*)",
+    ]
 
 
 def test_a_cancelled_dialog_does_nothing(

@@ -73,6 +73,16 @@ def test_a_whole_number_is_told_when_its_typing_ends(qtbot: QtBot) -> None:
     assert told.values == [12]
 
 
+def test_quick_steps_of_a_whole_number_are_one_gesture(qtbot: QtBot) -> None:
+    told = Told("bits", qtbot)
+    assert isinstance(told.row, CountRow)
+    told.row.show_value(8)
+    for _ in range(3):
+        qtbot.keyClick(told.row.field, Qt.Key.Key_Up)
+    assert told.values == [9, 10, 11]
+    assert len({gesture for _, _, gesture in told.edits}) == 1
+
+
 def test_a_choice_is_told_by_its_word(qtbot: QtBot) -> None:
     told = Told("averaging", qtbot)
     assert isinstance(told.row, ChoiceRow)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.views import profile_view
 from occ_gui.views.profile_view import ProfileView
 from occ_model.photo.load import Photo
 from occ_model.results import DecodeResult
@@ -131,6 +132,19 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view(
             _, values = drawn(curve)
             assert low <= min(values)
             assert max(values) <= high
+
+
+def test_the_packets_that_the_button_names_are_those_in_view(
+    snapshot_of: SnapshotOf, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(profile_view, "PACKETS_IN_VIEW", 1)
+    view = ProfileView()
+    qtbot.addWidget(view)
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    assert button(view, "1 packets").isChecked()
+    first, last = columns_in_view(view)
+    assert last - first == pytest.approx(snapshot.packet_columns, rel=0.05)
 
 
 def test_two_packets_are_in_view_until_the_whole_panel_is_asked_for(

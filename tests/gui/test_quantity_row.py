@@ -113,7 +113,38 @@ def test_one_drag_is_one_gesture_and_so_are_keys_until_a_pause(qtbot: QtBot) -> 
         for _ in range(3):
             qtbot.keyClick(slider, Qt.Key.Key_Right)
         assert len(told.gestures) == gestures
-        told.row._since_key.invalidate()  # as after a pause
+        told.row._gestures.end()  # as after a pause
+
+
+def test_steps_of_the_field_are_one_gesture_until_a_pause(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    for gestures in (1, 2):
+        for key in (Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
+            qtbot.keyClick(told.row.field, key)
+        assert len(told.gestures) == gestures
+        told.row._gestures.end()  # as after a pause
+    assert len(told.edits) == 6
+
+
+def test_every_number_typed_is_a_gesture_of_its_own(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    field = told.row.field
+    for text in ("200", "300"):
+        qtbot.keyClick(field, Qt.Key.Key_Up)
+        field.selectAll()
+        qtbot.keyClicks(field, text)
+        qtbot.keyClick(field, Qt.Key.Key_Return)
+    assert told.values[1::2] == [200.0, 300.0]
+    assert told.edits[1][2] not in {told.edits[0][2], told.edits[3][2]}
+
+
+def test_a_key_right_after_a_drag_is_not_of_the_drag(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    told.row.slider.setSliderDown(True)
+    told.row.slider.setValue(500)
+    told.row.slider.setSliderDown(False)
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Up)
+    assert len(told.edits) == len(told.gestures) == 2
 
 
 def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:

@@ -1,6 +1,8 @@
 """Whatever the scene becomes, the views end with its results; what has none leaves the last."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import count
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
+from occ_gui.controllers import simulation
 from occ_gui.controllers.simulation import SimulationController, simulate
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
@@ -126,7 +129,19 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(
     assert snapshot.band_undefined == ""
     # 24 chips of 100 us, 8 us a column
     assert snapshot.packet_columns == pytest.approx(24 * 100 / 8)
-    assert snapshot.seconds > 0
+
+
+def test_simulating_and_reading_are_timed_apart_and_nothing_else_with_them(
+    small_scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A clock that goes on by one at every look: what lies between two looks is one.
+    monkeypatch.setattr(simulation, "perf_counter", count().__next__)
+    timings = {"transmitter": 2.0, "camera": 3.0}
+    frame = replace(occ.render(small_scene), timings=timings)
+    monkeypatch.setattr(occ, "render", lambda scene: frame)
+    snapshot = simulate(small_scene)
+    assert snapshot.simulation_seconds == 5.0
+    assert snapshot.reading_seconds == 1
 
 
 def test_the_snapshot_holds_every_decoders_reading_of_the_same_picture(

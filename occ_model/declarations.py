@@ -30,9 +30,19 @@ def _whole(value: object) -> int | None:
         return None
     if isinstance(value, Integral):
         return int(value)
-    if isinstance(value, Real) and float(value).is_integer():
-        return int(float(value))
-    return None
+    try:
+        number = float(value) if isinstance(value, Real) else math.nan
+    except OverflowError:  # a fraction too large to hold, and so for every declaration
+        return None
+    return int(number) if number.is_integer() else None
+
+
+def _read_whole(text: str) -> int:
+    """Read a whole number in any of Python's notations, or with leading zeros."""
+    try:
+        return int(text, 0)
+    except ValueError:
+        return int(text, 10)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,9 +165,9 @@ class Count(Declaration):
         return number
 
     def parse(self, text: str) -> int:
-        """Read a whole number, also as ``0b...`` or ``0x...``."""
+        """Read a whole number, also as ``0b...``, ``0x...`` or ``007``."""
         try:
-            number = int(text.strip(), 0)
+            number = _read_whole(text)
         except ValueError:
             raise self.refuse(f"is {text!r}", self.allowed) from None
         return self.check(number)

@@ -1,9 +1,9 @@
 """Results to files: complete or not at all."""
 
-import os
-import tempfile
+import stat
 from io import BytesIO
 from pathlib import Path
+from secrets import token_hex
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError
@@ -19,31 +19,28 @@ _FORMATS = {
 }
 """The image formats that are written, by the file's ending: those that hold any grey picture."""
 
+PICTURE_ENDINGS = tuple(_FORMATS)
+"""The endings of the files that pictures are written to."""
+
+_LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
+"""Pixels that a format's encoder takes a side; libjpeg's limit is below the format's own."""
+
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file so that it is there complete or not at all.
 
+    A symbolic link is followed, and a file that is there keeps its permissions.
+
     Raises
     ------
     OutputError
-        It cannot be written; a file that was there before is untouched.
+        It cannot be written, or is no regular file; what was there before is untouched.
     """
-    temporary: Path | None = None
     try:
-        if path.is_dir():
-            raise OutputError(f"{path} is a folder; name a file to write to.")
-        descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        temporary = Path(name)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        temporary.chmod(0o666 & ~_umask())
-        temporary.replace(path)
-    except BaseException as error:  # whatever happens, nothing half-written stays
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from None
-        raise
+        permissions = _permissions_of(path)
+        _replace(path.resolve(), content, permissions)
+    except OSError as error:
+        raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from None
 
 
 def write_image(path: Path, image: ByteArray) -> None:
@@ -52,16 +49,51 @@ def write_image(path: Path, image: ByteArray) -> None:
     Raises
     ------
     OutputError
-        The ending names no image format, or the file cannot be written.
+        The ending names no image format, the format does not hold an image of that size, or the
+        file cannot be written.
     """
     write_whole(path, _encoded(path, image))
+
+
+def _permissions_of(path: Path) -> int | None:
+    """Give the permissions of a file that may be replaced, None where there is none yet."""
+    try:
+        mode = path.stat().st_mode
+    except FileNotFoundError:
+        return None
+    if stat.S_ISDIR(mode):
+        raise OutputError(f"{path} is a folder; name a file to write to.")
+    if not stat.S_ISREG(mode):
+        raise OutputError(f"{path} is a device, pipe or socket; name a regular file to write to.")
+    return stat.S_IMODE(mode)
+
+
+def _replace(path: Path, content: bytes, permissions: int | None) -> None:
+    """Put a file in the place of another in one step."""
+    temporary = path.with_name(f".{path.name}.{token_hex(4)}")
+    temporary.touch(exist_ok=False)  # with the permissions that new files get
+    try:
+        temporary.write_bytes(content)
+        if permissions is not None:
+            temporary.chmod(permissions)
+        temporary.replace(path)
+    except BaseException:  # whatever happens, nothing half-written stays
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 def _encoded(path: Path, image: ByteArray) -> bytes:
     format_name = _FORMATS.get(path.suffix.lower())
     if format_name is None:
+        *endings, last = PICTURE_ENDINGS
         raise OutputError(
-            f"{path.name} has no ending of an image format; use .png, .jpg, .tif, .webp or .bmp."
+            f"{path.name} has no ending of an image format; use {', '.join(endings)} or {last}."
+        )
+    longest = _LONGEST_SIDE.get(format_name)
+    if longest is not None and max(image.shape) > longest:
+        raise OutputError(
+            f"{path.name} cannot be encoded as {format_name}: the picture has "
+            f"{image.shape[1]:,} x {image.shape[0]:,} pixels; allowed: at most {longest:,} a side."
         )
     # Pillow is slow to import, and only needed when a file is really written.
     from PIL import Image
@@ -72,10 +104,3 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
     except (OSError, ValueError) as error:
         raise OutputError(f"{path.name} cannot be encoded as {format_name}: {error}.") from None
     return buffer.getvalue()
-
-
-def _umask() -> int:
-    """Read the mask that new files get their permissions by; it can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

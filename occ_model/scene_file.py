@@ -22,8 +22,10 @@ def from_toml(text: str) -> dict[str, Any]:
     Raises
     ------
     SceneFileError
-        The text is not TOML, names no format, or a format that this version does not know.
+        It is no text, is not TOML, names no format, or a format that this version does not know.
     """
+    if not isinstance(text, str):
+        raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
     try:
         content = tomllib.loads(text)
     except ValueError as error:  # a TOMLDecodeError, or a number of thousands of digits

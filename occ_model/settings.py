@@ -25,7 +25,8 @@ def read_scene_file(path: Path) -> Scene:
         A value in it is not of its kind or out of range.
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        # Some editors begin a file with a byte order mark.
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise SceneFileError(f"{path} cannot be read: {error.strerror or error}.") from None
     except UnicodeDecodeError:

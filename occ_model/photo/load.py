@@ -75,7 +75,10 @@ def load_photo(path: str | Path, scan_axis: str = "auto") -> Photo:
     """
     if scan_axis not in SCAN_AXES:
         raise ParameterError(f"scan_axis is {scan_axis!r}; allowed: {', '.join(SCAN_AXES)}.")
-    path = Path(path)
+    try:
+        path = Path(path)
+    except TypeError:
+        raise PhotoError(f"{path!r} is not the path of a photo; allowed: str or Path.") from None
     grey, notes = _read(path)
     turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(grey))
     image = np.ascontiguousarray(grey.T if turned else grey)

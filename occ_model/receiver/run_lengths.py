@@ -14,18 +14,11 @@ _LONGEST = np.array([2, 4])
 _HEADER_RUNS = (3, 4)
 """Chips of the run of ones that holds a header: its own three, or four after a one."""
 
-_DOUBLE_ZEROS = 0.05
-"""How much better, in chips, a fit must be that leaves no single zeros.
-
-The header's zero stands alone, or with one more before a data bit 1. Only where there are an odd
-number of bits, all of them 1, does a packet hold no single zero.
-"""
-
 _NO_HEADER = 0.1
 """How much better, in chips, a fit must be that finds no header: the picture may show none."""
 
-_VANISHED = 1.0
-"""What speaks against a widening of a whole chip: single chips of the other kind would vanish."""
+_WIDENED = 0.05
+"""How much better, in chips, a pattern's fit must be for each chip that ones are wider by."""
 
 _WIDENINGS = 19
 """How many differences between ones and zeros are tried where the framing tells nothing."""
@@ -82,8 +75,12 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     short runs are two chips long, such as 1023, and one whose single and double runs the split
     leaves together. So the ones' short runs are tried as one chip and as two, the longest run of
     ones, which holds the header, as three chips and as four, and the zeros' short runs as one chip
-    and, with less trust, as two. Each trial is refined by least squares. The one is taken whose
-    runs lie nearest to whole chips, are no longer than the framing allows, and hold a header.
+    and as two: an odd number of bits, all of them 1, leave no single zero. Each trial is refined
+    by least squares. The one is taken whose runs lie nearest to whole chips, are no longer than
+    the framing allows, and hold a header.
+
+    A widening may exceed a chip. A single chip of the other kind then vanishes, but a packet that
+    has none of those is read all the same.
 
     Parameters
     ----------
@@ -100,16 +97,12 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     longest_one = float(len(histograms[1].counts) - 1)
     trials = [(short_one, chips) for chips in (1, 2)]
     trials += [(longest_one, chips) for chips in _HEADER_RUNS]
-    one_length, one_chips, zero_chips, distrust = np.array(
-        [
-            (length, chips, zeros_in, mistrust)
-            for zeros_in, mistrust in ((1, 0.0), (2, _DOUBLE_ZEROS))
-            for length, chips in trials
-        ]
+    one_length, one_chips, zero_chips = np.array(
+        [(length, chips, zeros_in) for zeros_in in (1, 2) for length, chips in trials]
     ).T
     # What a threshold off the middle takes from a run of ones it gives to one of zeros.
     chip_length = (one_length + short_zero) / (one_chips + zero_chips)
-    return _best_fit(runs, chip_length, one_length - one_chips * chip_length, distrust)
+    return _best_fit(runs, chip_length, one_length - one_chips * chip_length)
 
 
 def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
@@ -133,7 +126,7 @@ def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
     # A chip may not have drifted far from its length; a threshold is rarely far off the middle.
-    distrust = 0.05 * np.abs(widening) / nominal
+    distrust = _WIDENED * np.abs(widening) / nominal
     chip_length = np.full(_WIDENINGS, nominal)
     return _best_fit(runs, chip_length, widening, distrust, nominal=nominal)
 
@@ -142,7 +135,7 @@ def _best_fit(
     runs: Runs,
     chip_length: FloatArray,
     widening: FloatArray,
-    distrust: FloatArray,
+    distrust: FloatArray | float = 0.0,
     nominal: float | None = None,
 ) -> ChipFit:
     """Improve first guesses by least squares over the runs' whole chips, and take the best.
@@ -174,7 +167,6 @@ def _best_fit(
 
     residual = (lengths - sign * widening[:, None]) / chip_length[:, None] - n
     misfit = distrust + np.sqrt((residual**2) @ repeats / repeats.sum())
-    misfit += np.where(np.abs(widening) >= chip_length, _VANISHED, 0.0)
     if nominal is not None:
         misfit += np.abs(chip_length / nominal - 1.0)
     else:

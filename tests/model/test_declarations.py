@@ -124,6 +124,17 @@ def test_a_whole_number_too_large_to_hold_is_refused_like_any_other(
         declaration.check(10**power)
 
 
+@pytest.mark.parametrize("declaration", PARAMETERS.values(), ids=lambda p: p.name)
+@pytest.mark.parametrize("power", [400, 5000], ids=["beyond-float", "beyond-print"])
+@pytest.mark.parametrize("divisor", [3, 1])
+def test_a_fraction_too_large_to_hold_is_refused_like_any_other(
+    declaration: Parameter, power: int, divisor: int
+) -> None:
+    for fraction in (Fraction(10**power, divisor), Fraction(-(10**power), divisor)):
+        with pytest.raises(ParameterError, match=rf"^{declaration.name} is .*; allowed: "):
+            declaration.check(fraction)
+
+
 @every_quantity
 def test_a_number_too_far_below_zero_to_hold_keeps_its_sign(quantity: Quantity) -> None:
     with pytest.raises(ParameterError, match=f"^{quantity.name} is -inf"):
@@ -141,7 +152,8 @@ def test_a_count_accepts_whole_numbers_of_any_type_within_its_range(
         checked = count.check(number)
         assert type(checked) is int
         assert checked == value
-    for text in (f"{value}", f" {value} ", hex(value), bin(value), count.format(value)):
+    texts = (f"{value}", f" {value} ", f"{value:09}", hex(value), bin(value), count.format(value))
+    for text in texts:
         assert count.parse(text) == value
 
 

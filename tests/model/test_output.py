@@ -1,12 +1,12 @@
 """Files are written whole or not at all."""
 
 import errno
-import io
 import os
+import socket
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from hypothesis.extra import numpy as arrays
 from PIL import Image
 
 from occ_model.errors import OutputError
-from occ_model.output import write_image, write_whole
+from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
 
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
 
@@ -28,33 +28,17 @@ def interrupt(*_arguments: object, **_options: object) -> NoReturn:
     raise KeyboardInterrupt
 
 
-class _HalfWritten(io.BytesIO):
-    """A file that takes half of what it is given."""
-
-    def __init__(self, descriptor: int) -> None:
-        super().__init__()
-        self._descriptor = descriptor
-
-    def write(self, content: Any) -> NoReturn:
-        os.write(self._descriptor, content[: len(content) // 2])
-        full_disk()
-
-    def close(self) -> None:
-        if not self.closed:
-            os.close(self._descriptor)
-        super().close()
+def half_written(path: Path, content: bytes) -> NoReturn:
+    with path.open("wb") as file:
+        file.write(content[: len(content) // 2])
+    full_disk()
 
 
-@pytest.fixture(params=["fdopen", "write", "chmod", "replace"])
+@pytest.fixture(params=["touch", "write_bytes", "chmod", "replace"])
 def full(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Let the disk be full at each step of writing in turn."""
-    match request.param:
-        case "fdopen":
-            monkeypatch.setattr(os, "fdopen", full_disk)
-        case "write":
-            monkeypatch.setattr(os, "fdopen", lambda descriptor, mode: _HalfWritten(descriptor))
-        case step:
-            monkeypatch.setattr(Path, step, full_disk)
+    step = request.param
+    monkeypatch.setattr(Path, step, half_written if step == "write_bytes" else full_disk)
     yield
     monkeypatch.undo()
 
@@ -85,7 +69,7 @@ def test_a_name_alone_is_a_file_in_the_current_folder(
 
 def test_a_full_disk_leaves_the_old_file_and_nothing_else(full: None, tmp_path: Path) -> None:
     path = tmp_path / "file.bin"
-    path.write_bytes(b"old")
+    path.write_text("old")
     with pytest.raises(OutputError) as refused:
         write_whole(path, b"new content")
     assert str(refused.value) == f"{path} cannot be written: No space left on device."
@@ -93,6 +77,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(full: None, tmp_path: 
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("full", ["touch", "write_bytes", "replace"], indirect=True)
 def test_a_full_disk_leaves_no_new_file(full: None, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"No space left on device\.$"):
         write_image(tmp_path / "picture.png", IMAGE)
@@ -122,6 +107,64 @@ def test_a_folder_is_not_written_over(tmp_path: Path) -> None:
     assert list(folder.iterdir()) == []
 
 
+def a_pipe(path: Path) -> None:
+    os.mkfifo(path)
+
+
+def a_socket(path: Path) -> None:
+    with socket.socket(socket.AF_UNIX) as end:
+        end.bind(path.name)  # a socket's whole path may be too long
+
+
+def a_link_to_a_device(path: Path) -> None:
+    path.symlink_to("/dev/null")
+
+
+@pytest.mark.parametrize("make", [a_pipe, a_socket, a_link_to_a_device])
+def test_what_is_no_regular_file_is_neither_written_to_nor_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path], None]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "x.png"
+    make(path)
+    before = path.lstat()
+    with pytest.raises(OutputError) as refused:
+        write_image(path, IMAGE)
+    assert str(refused.value) == (
+        f"{path} is a device, pipe or socket; name a regular file to write to."
+    )
+    assert list(tmp_path.iterdir()) == [path]
+    assert (path.lstat().st_ino, path.lstat().st_mode) == (before.st_ino, before.st_mode)
+
+
+@pytest.mark.parametrize("there", [True, False], ids=["present", "missing"])
+def test_a_symbolic_link_stays_and_the_file_it_names_is_written(
+    tmp_path: Path, there: bool
+) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    target = tmp_path / "elsewhere" / "file.bin"
+    if there:
+        target.write_bytes(b"old")
+    (tmp_path / "near").symlink_to("elsewhere/file.bin")
+    far = tmp_path / "far"
+    far.symlink_to("near")
+    write_whole(far, b"new")
+    assert far.is_symlink()
+    assert (tmp_path / "near").is_symlink()
+    assert not target.is_symlink()
+    assert target.read_bytes() == b"new"
+    assert list(target.parent.iterdir()) == [target]
+
+
+def test_a_symbolic_link_to_itself_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "loop"
+    path.symlink_to(path)
+    with pytest.raises(OutputError) as refused:
+        write_whole(path, b"x")
+    assert str(refused.value) == f"{path} cannot be written: {os.strerror(errno.ELOOP)}."
+    assert path.is_symlink()
+
+
 def test_a_missing_folder_is_not_made(tmp_path: Path) -> None:
     path = tmp_path / "missing" / "file.png"
     with pytest.raises(OutputError) as refused:
@@ -140,6 +183,25 @@ def test_a_new_file_has_the_permissions_that_new_files_get(tmp_path: Path, mask:
         os.umask(before)
     assert after == mask
     assert stat.S_IMODE((tmp_path / "file.bin").stat().st_mode) == 0o666 & ~mask
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o666, 0o755])
+def test_a_file_that_was_there_keeps_its_permissions(tmp_path: Path, mode: int) -> None:
+    path = tmp_path / "file.bin"
+    path.write_bytes(b"old")
+    path.chmod(mode)
+    write_whole(path, b"new")
+    assert path.read_bytes() == b"new"
+    assert stat.S_IMODE(path.stat().st_mode) == mode
+
+
+def test_the_mask_of_new_files_is_left_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # It belongs to the whole process: another thread's new file would be open to everybody.
+    monkeypatch.setattr(os, "umask", full_disk)
+    write_whole(tmp_path / "file.bin", b"x")
+    assert (tmp_path / "file.bin").read_bytes() == b"x"
 
 
 @pytest.mark.parametrize(
@@ -179,19 +241,41 @@ def test_an_ending_of_no_image_format_is_refused_and_nothing_written(
     with pytest.raises(OutputError) as refused:
         write_image(tmp_path / name, IMAGE)
     assert str(refused.value) == (
-        f"{name} has no ending of an image format; use .png, .jpg, .tif, .webp or .bmp."
+        f"{name} has no ending of an image format; "
+        "use .png, .jpg, .jpeg, .tif, .tiff, .webp or .bmp."
     )
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("ending", ["webp", "jpg"])
-@pytest.mark.parametrize("shape", [(1, 70_000), (70_000, 1)], ids=["wide", "tall"])
-def test_a_picture_that_a_format_cannot_hold_is_refused_and_nothing_written(
-    tmp_path: Path, ending: str, shape: tuple[int, int]
+@pytest.mark.parametrize("ending", PICTURE_ENDINGS)
+def test_every_ending_that_is_offered_is_one_of_a_picture(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"picture{ending}"
+    write_image(path, IMAGE)
+    with Image.open(path) as read:
+        assert (read.height, read.width) == IMAGE.shape
+
+
+@pytest.mark.parametrize(
+    ("ending", "format_name", "longest"), [("jpg", "JPEG", 65_500), ("webp", "WEBP", 16_383)]
+)
+@pytest.mark.parametrize("wide", [True, False], ids=["wide", "tall"])
+def test_a_picture_too_long_for_its_format_is_refused_with_the_longest_side(
+    tmp_path: Path, ending: str, format_name: str, longest: int, wide: bool
 ) -> None:
-    with pytest.raises(OutputError, match=r"^picture\..* cannot be encoded as .*\.$"):
-        write_image(tmp_path / f"picture.{ending}", np.zeros(shape, dtype=np.uint8))
-    assert list(tmp_path.iterdir()) == []
+    path = tmp_path / f"picture.{ending}"
+    for length in (longest + 1, 70_000):
+        image = np.zeros((1, length) if wide else (length, 1), dtype=np.uint8)
+        with pytest.raises(OutputError) as refused:
+            write_image(path, image)
+        size = f"{length:,} x 1" if wide else f"1 x {length:,}"
+        assert str(refused.value) == (
+            f"picture.{ending} cannot be encoded as {format_name}: the picture has {size} pixels; "
+            f"allowed: at most {longest:,} a side."
+        )
+        assert list(tmp_path.iterdir()) == []
+    write_image(path, image[:longest, :longest])
+    with Image.open(path) as read:
+        assert max(read.size) == longest
 
 
 def test_a_name_too_long_for_the_file_system_is_refused_in_a_sentence(tmp_path: Path) -> None:

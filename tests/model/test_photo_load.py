@@ -141,6 +141,13 @@ def test_what_is_no_photo_is_refused_in_a_sentence(tmp_path: Path) -> None:
         assert str(refused.value).endswith(".")
 
 
+@pytest.mark.parametrize("path", [3, None, b"x.png", ["x.png"]])
+def test_what_is_no_path_is_refused_in_a_sentence(path: object) -> None:
+    with pytest.raises(PhotoError) as refused:
+        load_photo(path)  # type: ignore[arg-type]
+    assert str(refused.value) == f"{path!r} is not the path of a photo; allowed: str or Path."
+
+
 @pytest.mark.parametrize("pixels", [1535, 1000, 100])
 def test_a_photo_too_large_to_be_honest_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pixels: int

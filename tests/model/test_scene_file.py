@@ -98,8 +98,8 @@ def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
         ("<xml/>", r"^This is not a TOML file: .*line 1.*\.$"),
         ("format = 1\n[camera\n", r"^This is not a TOML file: .*line 2.*\.$"),
         ("format = 1\n\0", r"^This is not a TOML file: .*\.$"),
-        ("format = 1\n[lens]\n", r"^A scene file has no table \[lens\]; known are transmitter, "),
-        ("format = 1\nlens = 1\n", r"^A scene file has no table \[lens\]; known are transmitter, "),
+        ("format = 1\n[film]\n", r"^A scene file has no table \[film\]; known are transmitter, "),
+        ("format = 1\nfilm = 1\n", r"^A scene file has no table \[film\]; known are transmitter, "),
         ("format = 1\ncamera = 1\n", r"^camera must be a table: "),
         ("format = 1\n[[camera]]\niso = 100\n", r"^camera must be a table: "),
         ("format = 1\niso = 100\n", r"^A scene file has no table \[iso\]; "),
@@ -118,6 +118,15 @@ def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
 def test_what_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(SceneFileError, match=sentence):
         Scene.from_toml(text)
+
+
+@pytest.mark.parametrize("text", [None, 3, b"format = 1", ["format = 1"]])
+def test_what_is_no_text_is_refused_in_a_sentence(text: object) -> None:
+    with pytest.raises(SceneFileError) as refused:
+        Scene.from_toml(text)  # type: ignore[arg-type]
+    assert str(refused.value) == (
+        f"A scene is read from text (str), not from {type(text).__name__}."
+    )
 
 
 @pytest.mark.parametrize(

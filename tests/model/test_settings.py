@@ -36,6 +36,8 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
         ("rows=300", "rows", 300),
         ("code=0b1011001110", "code", 718),
         ("code=0x3ff", "code", 1023),
+        ("code=007", "code", 7),
+        ("code= 0000 ", "code", 0),
         ("averaging=light", "averaging", "light"),
         ("pattern=0101 1100", "pattern", "01011100"),
         ("pattern=", "pattern", ""),
@@ -93,6 +95,13 @@ def test_a_scene_file_is_read(tmp_path: Path) -> None:
     assert read_scene_file(path) == scene
 
 
+def test_a_scene_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
+    scene = Scene().replace(iso=200)
+    path = tmp_path / "scene.toml"
+    path.write_text(scene.to_toml(), encoding="utf-8-sig")
+    assert read_scene_file(path) == scene
+
+
 def test_a_missing_scene_file_is_refused_by_its_name(tmp_path: Path) -> None:
     path = tmp_path / "none.toml"
     with pytest.raises(SceneFileError) as refused:
@@ -138,7 +147,7 @@ def test_a_scene_file_that_may_not_be_read_is_refused_with_the_reason(
     assert str(refused.value) == f"{path} cannot be read: {reason}."
 
 
-@pytest.mark.parametrize("text", ["", "iso = 100", "format = 1\n[lens]\n", "{}"])
+@pytest.mark.parametrize("text", ["", "iso = 100", "format = 1\n[film]\n", "{}"])
 def test_text_that_is_no_scene_is_refused_as_a_scene_file(tmp_path: Path, text: str) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(text)

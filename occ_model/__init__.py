@@ -13,6 +13,7 @@ from occ_model.band_model import band_lengths, band_profile
 from occ_model.camera.exposure import on_time
 from occ_model.camera.photometry import column_profile
 from occ_model.camera.projection import panel_corners
+from occ_model.effects.plan import plan
 from occ_model.errors import (
     BandModelUndefined,
     DecodeInputError,
@@ -59,6 +60,7 @@ __all__ = [
     "on_time",
     "packet",
     "panel_corners",
+    "plan",
     "presets",
     "render",
     "success_rate",

@@ -6,3 +6,4 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 ByteArray = NDArray[np.uint8]
+Pixels = NDArray[np.float32]

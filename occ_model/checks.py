@@ -1,5 +1,6 @@
 """Checks of arguments that are no parameters of a scene."""
 
+from collections.abc import Sequence
 from numbers import Integral, Real
 
 from occ_model.errors import ParameterError
@@ -29,6 +30,18 @@ def check_level(name: str, value: object, largest: float) -> None:
     number = isinstance(value, Real) and not isinstance(value, bool)
     if not number or not 0.0 <= value <= largest:  # type: ignore[operator]  # a Real by now
         raise ParameterError(f"{name} is {value!r} grey levels; allowed: 0 to {largest:g}.")
+
+
+def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
+    """Refuse what is none of a few words.
+
+    Raises
+    ------
+    ParameterError
+        Naming the argument, its value and what is allowed.
+    """
+    if not isinstance(value, str) or value not in choices:
+        raise ParameterError(f"{name} is {value!r}; allowed: {', '.join(choices)}.")
 
 
 def check_seed(seed: object) -> None:

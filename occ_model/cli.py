@@ -176,7 +176,7 @@ def _ceasing(preset: str, points: list[GridPoint]) -> str:
 def _presets(options: argparse.Namespace) -> int:
     if options.name is None:
         for name in occ.presets():
-            print(f"{name:14}{preset_named(name).title}")
+            print(f"{name:20}{preset_named(name).title}")
         return 0
     preset = preset_named(options.name)
     print(preset.title)

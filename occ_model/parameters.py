@@ -11,11 +11,13 @@ from difflib import get_close_matches
 from occ_model.declarations import ChipPattern, Choice, Count, Parameter, Quantity
 from occ_model.errors import ParameterError
 from occ_model.units import (
+    ELECTRON,
     HERTZ,
     LUX,
     METRE,
     NIT,
     NONE,
+    PIXEL,
     RADIAN,
     SECOND,
 )
@@ -64,6 +66,20 @@ _DECLARED: tuple[Parameter, ...] = (
         "",
         "Size of the panel along the image's rows axis.",
         unit=METRE, low=1e-4, high=100.0, slider=(0.01, 2.0), scale="log", default=0.6,
+    ),
+    Quantity(
+        "edge_time",
+        "LED rise and fall time",
+        "",
+        "Time that the LED takes from dark to lit and from lit to dark; 0: none.",
+        unit=SECOND, low=0.0, high=1.0, slider=(0.0, 50e-6), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "lambertian_order",
+        "Lambertian order",
+        "m",
+        "The panel's intensity falls as cos^m of the angle; 1: equally bright from all sides.",
+        unit=NONE, low=1.0, high=100.0, slider=(1.0, 10.0), scale="linear", default=1.0,
     ),
     # camera
     Quantity(
@@ -116,6 +132,106 @@ _DECLARED: tuple[Parameter, ...] = (
         "",
         "Focal length of the lens that frames the same picture on a diagonal of 43.27 mm.",
         unit=METRE, low=1e-3, high=2.0, slider=(0.01, 0.2), scale="log", default=0.026,
+    ),
+    Count(
+        "jpeg_quality",
+        "JPEG quality",
+        "",
+        "Quality of the JPEG file that the camera writes, up to 100; 0: no JPEG.",
+        0, 100, 0,
+    ),
+    # lens
+    Quantity(
+        "vignetting_exponent",
+        "Vignetting exponent",
+        "",
+        "The light falls as cos^n of a pixel's angle off the optical axis: 4 by nature; 0: evenly.",
+        unit=NONE, low=0.0, high=20.0, slider=(0.0, 8.0), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "radial_k1",
+        "Radial distortion, first",
+        "k_1",
+        "Radial lens distortion: r (1 + k_1 r^2 + k_2 r^4), r in focal lengths.",
+        unit=NONE, low=-10.0, high=10.0, slider=(-0.5, 0.5), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "radial_k2",
+        "Radial distortion, second",
+        "k_2",
+        "Radial lens distortion of the fourth order.",
+        unit=NONE, low=-10.0, high=10.0, slider=(-0.5, 0.5), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "tangential_p1",
+        "Tangential distortion, first",
+        "p_1",
+        "Lens distortion by a lens that is off centre along the rows axis.",
+        unit=NONE, low=-1.0, high=1.0, slider=(-0.02, 0.02), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "tangential_p2",
+        "Tangential distortion, second",
+        "p_2",
+        "Lens distortion by a lens that is off centre along the columns axis.",
+        unit=NONE, low=-1.0, high=1.0, slider=(-0.02, 0.02), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "point_spread",
+        "Point spread of the lens",
+        "",
+        "Standard deviation of the spot that the lens makes of a point in focus; 0: a point.",
+        unit=PIXEL, low=0.0, high=1000.0, slider=(0.0, 10.0), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "focus_distance",
+        "Focus distance",
+        "",
+        "Distance at which the lens is sharp; 0: wherever the panel is.",
+        unit=METRE, low=0.0, high=1e6, slider=(0.0, 3.0), scale="linear", default=0.0,
+    ),
+    # sensor
+    Quantity(
+        "pixel_pitch",
+        "Pixel pitch",
+        "",
+        "Distance from one pixel's centre to the next one's.",
+        unit=METRE, low=1e-7, high=1e-4, slider=(0.5e-6, 10e-6), scale="log", default=1e-6,
+    ),
+    Quantity(
+        "quantum_efficiency",
+        "Quantum efficiency",
+        "",
+        "Electrons collected for each photon on the pixel, its colour filter included.",
+        unit=NONE, low=1e-3, high=1.0, slider=(0.05, 1.0), scale="linear", default=0.55,
+    ),
+    Quantity(
+        "full_well",
+        "Full well",
+        "",
+        "Electrons that a pixel can hold.",
+        unit=ELECTRON, low=10.0, high=1e9, slider=(1e3, 1e5), scale="log", default=4500.0,
+    ),
+    Quantity(
+        "read_noise",
+        "Read noise",
+        "",
+        "Standard deviation of the electrons read from a pixel that holds none.",
+        unit=ELECTRON, low=0.0, high=1e4, slider=(0.0, 20.0), scale="linear", default=2.0,
+    ),
+    Quantity(
+        "gain_variation",
+        "Fixed-pattern gain (PRNU)",
+        "",
+        "Standard deviation of the gain from pixel to pixel, as a share; the same in all pictures.",
+        unit=NONE, low=0.0, high=0.5, slider=(0.0, 0.05), scale="linear", default=0.008,
+    ),
+    Count(
+        "adc_bits",
+        "Converter bits",
+        "",
+        "Bits of the analogue-to-digital converter, before the gamma encoding.",
+        4, 24, 10,
     ),
     # pose
     Quantity(
@@ -175,6 +291,28 @@ _DECLARED: tuple[Parameter, ...] = (
         "R",
         "Share of that light which the panel and its surroundings throw back.",
         unit=NONE, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.4,
+    ),
+    Quantity(
+        "flicker_depth",
+        "Flicker depth",
+        "",
+        "By which share of its mean the light from elsewhere swings up and down; 0: steady.",
+        unit=NONE, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.0,
+    ),
+    Quantity(
+        "flicker_frequency",
+        "Flicker frequency",
+        "",
+        "Frequency of that swing: twice that of the mains.",
+        unit=HERTZ, low=0.01, high=1e9, slider=(50.0, 1000.0), scale="log", default=100.0,
+    ),
+    Quantity(
+        "flicker_phase",
+        "Flicker phase",
+        "",
+        "Phase of that swing at time zero; 0: at its crest.",
+        unit=RADIAN, low=-math.pi, high=math.pi,
+        slider=(-math.pi, math.pi), scale="linear", default=0.0,
     ),
     # receiver
     Quantity(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
 from types import MappingProxyType
+from typing import Any
 
 from occ_model import scene_file
 from occ_model.errors import PresetError, SceneFileError
@@ -65,8 +66,8 @@ def preset_named(name: str) -> Preset:
         No preset has that name.
     """
     known = presets()
-    if name not in known:
-        near = get_close_matches(name, known, n=1)
+    if not isinstance(name, str) or name not in known:
+        near = get_close_matches(str(name), known, n=1)
         hint = f" Did you mean {near[0]}?" if near else ""
         raise PresetError(f"There is no preset {name!r}.{hint} Known are {', '.join(known)}.")
     return _load(name)
@@ -74,22 +75,36 @@ def preset_named(name: str) -> Preset:
 
 @lru_cache(maxsize=64)
 def _load(name: str) -> Preset:
-    """Read a preset file on top of the one that it is based on."""
+    """Lay a preset file over those that it is based on."""
+    preset = Preset(name, "", Scene(), MappingProxyType({}), MappingProxyType({}))
+    for content in _layers(name):
+        preset = _laid_over(preset, content)
+    return preset
+
+
+def _layers(name: str) -> list[dict[str, Any]]:
+    """Read a preset file and, before it, those that it is based on."""
     path = resource_path(_FOLDER, f"{name}.toml")
     try:
         content = scene_file.from_toml(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise SceneFileError(f"The preset file {path.name} cannot be read: {error}.") from None
-    base_name = content.pop("based_on", None)
-    base = _load(base_name) if base_name else Preset(name, "", Scene(), {}, {})
-    title = content.pop("title", base.title)
-    sources = _notes(content.pop("sources", {}))
-    assumed = _notes(content.pop("assumed", {}))
+    named = content.pop("based_on", [])
+    bases: list[str] = [named] if isinstance(named, str) else named
+    return [*(layer for base in bases for layer in _layers(base)), content]
+
+
+def _laid_over(base: Preset, content: dict[str, Any]) -> Preset:
+    """Return the preset with a file's values and notes in place of its own."""
+    tables = dict(content)
+    title = tables.pop("title", base.title)
+    sources = _notes(tables.pop("sources", {}))
+    assumed = _notes(tables.pop("assumed", {}))
     # A value with a source here is no longer assumed, whatever the base said of it, and vice versa.
     return Preset(
-        name=name,
+        name=base.name,
         title=title,
-        scene=base.scene.with_tables(content),
+        scene=base.scene.with_tables(tables),
         sources=_over(base.sources, sources, without=assumed),
         assumed=_over(base.assumed, assumed, without=sources),
     )

@@ -42,6 +42,8 @@ class Transmitter(_Checked):
     luminance: float = _declared("luminance")
     panel_width: float = _declared("panel_width")
     panel_height: float = _declared("panel_height")
+    edge_time: float = _declared("edge_time")
+    lambertian_order: float = _declared("lambertian_order")
 
     def __post_init__(self) -> None:
         _Checked.__post_init__(self)
@@ -69,12 +71,43 @@ class Camera(_Checked):
     rows: int = _declared("rows")
     columns: int = _declared("columns")
     equivalent_focal_length: float = _declared("equivalent_focal_length")
+    jpeg_quality: int = _declared("jpeg_quality")
 
     @property
     def focal_length_pixels(self) -> float:
         """Focal length in pixels; the size of a pixel drops out of it."""
         diagonal: float = (self.rows**2 + self.columns**2) ** 0.5
         return self.equivalent_focal_length / _DIAGONAL_35MM * diagonal
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lens(_Checked):
+    """What the lens does to the picture."""
+
+    vignetting_exponent: float = _declared("vignetting_exponent")
+    radial_k1: float = _declared("radial_k1")
+    radial_k2: float = _declared("radial_k2")
+    tangential_p1: float = _declared("tangential_p1")
+    tangential_p2: float = _declared("tangential_p2")
+    point_spread: float = _declared("point_spread")
+    focus_distance: float = _declared("focus_distance")
+
+    @property
+    def distorts(self) -> bool:
+        """Whether it bends straight lines."""
+        return any((self.radial_k1, self.radial_k2, self.tangential_p1, self.tangential_p2))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensor(_Checked):
+    """What a pixel does with the light."""
+
+    pixel_pitch: float = _declared("pixel_pitch")
+    quantum_efficiency: float = _declared("quantum_efficiency")
+    full_well: float = _declared("full_well")
+    read_noise: float = _declared("read_noise")
+    gain_variation: float = _declared("gain_variation")
+    adc_bits: int = _declared("adc_bits")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,6 +128,9 @@ class Surroundings(_Checked):
 
     illuminance: float = _declared("illuminance")
     reflectance: float = _declared("reflectance")
+    flicker_depth: float = _declared("flicker_depth")
+    flicker_frequency: float = _declared("flicker_frequency")
+    flicker_phase: float = _declared("flicker_phase")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,6 +160,8 @@ class Scene:
 
     transmitter: Transmitter = field(default_factory=Transmitter)
     camera: Camera = field(default_factory=Camera)
+    lens: Lens = field(default_factory=Lens)
+    sensor: Sensor = field(default_factory=Sensor)
     pose: Pose = field(default_factory=Pose)
     surroundings: Surroundings = field(default_factory=Surroundings)
     receiver: Receiver = field(default_factory=Receiver)
@@ -202,6 +240,8 @@ class Scene:
 _GROUP_TYPES: dict[str, type[_Checked]] = {
     "transmitter": Transmitter,
     "camera": Camera,
+    "lens": Lens,
+    "sensor": Sensor,
     "pose": Pose,
     "surroundings": Surroundings,
     "receiver": Receiver,

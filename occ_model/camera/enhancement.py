@@ -1,6 +1,5 @@
 """Contrast enhancement and rounding to 8 bits."""
 
-from collections.abc import Callable
 from typing import Any
 
 import cv2
@@ -16,8 +15,10 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
     return np.asarray(np.clip(np.rint(values), 0.0, WHITE), dtype=np.uint8)
 
 
-def enhancement_of(profile: FloatArray, method: str) -> Callable[[FloatArray], ByteArray]:
-    """Make the contrast enhancement that a picture with these column values gets.
+class Enhancement:
+    """The contrast enhancement that a picture with some column values gets.
+
+    A profile that spans less than one grey level gets rounding only.
 
     Parameters
     ----------
@@ -26,20 +27,35 @@ def enhancement_of(profile: FloatArray, method: str) -> Callable[[FloatArray], B
     method
         ``"equalization"``: histogram equalization of the rounded values, the paper's choice;
         ``"stretch"``: the smallest value becomes 0, the largest 255; ``"none"``.
-
-    Returns
-    -------
-    callable
-        Takes grey levels, those of the profile or others, of any shape; gives them enhanced and
-        rounded. A profile that spans less than one grey level gets rounding only.
     """
-    low, high = float(profile.min()), float(profile.max())
-    if method == "none" or high - low < FLAT:
-        return to_bytes
-    if method == "stretch":
-        return lambda values: to_bytes((values - low) * (WHITE / (high - low)))
-    curve = _equalization(to_bytes(profile))
-    return lambda values: curve[to_bytes(values)]
+
+    def __init__(self, profile: FloatArray, method: str) -> None:
+        low, high = float(profile.min()), float(profile.max())
+        is_flat = high - low < FLAT
+        self._low = low
+        self._scale = WHITE / (high - low) if method == "stretch" and not is_flat else None
+        levels = np.arange(256)
+        if method == "equalization" and not is_flat:
+            self._curve = _equalization(to_bytes(profile))
+        elif self._scale is not None:
+            self._curve = to_bytes((levels - low) * self._scale)
+        else:
+            self._curve = levels.astype(np.uint8)
+
+    @property
+    def needs_fractions(self) -> bool:
+        """Whether rounding first would make the result coarser."""
+        return self._scale is not None
+
+    def __call__(self, values: NDArray[np.floating[Any]]) -> ByteArray:
+        """Enhance and round grey levels, those of the profile or others, of any shape."""
+        if self._scale is not None:
+            return to_bytes((values - self._low) * self._scale)
+        return self._curve[to_bytes(values)]
+
+    def of_bytes(self, image: ByteArray) -> ByteArray:
+        """Enhance grey levels that are rounded already, shape (rows, columns)."""
+        return np.asarray(cv2.LUT(image, self._curve), dtype=np.uint8)
 
 
 def _equalization(rounded: ByteArray) -> ByteArray:
@@ -60,10 +76,10 @@ def enhance(profile: FloatArray, method: str) -> ByteArray:
     profile : ndarray of float64, shape (columns,)
         Grey levels.
     method
-        As for :func:`enhancement_of`.
+        As for :class:`Enhancement`.
 
     Returns
     -------
     ndarray of uint8, shape (columns,)
     """
-    return enhancement_of(profile, method)(profile)
+    return Enhancement(profile, method)(profile)

@@ -14,8 +14,12 @@ from occ_model.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
+_AT_ONCE = Fraction(0)
 
-def column_phases(scene: Scene, period: int, columns: int | None = None) -> Phases:
+
+def column_phases(
+    scene: Scene, period: int, shift: Fraction = _AT_ONCE, columns: int | None = None
+) -> Phases:
     """Say where in the sent period each column's exposure starts.
 
     The start and the step from column to column are reduced to one period in exact arithmetic,
@@ -29,6 +33,8 @@ def column_phases(scene: Scene, period: int, columns: int | None = None) -> Phas
         The scene.
     period
         The number of chips of one sent period.
+    shift
+        Chips by which all starts are moved.
     columns
         How many columns, by default those of the camera.
 
@@ -37,13 +43,39 @@ def column_phases(scene: Scene, period: int, columns: int | None = None) -> Phas
     Phases, shape (columns,)
     """
     frequency = Fraction(scene.transmitter.switching_frequency)
-    start = Fraction(scene.model.start_time) * frequency % period
+    start = (Fraction(scene.model.start_time) * frequency + shift) % period
     step = Fraction(scene.camera.readout_time) * frequency % period
+    return _phases(start, step, period, scene.camera.columns if columns is None else columns)
+
+
+def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
+    """Say where in its cycle something periodic is, a delay after each column's start.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    frequency
+        In Hz.
+    delay
+        In seconds.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,), from 0 to below 1
+    """
+    cycles = Fraction(frequency)
+    start = (Fraction(scene.model.start_time) + delay) * cycles % 1
+    step = Fraction(scene.camera.readout_time) * cycles % 1
+    return _phases(start, step, 1, scene.camera.columns).fraction
+
+
+def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
+    """Count up from ``start`` by ``step``, both within one period."""
     coarse = float(np.float32(float(step)))
     fine = float(step - Fraction(coarse))
     start_chip = start.numerator // start.denominator
 
-    count = scene.camera.columns if columns is None else columns
     column = np.arange(count, dtype=np.float64)
     position = column * coarse
     chip = np.floor(position)

@@ -1,6 +1,8 @@
 """From luminance to pixel values: equations (1) to (3) of the paper."""
 
 import math
+from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -16,6 +18,11 @@ FLAT = 1.0
 
 _MID_GREY = 118.0
 """The pixel value of a scene of the luminance that the meter is calibrated to."""
+
+
+def _gain(camera: Camera) -> float:
+    """Give S t / (K N^2), which makes a luminance a multiple of the meter's."""
+    return camera.iso * camera.exposure_time / (camera.meter_constant * camera.f_number**2)
 
 
 def pixel_value(luminance: FloatArray, camera: Camera) -> FloatArray:
@@ -35,8 +42,12 @@ def pixel_value(luminance: FloatArray, camera: Camera) -> FloatArray:
     ndarray of float64, shape as ``luminance``
         Grey levels; above 255 the pixel is saturated, see :func:`saturate`.
     """
-    gain = camera.iso * camera.exposure_time / (camera.meter_constant * camera.f_number**2)
-    return np.asarray(_MID_GREY * (gain * luminance) ** (1.0 / camera.gamma))
+    return np.asarray(_MID_GREY * (_gain(camera) * luminance) ** (1.0 / camera.gamma))
+
+
+def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:
+    """Give the luminance that has a pixel value, in cd/m2: :func:`pixel_value` undone."""
+    return np.asarray((values / _MID_GREY) ** camera.gamma / _gain(camera))
 
 
 def saturate(values: FloatArray) -> FloatArray:
@@ -58,22 +69,62 @@ def level_values(scene: Scene) -> FloatArray:
     return pixel_value(luminance_levels(scene), scene.camera)
 
 
-def column_profile(scene: Scene) -> FloatArray:
-    """Give the pixel value of every column before contrast enhancement, PV_sim.
+@dataclass(frozen=True, eq=False, slots=True)
+class ColumnLight:
+    """What reaches each column while it is exposed.
+
+    Parameters
+    ----------
+    lit : ndarray of float64, shape (columns,)
+        Share of the exposure in which the panel is lit; between 0 and 1 too where it is half lit.
+    ambient : ndarray of float64, shape (columns,) or (1,)
+        The light from elsewhere, as a multiple of its mean over time.
+    """
+
+    lit: FloatArray
+    ambient: FloatArray
+
+    @classmethod
+    def of(cls, scene: Scene) -> Self:
+        """Give the light of the paper's model: sharp edges, steady surroundings."""
+        return cls(lit_fraction(scene), np.ones(1))
+
+
+def panel_values(scene: Scene, light: ColumnLight) -> FloatArray:
+    """Give the pixel value that each column has on the panel, before saturation.
 
     With ``averaging = "pixel-value"`` this is the paper's equation (3),
     PV_sim(i) = (PV_max t_on(i) + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged
     and the pixel value is taken of their mean, as light adds up in a sensor before gamma encoding.
-    Either way the sum saturates, not its terms: a pixel is full when all its light is in.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,)
+        Grey levels.
+    """
+    dark, bright = luminance_levels(scene)
+    reflected, emitted = dark * light.ambient, bright - dark
+    if scene.model.averaging == "light":
+        return pixel_value(reflected + emitted * light.lit, scene.camera)
+    low = pixel_value(reflected, scene.camera)
+    high = pixel_value(reflected + emitted, scene.camera)
+    return low + (high - low) * light.lit
+
+
+def surroundings_values(scene: Scene, light: ColumnLight) -> FloatArray:
+    """Give the pixel value of the surroundings before saturation, shape (columns,) or (1,)."""
+    return pixel_value(luminance_levels(scene)[0] * light.ambient, scene.camera)
+
+
+def column_profile(scene: Scene) -> FloatArray:
+    """Give the pixel value of every column before contrast enhancement, PV_sim.
+
+    It is :func:`panel_values` of the paper's model. The sum saturates, not its terms: a pixel is
+    full when all its light is in.
 
     Returns
     -------
     ndarray of float64, shape (columns,)
         Grey levels, 0 to 255, not rounded.
     """
-    lit = lit_fraction(scene)
-    if scene.model.averaging == "light":
-        dark, bright = luminance_levels(scene)
-        return saturate(pixel_value(dark + (bright - dark) * lit, scene.camera))
-    dark, bright = level_values(scene)
-    return saturate(dark + (bright - dark) * lit)
+    return saturate(panel_values(scene, ColumnLight.of(scene)))

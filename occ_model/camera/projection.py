@@ -1,11 +1,10 @@
 """Where the panel lies in the image, and the image of it."""
 
-import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
 from occ_model.errors import ProjectionError
-from occ_model.scene import Scene
+from occ_model.scene import Camera, Pose, Scene
 from occ_model.units import METRE
 
 MAX_PIXELS = 170_000_000
@@ -35,26 +34,49 @@ def panel_corners(scene: Scene) -> FloatArray:
     x = scene.transmitter.panel_width / 2
     y = scene.transmitter.panel_height / 2
     corners = np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])
-    rotation = _rotation(pose.yaw, pose.pitch, pose.roll)
-    shift = np.array([pose.offset_x, pose.offset_y, pose.distance])
-    nearest = float((corners @ rotation.T + shift)[:, 2].min())
+    placed = corners @ rotation_of(pose).T + [pose.offset_x, pose.offset_y, pose.distance]
+    nearest = float(placed[:, 2].min())
     if nearest <= pose.distance * _NEAREST_SHARE:
         raise ProjectionError(
             f"Turned like this at a distance of {METRE.format(pose.distance)}, part of the panel "
             f"is {METRE.format(-nearest)} behind the camera; move it away or turn it back."
         )
-    focal = camera.focal_length_pixels
-    matrix = np.array(
-        [[focal, 0.0, (camera.columns - 1) / 2], [0.0, focal, (camera.rows - 1) / 2], [0, 0, 1]]
-    )
-    axis_angle, _ = cv2.Rodrigues(rotation)
-    projected, _ = cv2.projectPoints(corners, axis_angle, shift, matrix, np.zeros(5))
-    return np.asarray(projected, dtype=np.float64).reshape(4, 2)
+    return image_points(placed[:, :2] / placed[:, 2:], camera)
 
 
-def _rotation(yaw: float, pitch: float, roll: float) -> FloatArray:
+def image_points(rays: FloatArray, camera: Camera) -> FloatArray:
+    """Give where rays (x, y), in focal lengths, meet the image as (column, row), same shape."""
+    return np.asarray(rays * camera.focal_length_pixels + _centre(camera))
+
+
+def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
+    """Give points of the image, (column, row), as rays (x, y) in focal lengths, same shape."""
+    return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
+
+
+def pixel_rays(camera: Camera, first: int, last: int) -> tuple[Pixels, Pixels]:
+    """Give the rays of the pixels in rows from ``first`` to before ``last``.
+
+    Returns
+    -------
+    x : ndarray of float32, shape (1, columns)
+    y : ndarray of float32, shape (rows, 1)
+        In focal lengths.
+    """
+    column, row = _centre(camera)
+    x = (np.arange(camera.columns) - column) / camera.focal_length_pixels
+    y = (np.arange(first, last) - row) / camera.focal_length_pixels
+    return x.astype(np.float32)[None, :], y.astype(np.float32)[:, None]
+
+
+def _centre(camera: Camera) -> FloatArray:
+    return np.array([(camera.columns - 1) / 2, (camera.rows - 1) / 2])
+
+
+def rotation_of(pose: Pose) -> FloatArray:
     """Turn about the columns axis first, then the rows axis, then the optical axis."""
-    (sx, cx), (sy, cy), (sz, cz) = ((np.sin(a), np.cos(a)) for a in (pitch, yaw, roll))
+    angles = (pose.pitch, pose.yaw, pose.roll)
+    (sx, cx), (sy, cy), (sz, cz) = ((np.sin(angle), np.cos(angle)) for angle in angles)
     about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
     about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
     about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
@@ -104,7 +126,25 @@ def _row_after(y: float, rows: int) -> int:
     return int(min(max(np.floor(y) + 1, 0), rows))
 
 
-def paint(enhanced: ByteArray, corners: FloatArray, rows: int, surroundings: int) -> ByteArray:
+def check_size(camera: Camera) -> None:
+    """Refuse a picture that would fill the memory.
+
+    Raises
+    ------
+    ProjectionError
+        It would have more than ``MAX_PIXELS`` pixels.
+    """
+    rows, columns = camera.rows, camera.columns
+    if rows * columns > MAX_PIXELS:
+        raise ProjectionError(
+            f"An image of {rows} rows and {columns} columns has {rows * columns / 1e6:.0f} million "
+            f"pixels; allowed: up to {MAX_PIXELS // 1_000_000} million."
+        )
+
+
+def paint(
+    enhanced: ByteArray, corners: FloatArray, rows: int, surroundings: ByteArray
+) -> ByteArray:
     """Make the image: inside the panel every row carries the profile, outside the surroundings.
 
     Parameters
@@ -115,24 +155,14 @@ def paint(enhanced: ByteArray, corners: FloatArray, rows: int, surroundings: int
         The panel's corners.
     rows
         Height of the image.
-    surroundings
-        Grey level outside the panel.
+    surroundings : ndarray of uint8, shape (columns,)
+        Grey levels outside the panel.
 
     Returns
     -------
     ndarray of uint8, shape (rows, columns)
-
-    Raises
-    ------
-    ProjectionError
-        The image would have more than ``MAX_PIXELS`` pixels.
     """
     columns = len(enhanced)
-    if rows * columns > MAX_PIXELS:
-        raise ProjectionError(
-            f"An image of {rows} rows and {columns} columns has {rows * columns / 1e6:.0f} million "
-            f"pixels; allowed: up to {MAX_PIXELS // 1_000_000} million."
-        )
     first, last = row_spans(corners, rows, columns)
     image = np.empty((rows, columns), dtype=np.uint8)
     # Rows that carry the same span are painted as one block: a level panel is a single one.
@@ -141,7 +171,7 @@ def paint(enhanced: ByteArray, corners: FloatArray, rows: int, surroundings: int
     for top, bottom in zip(starts, [*starts[1:], rows], strict=True):
         a, b = int(first[top]), int(last[top])
         block = image[top:bottom]
-        block[:, :a] = surroundings
+        block[:, :a] = surroundings[:a]
         block[:, a:b] = enhanced[a:b]
-        block[:, b:] = surroundings
+        block[:, b:] = surroundings[b:]
     return image

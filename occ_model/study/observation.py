@@ -1,67 +1,55 @@
-"""What a decoder gets to see of a scene, with noise: by way of the image, or without one.
+"""What a decoder gets to see of a scene: by way of the image, or without one.
 
 The profile path needs no image. A level panel shows the same column values in every one of its
-rows, so that the mean of a column is known without its pixels: the noise, sent through the
+rows, so that the mean of a column is known without its pixels: noise is sent through the
 enhancement as each pixel would send it, and averaged over as many rows.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.enhancement import enhancement_of, to_bytes
-from occ_model.camera.photometry import WHITE, column_profile, level_values
-from occ_model.camera.projection import paint, panel_corners, row_spans
+from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.photometry import saturate
+from occ_model.camera.projection import panel_corners, row_spans
+from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.registry import planned
 from occ_model.receiver.decode import decode
 from occ_model.receiver.locate import bright_level
-from occ_model.results import DecodeResult, Region
+from occ_model.results import DecodeResult, Plan, Region
 from occ_model.scene import Scene
-
-_GRID = 8
-"""Steps a grey level is divided into where the noise is sent through the enhancement."""
+from occ_model.simulation import Columns, expose_columns
 
 _REACH = 5.0
 """Standard deviations after which the noise's distribution is cut off."""
 
+_NODES = 81
+"""Points of the distribution that are sent through the enhancement."""
 
-def noisy_image(scene: Scene, noise: float, random: np.random.Generator) -> ByteArray:
-    """Make the image with noise of its own in each pixel, before the enhancement.
+_LEVELS = 512
+"""Column values for which that is done where there are more columns; between them is a line."""
 
-    Parameters
-    ----------
-    scene
-        The scene.
-    noise
-        Standard deviation of a pixel's noise in grey levels.
-    random
-        Where the noise comes from.
 
-    Returns
-    -------
-    ndarray of uint8, shape (rows, columns)
+def panel_span(scene: Scene) -> Region | None:
+    """Give the rectangle that the panel fills in the image; None where it fills none.
+
+    Its rows and columns are empty where the panel is not in the image.
     """
-    corners = panel_corners(scene)
-    profile = column_profile(scene)
-    curve = enhancement_of(profile, scene.model.enhancement)
-    dark = float(level_values(scene)[0])
-    rows = scene.camera.rows
-    image = paint(curve(profile), corners, rows, int(to_bytes(np.array(dark))))
-    first, last = row_spans(corners, rows, len(profile))
-    for row in range(rows if noise > 0.0 else 0):
-        # Single precision: noise needs no more, and it is drawn twice as fast.
-        deviations = noise * random.standard_normal(len(profile), dtype=np.float32)
-        panel = slice(int(first[row]), int(last[row]))
-        image[row] = to_bytes(dark + deviations)
-        image[row, panel] = curve(profile[panel] + deviations[panel])
-    return image
+    rows, columns = scene.camera.rows, scene.camera.columns
+    first, last = row_spans(panel_corners(scene), rows, columns)
+    lit = np.flatnonzero(last > first)
+    if lit.size == 0:
+        return Region(0, 0, 0, 0)
+    if np.ptp(first[lit]) + np.ptp(last[lit]) > 0:
+        return None
+    return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
 
 
 def decode_profile(
-    scene: Scene, decoder: str, noise: float, random: np.random.Generator
+    scene: Scene, decoder: str, plan: Plan, random: np.random.Generator
 ) -> DecodeResult | None:
-    """Decode what the image of a level panel would show, without the image.
+    """Decode what the image would show, without the image.
 
     The decoder's region is found as in the image: from the first bright column to the last.
 
@@ -71,69 +59,76 @@ def decode_profile(
         The scene.
     decoder
         The decoder's name.
-    noise, random
-        As for :func:`noisy_image`.
+    plan
+        Its effects are simulated.
+    random
+        Where the noise comes from.
 
     Returns
     -------
     DecodeResult or None
-        None where the panel's picture is not level, so that its rows differ.
+        None where rows differ by more than noise: the panel is not level, or the plan holds an
+        image effect.
     """
-    corners = panel_corners(scene)
-    rows, columns = scene.camera.rows, scene.camera.columns
-    first, last = row_spans(corners, rows, columns)
-    lit_rows = np.flatnonzero(last > first)
-    if lit_rows.size and np.ptp(first[lit_rows]) + np.ptp(last[lit_rows]) > 0:
+    if "image" in plan.kinds:
         return None
-    profile = column_profile(scene)
-    curve = enhancement_of(profile, scene.model.enhancement)
-    if lit_rows.size == 0:
-        return decode(np.full(columns, float(level_values(scene)[0])), scene, decoder)
-    left, right = int(first[lit_rows[0]]), int(last[lit_rows[0]])
-    panel = profile[left:right]
-    bright = _bright_span(scene, curve(panel), lit_rows.size)
+    span = panel_span(scene)
+    if span is None:
+        return None
+    columns = expose_columns(scene, plan)
+    profile, around = columns.profile, saturate(columns.surroundings)
+    if span.columns == 0:
+        return decode(to_bytes(around), scene, decoder)
+    enhancement = Enhancement(profile, scene.model.enhancement)
+    bright = _bright_span(scene, span, enhancement(profile), to_bytes(around))
     if bright is not None:
-        left, panel = left + bright.start, panel[bright]
-    signal = _noisy_means(panel, curve, noise, lit_rows.size, random)
-    result = decode(signal, scene, decoder)
-    top = int(lit_rows[0])
-    region = Region(top, top + lit_rows.size, left, left + len(panel))
-    return replace(result, region=region)
+        span = replace(span, first_column=bright.start, last_column=bright.stop)
+    noise = planned(plan, NoiseEffect)
+    seen = slice(span.first_column, span.last_column)
+    signal = enhancement(profile[seen]).astype(np.float64)
+    if noise:
+        signal = _noisy_means(scene, columns, noise, span, enhancement, random)
+    return replace(decode(signal, scene, decoder), region=span)
 
 
-def _bright_span(scene: Scene, panel: ByteArray, lit_rows: int) -> slice | None:
+def _bright_span(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> slice | None:
     """Find the columns from the first bright one to the last, as in the whole image."""
-    counts = np.bincount(panel, minlength=256).astype(np.int64) * lit_rows
-    pixels = scene.camera.rows * scene.camera.columns
-    surroundings = int(to_bytes(level_values(scene))[0])
-    counts[surroundings] += pixels - len(panel) * lit_rows
-    level = bright_level(counts, scene.receiver.bright_fraction)
+    left, right = span.first_column, span.last_column
+    beside = scene.camera.rows - span.rows
+    counts = np.bincount(panel[left:right], minlength=256) * span.rows
+    counts += np.bincount(around[left:right], minlength=256) * beside
+    outside = np.concatenate([around[:left], around[right:]])
+    counts += np.bincount(outside, minlength=256) * scene.camera.rows
+    level = bright_level(counts.astype(np.int64), scene.receiver.bright_fraction)
     if level is None:
         return None
-    bright = np.flatnonzero(panel >= level)
-    return slice(int(bright[0]), int(bright[-1]) + 1) if bright.size else None
+    bright = np.flatnonzero(panel[left:right] >= level)
+    return slice(left + int(bright[0]), left + int(bright[-1]) + 1) if bright.size else None
 
 
 def _noisy_means(
-    panel: FloatArray,
-    curve: Callable[[FloatArray], ByteArray],
-    noise: float,
-    rows: int,
+    scene: Scene,
+    columns: Columns,
+    noise: tuple[NoiseEffect, ...],
+    span: Region,
+    enhancement: Enhancement,
     random: np.random.Generator,
 ) -> FloatArray:
     """Average noisy, enhanced pixels over rows, by the distribution that they have."""
-    if noise * _GRID * _REACH < 1.0:  # nothing that the steps could show
-        return curve(panel).astype(np.float64)
-    reach = int(np.ceil(_REACH * noise * _GRID))
-    offsets = np.arange(-reach, reach + 1) / _GRID
-    weights = np.exp(-0.5 * (offsets / noise) ** 2)
-    weights /= weights.sum()
-    levels = np.arange(-reach, int(WHITE) * _GRID + reach + 1) / _GRID
-    enhanced = curve(levels).astype(np.float64)
-    mean = np.convolve(enhanced, weights, mode="valid")
-    variance = np.convolve(enhanced**2, weights, mode="valid") - mean**2
-    inner = levels[reach : len(levels) - reach]
-    spread = np.sqrt(np.maximum(np.interp(panel, inner, variance), 0.0) / rows)
-    means: FloatArray = np.interp(panel, inner, mean)
-    means += random.normal(0.0, 1.0, len(panel)) * spread
-    return means
+    panel = columns.panel[span.first_column : span.last_column]
+    low, high = float(panel.min()), float(panel.max())
+    levels = panel if len(panel) <= _LEVELS else np.linspace(low, high, _LEVELS)
+    spread = pixel_spread(noise, scene, levels[None, :].astype(np.float32))[0].astype(np.float64)
+    if len(panel) > _LEVELS and spread.min() < (high - low) / _LEVELS:
+        # Steps of the enhancement would show between the levels.
+        levels = panel
+        spread = pixel_spread(noise, scene, levels[None, :].astype(np.float32))[0]
+    node = np.linspace(-_REACH, _REACH, _NODES)
+    weight = np.exp(-0.5 * node**2)
+    weight /= weight.sum()
+    enhanced = enhancement(saturate(levels)[:, None] + spread[:, None] * node).astype(np.float64)
+    mean = enhanced @ weight
+    deviation = np.sqrt(np.maximum((enhanced**2) @ weight - mean**2, 0.0) / span.rows)
+    if levels is not panel:
+        mean, deviation = np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
+    return np.asarray(mean + deviation * random.standard_normal(len(panel)))

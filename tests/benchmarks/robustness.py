@@ -12,8 +12,12 @@ from functools import partial
 import numpy as np
 
 import occ_model as occ
+from occ_model.arrays import ByteArray
+from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.photometry import level_values
+from occ_model.camera.projection import row_spans
 from occ_model.receiver.decoders import DECODERS
-from occ_model.study.observation import noisy_image
+from occ_model.scene import Scene
 
 POSES: dict[str, dict[str, float]] = {
     "level": {},
@@ -23,6 +27,21 @@ POSES: dict[str, dict[str, float]] = {
     "two thirds outside": {"offset_x": 0.6},
 }
 NOISES = (1.0, 3.0, 10.0)
+
+
+def noisy_image(scene: Scene, noise: float, random: np.random.Generator) -> ByteArray:
+    """Make the image with this many grey levels of noise in each pixel, whatever its light."""
+    profile = occ.column_profile(scene)
+    enhancement = Enhancement(profile, scene.model.enhancement)
+    rows = scene.camera.rows
+    values = float(level_values(scene)[0]) + noise * random.standard_normal((rows, len(profile)))
+    image = to_bytes(values)
+    first, last = row_spans(occ.panel_corners(scene), rows, len(profile))
+    for row in range(rows):
+        panel = slice(int(first[row]), int(last[row]))
+        deviations = noise * random.standard_normal(panel.stop - panel.start)
+        image[row, panel] = enhancement(profile[panel] + deviations)
+    return image
 
 
 def codes_read(pose: str, noise: float, codes: int) -> list[int]:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from occ_model.camera.enhancement import enhance, enhancement_of, to_bytes
+from occ_model.camera.enhancement import Enhancement, enhance, to_bytes
 from occ_model.parameters import PARAMETERS
 
 METHODS = ("equalization", "stretch", "none")
@@ -97,7 +97,7 @@ def test_equalization_is_skimage_s_with_the_darkest_level_at_black(profile: np.n
 def test_a_picture_s_enhancement_treats_other_values_in_the_profile_s_order(
     profile: np.ndarray, others: np.ndarray, method: str
 ) -> None:
-    curve = enhancement_of(profile, method)
+    curve = Enhancement(profile, method)
     np.testing.assert_array_equal(curve(profile), enhance(profile, method))
     both = np.concatenate([profile, others])
     assert (np.diff(curve(both)[np.argsort(both)].astype(int)) >= 0).all()

@@ -164,6 +164,15 @@ def test_an_unknown_preset_is_refused_with_the_names_there_are(name: str) -> Non
         preset_named(name)
 
 
+@pytest.mark.parametrize("name", [3, None, b"phone-136us", ["phone-136us"], Path("phone-136us")])
+def test_what_is_no_name_is_refused_like_an_unknown_preset(name: object) -> None:
+    with pytest.raises(PresetError) as refused:
+        load_preset(name)  # type: ignore[arg-type]
+    sentence = str(refused.value)
+    assert sentence.startswith(f"There is no preset {name!r}.")
+    assert sentence.endswith(f"Known are {', '.join(presets())}.")
+
+
 def test_a_misspelt_preset_is_answered_with_the_nearest() -> None:
     with pytest.raises(PresetError, match=r"^There is no preset 'phone-138us'. Did you mean phone"):
         load_preset("phone-138us")

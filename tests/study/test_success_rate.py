@@ -6,7 +6,7 @@ import pytest
 import occ_model as occ
 from occ_model.receiver.locate import locate
 from occ_model.scene import Scene
-from occ_model.study.observation import decode_profile, noisy_image
+from occ_model.study.observation import decode_profile
 
 
 @pytest.fixture
@@ -58,20 +58,23 @@ def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None
     random = np.random.default_rng(1)
     for distance in (0.5, 1.0, 2.5):
         at = scene.replace(distance=distance)
-        by_profile = decode_profile(at, "threshold", 0.0, random)
-        found = locate(occ.render(at).image, at.receiver.bright_fraction)
+        bare = occ.plan(at, tolerance=np.inf)
+        by_profile = decode_profile(at, "threshold", bare, random)
+        image = occ.render(at, tolerance=np.inf).image
+        found = locate(image, at.receiver.bright_fraction)
         assert by_profile is not None
         assert found is not None
         assert by_profile.region == found.region
 
 
 def test_profile_path_sees_the_signal_that_the_image_shows_with_noise(scene: Scene) -> None:
-    noise = 3.0
-    by_profile = decode_profile(scene, "threshold", noise, np.random.default_rng(2))
+    noisy = {"sensor-noise": True}
+    chosen = occ.plan(scene, tolerance=np.inf, force=noisy)
+    by_profile = decode_profile(scene, "threshold", chosen, np.random.default_rng(2))
     assert by_profile is not None
     assert by_profile.region is not None
     region = by_profile.region
-    image = noisy_image(scene, noise, np.random.default_rng(3)).astype(float)
+    image = occ.render(scene, tolerance=np.inf, force=noisy, seed=3).image.astype(float)
     rows = slice(region.first_row, region.last_row)
     columns = slice(region.first_column, region.last_column)
     means = image[rows, columns].mean(axis=0)
@@ -92,6 +95,13 @@ def test_a_panel_that_is_not_level_is_measured_by_its_image(scene: Scene) -> Non
     assert occ.success_rate(tilted, 1) == 100.0
 
 
+def test_an_image_effect_is_measured_by_the_image(scene: Scene) -> None:
+    blurred = scene.replace(point_spread=3.0)
+    with pytest.raises(occ.ParameterError, match="an image effect"):
+        occ.success_rate(blurred, 1, tolerance=0.0, path="profile")
+    assert occ.success_rate(blurred, 1, tolerance=0.0) == 100.0
+
+
 def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
     assert occ.success_rate(scene.replace(offset_x=50.0), 2) == 0.0
 
@@ -101,10 +111,9 @@ def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
     [
         ({"images": 0}, "images is 0"),
         ({"decoder": "psychic"}, "psychic"),
-        ({"noise": -1.0}, "noise"),
-        ({"noise": float("nan")}, "noise"),
-        ({"noise": 1e6}, "0 to 255"),
-        ({"noise": "much"}, "noise"),
+        ({"tolerance": -1.0}, "tolerance is -1"),
+        ({"tolerance": float("nan")}, "tolerance is nan"),
+        ({"force": {"blur": True}}, "effect is 'blur'; allowed: led-edges, "),
         ({"images": 2.5}, "images is 2.5"),
         ({"seed": -1}, "seed is -1"),
         ({"seed": None}, "seed is None"),

@@ -1,0 +1,119 @@
+"""How much of each pixel the panel covers, for outlines of any shape, sharp or blurred."""
+
+import math
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray, Pixels
+
+_REACH = 4.0
+"""Standard deviations after which a blurred edge has come to its end: 3e-5 are left."""
+
+_FINE = 4.0
+"""Standard deviations of the blur, in cells, from which a coarser grid shows as much."""
+
+
+class Coverage:
+    """The share of the light in each pixel that comes from the panel.
+
+    A pixel belongs to the panel when its centre lies inside the outline. The blur takes in what
+    lies beyond the picture's rim: the lens blurs before the sensor cuts.
+
+    Parameters
+    ----------
+    outline : ndarray of float64, shape (corners, 2)
+        (column, row) of each corner, in order round the panel; it may be concave.
+    rows, columns
+        Size of the picture.
+    blur
+        Standard deviation of the blur in pixels; 0 for none.
+    """
+
+    def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
+        self._columns = columns
+        self._blur = blur
+        self._margin = math.ceil(_REACH * blur)
+        self._crossings = _crossings(outline, -self._margin, rows + self._margin)
+        self._cell = max(1, int(blur / _FINE))
+        self._coarse = self._whole(rows) if self._cell > 1 else None
+
+    def rows(self, first: int, last: int) -> Pixels:
+        """Give the rows from ``first`` to before ``last``, shape (rows, columns), 0 to 1."""
+        if self._coarse is not None:
+            return self._enlarged(self._coarse, first, last)
+        margin = self._margin
+        sharp = self._sharp(first - margin, last + margin, 1)
+        if not margin:
+            return sharp
+        blurred = cv2.GaussianBlur(sharp, (2 * margin + 1, 2 * margin + 1), self._blur)
+        inner = blurred[margin : margin + last - first, margin : margin + self._columns]
+        return np.ascontiguousarray(inner, dtype=np.float32)
+
+    def _sharp(self, first: int, last: int, cell: int) -> Pixels:
+        """Share of each cell inside the outline, the margins at both sides included."""
+        row, x, sign = self._crossings
+        chosen = slice(*np.searchsorted(row, (first, last)).tolist())
+        margin, width = self._margin, self._columns + 2 * self._margin
+        steps = np.zeros((-(-(last - first) // cell), -(-width // cell) + 2), dtype=np.float32)
+        start = np.ceil(np.clip(x[chosen], -margin, width - margin)) + margin
+        column, part = np.divmod(start, cell)
+        place = ((row[chosen] - first) // cell, column.astype(np.int64))
+        share = part / cell
+        np.add.at(steps, place, sign[chosen] * (1.0 - share) / cell)
+        np.add.at(steps, (place[0], place[1] + 1), sign[chosen] * share / cell)
+        np.cumsum(steps, axis=1, out=steps)
+        # Round one way the steps go up at the left and down at the right, round the other not.
+        return np.abs(steps[:, :-2])
+
+    def _whole(self, rows: int) -> Pixels:
+        """Blur the whole picture on a coarse grid, which shows a wide blur as well."""
+        sharp = self._sharp(-self._margin, rows + self._margin, self._cell)
+        reach = math.ceil(self._margin / self._cell)
+        size = (2 * reach + 1, 2 * reach + 1)
+        blurred = cv2.GaussianBlur(sharp, size, self._blur / self._cell)
+        return np.asarray(blurred, dtype=np.float32)
+
+    def _enlarged(self, coarse: Pixels, first: int, last: int) -> Pixels:
+        scale = 1.0 / self._cell
+        # A pixel's centre in the grid of cells, whose centres have whole coordinates as well.
+        offset = (self._margin + 0.5) * scale - 0.5
+        step = np.array([[scale, 0.0, offset], [0.0, scale, offset + first * scale]])
+        flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+        size = (self._columns, last - first)
+        enlarged = cv2.warpAffine(coarse, step, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
+        return np.asarray(enlarged, dtype=np.float32)
+
+
+def _crossings(
+    outline: FloatArray, first: int, last: int
+) -> tuple[IndexArray, FloatArray, FloatArray]:
+    """Say where the outline crosses the rows from ``first`` to before ``last``.
+
+    Returns
+    -------
+    row : ndarray of int64, shape (crossings,)
+        In order.
+    column, sign : ndarray of float64, shape (crossings,)
+        Where, and 1 upwards or -1 downwards.
+    """
+    rows, columns, signs = [], [], []
+    for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        # Half open, so that a corner on a row is crossed by one of its two edges only.
+        low, high = sorted((y0, y1))
+        row = np.arange(max(math.ceil(max(low, first - 1)), first), min(_ceil(high, last), last))
+        if row.size == 0:
+            continue
+        along = (row - y0) / (y1 - y0)
+        rows.append(row)
+        columns.append(x0 * (1.0 - along) + x1 * along)
+        signs.append(np.full(row.size, 1.0 if y1 > y0 else -1.0))
+    if not rows:
+        return np.empty(0, np.int64), np.empty(0), np.empty(0)
+    row = np.concatenate(rows).astype(np.int64)
+    order = np.argsort(row, kind="stable")
+    return row[order], np.concatenate(columns)[order], np.concatenate(signs)[order]
+
+
+def _ceil(value: float, largest: int) -> int:
+    return math.ceil(min(value, largest))

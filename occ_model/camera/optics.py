@@ -1,0 +1,187 @@
+"""How the lens pictures the panel, and the mean pixel values that come of it, rows by rows.
+
+A row of the picture is worked on while it is in the processor's cache, so that the largest picture
+needs little more memory than its own bytes.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.coverage import Coverage
+from occ_model.camera.photometry import luminance_of, pixel_value
+from occ_model.camera.projection import row_spans
+from occ_model.scene import Camera, Scene
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Gain:
+    """What each pixel's light is multiplied by.
+
+    Parameters
+    ----------
+    stage
+        What the time that it takes is counted under.
+    rows
+        Gives the factors for rows from the first to before the last.
+    """
+
+    stage: str
+    rows: Callable[[int, int], Pixels]
+
+
+STAGE = "optics"
+"""What the time of all that belongs to no effect is counted under."""
+
+BLOCK_ROWS = 64
+"""Rows that are worked on at once."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Optics:
+    """How the panel is pictured.
+
+    Parameters
+    ----------
+    outline : ndarray of float64, shape (corners, 2)
+        The panel's outline in the picture, (column, row) of each corner; four for a lens without
+        distortion.
+    blur
+        Standard deviation of the lens's blur in pixels.
+    emission
+        What the panel's own light is multiplied by.
+    transmission
+        What all light is multiplied by.
+    cover_stage
+        What the time that it takes to cover pixels by the panel is counted under.
+    """
+
+    outline: FloatArray
+    blur: float = 0.0
+    emission: tuple[Gain, ...] = field(default=())
+    transmission: tuple[Gain, ...] = field(default=())
+    cover_stage: str = STAGE
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether every pixel shows either the panel or its surroundings, just as bright."""
+        plain_outline = len(self.outline) == 4
+        return plain_outline and not (self.blur or self.emission or self.transmission)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Rows:
+    """Some rows of a picture.
+
+    Parameters
+    ----------
+    first, last
+        The first row and the one after the last.
+    values : ndarray of float32, shape (rows, columns), or (1, columns) where all are alike
+        Mean pixel values before saturation.
+    panel : slice, or ndarray of bool, shape (rows, columns)
+        Where the panel is.
+    """
+
+    first: int
+    last: int
+    values: Pixels
+    panel: slice | NDArray[np.bool_]
+
+    def panel_mask(self) -> NDArray[np.bool_]:
+        """Give where the panel is as an array, shape (rows, columns)."""
+        if not isinstance(self.panel, slice):
+            return self.panel
+        mask = np.zeros((self.last - self.first, self.values.shape[1]), dtype=np.bool_)
+        mask[:, self.panel] = True
+        return mask
+
+
+def picture_rows(
+    scene: Scene,
+    optics: Optics,
+    panel: FloatArray,
+    surroundings: FloatArray,
+    done: Callable[[str], object],
+) -> Iterator[Rows]:
+    """Give the picture's mean pixel values, from the first rows to the last.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    optics
+        How the panel is pictured.
+    panel, surroundings : ndarray of float64, shape (columns,)
+        Pixel values of each column before saturation.
+    done
+        Is told of each stage that has just ended.
+    """
+    if optics.is_plain:
+        parts = _plain_rows(scene.camera, optics.outline, panel, surroundings)
+    else:
+        parts = _mixed_rows(scene.camera, optics, panel, surroundings, done)
+    for rows in parts:
+        done(STAGE)
+        yield rows
+
+
+def _plain_rows(
+    camera: Camera, corners: FloatArray, panel: FloatArray, surroundings: FloatArray
+) -> Iterator[Rows]:
+    first, last = row_spans(corners, camera.rows, camera.columns)
+    panel_row = panel.astype(np.float32)[None, :]
+    dark_row = surroundings.astype(np.float32)[None, :]
+    changed = (first[1:] != first[:-1]) | (last[1:] != last[:-1])
+    # Where the span changes at every row or two, blocks of unlike rows are the faster ones.
+    level = np.count_nonzero(changed) <= camera.rows / BLOCK_ROWS
+    breaks = np.flatnonzero(changed) + 1 if level else np.empty(0, np.int64)
+    starts = [0, *breaks.tolist(), camera.rows]
+    for top, bottom in pairwise(starts):
+        for start in range(top, bottom, BLOCK_ROWS):
+            stop = min(start + BLOCK_ROWS, bottom)
+            if level:
+                span = slice(int(first[start]), int(last[start]))
+                values = dark_row.copy()
+                values[:, span] = panel_row[:, span]
+                yield Rows(start, stop, values, span)
+            else:
+                column = np.arange(camera.columns)
+                inside = (column >= first[start:stop, None]) & (column < last[start:stop, None])
+                yield Rows(start, stop, np.where(inside, panel_row, dark_row), inside)
+
+
+def _mixed_rows(
+    camera: Camera,
+    optics: Optics,
+    panel: FloatArray,
+    surroundings: FloatArray,
+    done: Callable[[str], object],
+) -> Iterator[Rows]:
+    coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
+    dark = luminance_of(surroundings, camera)
+    own = (luminance_of(panel, camera) - dark).astype(np.float32)
+    around = dark.astype(np.float32)
+    unit = float(pixel_value(np.ones(1), camera)[0])
+    for start in range(0, camera.rows, BLOCK_ROWS):
+        stop = min(start + BLOCK_ROWS, camera.rows)
+        light = coverage.rows(start, stop)
+        inside = light >= np.float32(0.5)
+        done(optics.cover_stage)
+        for gain in optics.emission:
+            light *= gain.rows(start, stop)
+            done(gain.stage)
+        light *= own
+        light += around
+        done(STAGE)
+        for gain in optics.transmission:
+            light *= gain.rows(start, stop)
+            done(gain.stage)
+        values = np.asarray(cv2.pow(light, 1.0 / camera.gamma), dtype=np.float32)
+        values *= np.float32(unit)
+        yield Rows(start, stop, values, inside)

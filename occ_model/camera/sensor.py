@@ -1,0 +1,84 @@
+"""The pixels: from grey levels to the electrons behind them, and back.
+
+The paper's equations (1) and (2) say which pixel value a camera was found to give for a luminance.
+That value is the mean of many pixels; what a single one deviates from it follows from the number of
+electrons that it holds.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE, luminance_of, pixel_value
+from occ_model.scene import Scene
+
+_EXPOSURE_FACTOR = 0.65
+"""H = 0.65 L t / N^2 in lux seconds: what lenses let through of a luminance (ISO 2721)."""
+
+_PHOTONS = 8.8e15
+"""Photons in a lumen second of white LED light: 320 lm/W, 3.55e-19 J a photon of 560 nm."""
+
+
+_TINY = np.finfo(np.float64).tiny
+
+
+def electrons_per_luminance(scene: Scene) -> float:
+    """Give the electrons that a pixel collects in the exposure time, for each cd/m2."""
+    camera, sensor = scene.camera, scene.sensor
+    illumination = _EXPOSURE_FACTOR * camera.exposure_time / camera.f_number**2
+    collected: float = illumination * _PHOTONS * sensor.pixel_pitch**2 * sensor.quantum_efficiency
+    return collected
+
+
+def electrons_of(values: FloatArray, scene: Scene) -> FloatArray:
+    """Give the mean number of electrons behind pixel values before saturation."""
+    return luminance_of(values, scene.camera) * electrons_per_luminance(scene)
+
+
+def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
+    """Give the pixel values, before saturation, of numbers of electrons."""
+    return pixel_value(electrons / electrons_per_luminance(scene), scene.camera)
+
+
+def converter_step(scene: Scene) -> float:
+    """Give the electrons to one step of the converter, whose range ends at the largest value."""
+    largest = float(electrons_of(np.array([WHITE]), scene)[0])
+    return min(largest, scene.sensor.full_well) / float(2**scene.sensor.adc_bits)
+
+
+def deviation(
+    values: FloatArray, scene: Scene, variance: Callable[[FloatArray], FloatArray]
+) -> FloatArray:
+    """Give the standard deviation of pixels in grey levels from that of their electrons.
+
+    The deviation sigma of n electrons is multiplied by the slope of the gamma encoding,
+    PV / (gamma n) for n electrons. It is taken at sqrt(n^2 + sigma^2) of them, which is n where
+    there is light and keeps it finite where there is none. A pixel deviates by no more than it
+    lies below saturation: a full one shows no noise.
+
+    Parameters
+    ----------
+    values : ndarray of float64
+        Mean pixel values before saturation.
+    scene
+        The scene.
+    variance
+        Gives the variance of electrons for their mean number.
+
+    Returns
+    -------
+    ndarray of float64, shape as ``values``
+    """
+    electrons = electrons_of(values, scene)
+    square = variance(electrons)
+    there = np.sqrt(electrons * electrons + square)
+    slope = values_of(there, scene) / np.maximum(scene.camera.gamma * there, _TINY)
+    room = np.maximum(saturation_value(scene) - values, 0.0)
+    return np.minimum(slope * np.sqrt(square), room)
+
+
+def saturation_value(scene: Scene) -> float:
+    """Give the pixel value at which a pixel is full, at most the largest."""
+    full = float(values_of(np.array([scene.sensor.full_well]), scene)[0])
+    return min(full, WHITE)

@@ -1,0 +1,1 @@
+"""What the paper's model leaves out: one file an effect, and the plan that picks them."""

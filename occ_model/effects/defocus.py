@@ -1,0 +1,113 @@
+"""The lens makes a spot of a point: the panel's rim is soft, the stripes are not.
+
+Inside a panel that is evenly bright, light that goes astray is replaced by as much from beside. The
+stripes are made by the shutter, behind the lens, and stay as sharp as they are.
+"""
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.optics import Optics
+from occ_model.camera.photometry import pixel_value, saturate
+from occ_model.effects.effect import Observable, OpticsEffect
+from occ_model.effects.sight import contrast, reachable_luminances, sight_of
+from occ_model.scene import Scene
+
+_REACH = 4.0
+"""Standard deviations from the rim after which nothing of it is left."""
+
+_SLACK = 1.1
+"""What the rim's integrals can be wrong by, being sums."""
+
+
+class Defocus(OpticsEffect):
+    """A Gaussian point spread: the lens's own spot, and the circle of confusion out of focus.
+
+    A point at the distance d makes a disc of diameter c = f^2 / N |1/d_f - 1/d| on the sensor of a
+    lens of focal length f that is focused on d_f (E. Hecht, *Optics*, ch. 5, for d and d_f far
+    beyond f). A disc of diameter c has the standard deviation c / 4 along each axis; both spots'
+    variances add.
+    """
+
+    name = "defocus"
+    label = "Defocus and point spread"
+    parameters = ("point_spread", "focus_distance", "pixel_pitch")
+
+    def bound(self, scene: Scene, observable: Observable) -> float:
+        """Bound the change by that along the rim of a lit panel."""
+        blur = blur_of(scene)
+        if blur == 0.0:
+            return 0.0
+        sight = sight_of(scene)
+        region, largest = sight.region, contrast(scene)
+        if _REACH * blur > min(region.rows, region.columns) / 2.0:
+            return largest
+        sides = sight.sides
+        both = sides is None or scene.lens.distorts
+        energy, loss = _rim(scene, both)
+        if sides is None:
+            length = 2.0 * (region.rows + region.columns)
+            return min(largest, math.sqrt(length * blur * energy / (region.rows * region.columns)))
+        left, top, right, bottom = sides
+        columns, rows = scene.camera.columns, scene.camera.rows
+        ends = _near(left, columns, blur) + _near(right, columns, blur)
+        edges = _near(top, rows, blur) + _near(bottom, rows, blur)
+        if both:
+            ends = edges = 2
+        across = ends * math.sqrt(blur * energy / region.columns)
+        if observable == "profile":
+            return min(largest, across + edges * blur * loss / region.rows)
+        return min(largest, across + edges * math.sqrt(blur * energy / region.rows))
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Blur the panel's rim."""
+        return replace(optics, blur=blur_of(scene), cover_stage=self.name)
+
+
+def blur_of(scene: Scene) -> float:
+    """Give the standard deviation of the point spread in pixels.
+
+    A blur wider than the picture is high and wide together shows no more than that one.
+    """
+    camera, lens, distance = scene.camera, scene.lens, scene.pose.distance
+    spot = 0.0
+    if lens.focus_distance:
+        focal = camera.focal_length_pixels
+        vergence = abs(1.0 / lens.focus_distance - 1.0 / distance)
+        spot = focal * focal * scene.sensor.pixel_pitch / camera.f_number * vergence / 4.0
+    return min(math.hypot(lens.point_spread, spot), float(camera.rows + camera.columns))
+
+
+def _near(side: float, size: int, blur: float) -> int:
+    """Give 1 where a side of the panel is seen in the picture or just beside it, 0 where not."""
+    reach = _REACH * blur + 1.0
+    return int(-reach < side < size + reach)
+
+
+def _rim(scene: Scene, both: bool) -> tuple[float, float]:
+    """Integrate the squared and the absolute change across the rim, in standard deviations.
+
+    Only the panel's side of it where the observed rectangle ends there.
+    """
+    distance, share = _tail()
+    dark, bright = reachable_luminances(scene)
+    light = dark + (bright - dark) * np.stack([1.0 - share, share])
+    full = saturate(pixel_value(np.array([[bright], [dark]]), scene.camera))
+    change = np.abs(saturate(pixel_value(light, scene.camera)) - full)[: 2 if both else 1]
+    step = distance[1]
+    return (
+        _SLACK * step * float((change**2).sum()),
+        _SLACK * step * float(change.sum()),
+    )
+
+
+@lru_cache(maxsize=1)
+def _tail() -> tuple[FloatArray, FloatArray]:
+    """Give distances from the rim and how much of the light there comes from beyond it."""
+    distance = np.linspace(0.0, _REACH, 33)
+    beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in distance.tolist()])
+    return distance, beyond

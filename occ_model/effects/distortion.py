@@ -1,0 +1,168 @@
+"""The lens bends straight lines: the panel's outline, not the stripes.
+
+A stripe is where the shutter was when the light changed, and stays a straight column whatever the
+lens does.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.optics import Optics
+from occ_model.camera.projection import image_points, image_rays
+from occ_model.effects.defocus import blur_of
+from occ_model.effects.effect import Observable, OpticsEffect
+from occ_model.effects.polygon import clipped, subdivided
+from occ_model.effects.sight import contrast, sight_of
+from occ_model.errors import ProjectionError
+from occ_model.scene import Camera, Lens, Scene
+
+_PARTS = 64
+"""Parts that each edge of the panel is bent in: a hundredth of a pixel from the curve."""
+
+_DIRECTIONS = 64
+"""Directions in which the lens is looked at for a fold."""
+
+_RADII = np.linspace(0.0, 4.0, 129)[1:]
+"""How far out it is looked at, in multiples of the picture's corner."""
+
+
+class Distortion(OpticsEffect):
+    """Radial and tangential distortion of the panel's outline.
+
+    A ray (x, y), r^2 = x^2 + y^2, in focal lengths, is pictured at
+    x (1 + k1 r^2 + k2 r^4) + 2 p1 x y + p2 (r^2 + 2 x^2), and y alike with p1 and p2 exchanged
+    (D. C. Brown, "Decentering distortion of lenses", Photogrammetric Engineering 32, 1966).
+    """
+
+    name = "distortion"
+    label = "Lens distortion"
+    parameters = ("radial_k1", "radial_k2", "tangential_p1", "tangential_p2")
+
+    def bound(self, scene: Scene, observable: Observable) -> float:
+        """Bound the change by the strip between the straight outline and the bent one.
+
+        Pixels in it show the panel in place of the surroundings, or the other way round. It is a
+        pixel wider than the outline moves, as a pixel's centre is in or out.
+        """
+        if not scene.lens.distorts:
+            return 0.0
+        straight, bent = _outlines(scene)
+        region = sight_of(scene).region
+        reach = 4.0 * blur_of(scene) + 1.0
+        seen = _within(straight, scene.camera, reach) | _within(bent, scene.camera, reach)
+        seen |= np.roll(seen, -1)  # a part is seen where either of its ends is
+        if not seen.any():
+            return 0.0
+        moved = np.abs(bent - straight)
+        moved = np.maximum(moved, np.roll(moved, -1, axis=0))[seen].max(axis=0) + 1.0
+        parts = np.abs(np.roll(straight, -1, axis=0) - straight)
+        length = np.minimum(parts[seen].sum(axis=0), [2.0 * region.columns, 2.0 * region.rows])
+        area = float(length[0] * moved[1] + length[1] * moved[0])
+        share = math.sqrt(min(area / (region.rows * region.columns), 1.0))
+        if observable == "profile" and sight_of(scene).sides is not None:
+            ends = math.sqrt(min(2.0 * moved[0] / region.columns, 1.0))
+            share = min(share, ends + min(2.0 * moved[1] / region.rows, 1.0))
+        return contrast(scene) * share
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Bend the panel's outline.
+
+        Raises
+        ------
+        ProjectionError
+            The distortion folds the picture back within its own corners.
+        """
+        if not scene.lens.distorts:
+            return optics
+        return replace(optics, outline=_outlines(scene)[1], cover_stage=self.name)
+
+
+def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
+    """Give where rays (x, y) are pictured, in focal lengths, shape as ``rays``."""
+    x, y = rays[..., 0], rays[..., 1]
+    square = x * x + y * y
+    radial = 1.0 + square * (lens.radial_k1 + lens.radial_k2 * square)
+    p1, p2 = lens.tangential_p1, lens.tangential_p2
+    return np.stack(
+        [
+            x * radial + 2.0 * p1 * x * y + p2 * (square + 2.0 * x * x),
+            y * radial + 2.0 * p2 * x * y + p1 * (square + 2.0 * y * y),
+        ],
+        axis=-1,
+    )
+
+
+def _within(points: FloatArray, camera: Camera, reach: float) -> np.ndarray:
+    size = np.array([camera.columns, camera.rows])
+    return np.asarray(((points > -reach) & (points < size + reach)).all(axis=1))
+
+
+@lru_cache(maxsize=16)
+def _outlines(scene: Scene) -> tuple[FloatArray, FloatArray]:
+    """Give the panel's outline without and with distortion, point by point.
+
+    What lies so far outside that no light of it reaches the picture is cut off first: out there
+    the equations need not make sense.
+    """
+    camera = scene.camera
+    rays = image_rays(sight_of(scene).corners, camera)
+    needed = math.hypot(camera.rows, camera.columns) / 2 + 4.0 * blur_of(scene) + 1.0
+    view = _view(scene.lens, needed / camera.focal_length_pixels)
+    if np.hypot(*rays.T).max() > view.radius:
+        rays = clipped(rays, view.rim)
+    if len(rays) == 0:
+        rays = np.full((3, 2), 2.0 * view.radius)  # a panel without area, out of sight
+        return image_points(rays, camera), image_points(rays, camera)
+    rays = subdivided(rays, _PARTS)
+    return image_points(rays, camera), image_points(distorted(rays, scene.lens), camera)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _View:
+    """The rays that can reach the picture: a circle of some radius, and a polygon round it."""
+
+    radius: float
+    rim: FloatArray
+
+
+@lru_cache(maxsize=16)
+def _view(lens: Lens, needed: float) -> _View:
+    """Find the rays that are pictured up to ``needed`` focal lengths from the centre.
+
+    Raises
+    ------
+    ProjectionError
+        The distortion folds back before it has come that far.
+    """
+    angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    rays = (_RADII * needed)[:, None, None] * circle
+    folded = np.asarray((_area_scale(rays, lens) <= 0.0).any(axis=1))
+    reached = (np.hypot(*np.moveaxis(distorted(rays, lens), -1, 0)) >= needed).all(axis=1)
+    enough = np.flatnonzero(reached)
+    # One step further out: the polygon's corners lie a little outside its circle.
+    last = int(enough[0]) + 1 if enough.size else len(_RADII)
+    if last >= len(_RADII) or folded[: last + 1].any():
+        raise ProjectionError(
+            f"A lens with k_1 = {lens.radial_k1:g}, k_2 = {lens.radial_k2:g}, "
+            f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture back "
+            "before its corners are reached; bring them nearer to 0."
+        )
+    radius = float(_RADII[last - 1]) * needed
+    return _View(radius, circle * radius / math.cos(math.pi / _DIRECTIONS))
+
+
+def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:
+    """Give by what an area is enlarged at each ray; not above 0 where the picture folds."""
+    x, y = rays[..., 0], rays[..., 1]
+    square = x * x + y * y
+    k1, k2, p1, p2 = lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2
+    radial, slope = 1.0 + square * (k1 + k2 * square), 2.0 * (k1 + 2.0 * k2 * square)
+    along_x = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x
+    along_y = radial + slope * y * y + 2.0 * p2 * x + 6.0 * p1 * y
+    across = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y
+    return np.asarray(along_x * along_y - across * across)

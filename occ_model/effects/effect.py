@@ -1,0 +1,167 @@
+"""The door that every effect has.
+
+An effect is something that the paper's model leaves out. It stands in a file of its own, belongs
+to one stage of the light's way, says how much leaving it out can change what is observed
+(``bound``), and does it (``apply``).
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import ClassVar, Literal, TypeAlias, TypeVar
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, Pixels
+from occ_model.camera.optics import Optics
+from occ_model.camera.photometry import ColumnLight
+from occ_model.scene import Scene
+
+Observable: TypeAlias = Literal["profile", "image"]
+"""What an error is counted in: the panel's bounding rectangle, or the means of its columns."""
+
+OBSERVABLES: tuple[Observable, ...] = ("profile", "image")
+
+Kind: TypeAlias = Literal["column", "noise", "image"]
+"""Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""
+
+
+Values = TypeVar("Values", FloatArray, Pixels)
+"""Pixel values of either precision."""
+
+_TABULATED: FloatArray = np.arange(0.0, 255.25, 0.25)
+
+
+class Effect(ABC):
+    """What all effects have."""
+
+    name: ClassVar[str]
+    """The identifier, as in a plan."""
+
+    label: ClassVar[str]
+    """The field's term for it, as on screen."""
+
+    kind: ClassVar[Kind]
+    """What it makes of the rows of a picture."""
+
+    parameters: ClassVar[tuple[str, ...]]
+    """The parameters of a scene that it is governed by."""
+
+    @abstractmethod
+    def bound(self, scene: Scene, observable: Observable) -> float:
+        """Say how much leaving the effect out can change what is observed.
+
+        Parameters
+        ----------
+        scene
+            The scene.
+        observable
+            ``"image"``: the pixels of the panel's bounding rectangle; ``"profile"``: the means of
+            its columns.
+
+        Returns
+        -------
+        float
+            Root mean square in grey levels, before contrast enhancement and rounding; never too
+            small, whichever other effects are there. 0 where the effect is exactly nothing.
+        """
+
+
+class LightEffect(Effect):
+    """An effect on the light that each column gets."""
+
+    kind = "column"
+
+    @abstractmethod
+    def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
+        """Return the columns' light with the effect."""
+
+
+class OpticsEffect(Effect):
+    """An effect of the panel's and the lens's geometry."""
+
+    kind = "image"
+
+    @abstractmethod
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Return how the panel is pictured with the effect."""
+
+
+class PixelEffect(Effect):
+    """An effect on each pixel's mean value that depends on nothing but that value."""
+
+    kind = "column"
+
+    @abstractmethod
+    def apply(self, scene: Scene, values: Values) -> Values:
+        """Return pixel values before saturation with the effect."""
+
+
+class NoiseEffect(Effect):
+    """Noise that is independent from pixel to pixel, its mean zero."""
+
+    kind = "noise"
+    of_the_camera: ClassVar[bool] = False
+    """Whether every picture that the camera takes has the same noise."""
+
+    @abstractmethod
+    def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
+        """Give the standard deviation in grey levels of pixels with these mean values."""
+
+    def apply(self, scene: Scene, values: Pixels, normal: Pixels) -> Pixels:
+        """Return the deviation from the mean of every pixel, in grey levels.
+
+        Parameters
+        ----------
+        scene
+            The scene.
+        values : ndarray, shape (rows, columns) or (1, columns)
+            Mean pixel values before saturation.
+        normal : ndarray of float32, shape (rows, columns)
+            Independent numbers of the standard normal distribution; overwritten.
+        """
+        return np.multiply(normal, pixel_spread((self,), scene, values), out=normal)
+
+
+def pixel_spread(effects: Sequence[NoiseEffect], scene: Scene, values: Pixels) -> Pixels:
+    """Give the standard deviation in grey levels of all noise together, shape as ``values``.
+
+    Parameters
+    ----------
+    effects
+        The noise.
+    scene
+        The scene.
+    values : ndarray of float32, shape (rows, columns)
+        Mean pixel values before saturation. Of more than one row the deviations are read from a
+        table, in quarters of a grey level.
+    """
+    if len(values) == 1:
+        squares = sum(effect.spread(scene, values.astype(np.float64)) ** 2 for effect in effects)
+        return np.sqrt(squares).astype(np.float32)
+    squares = sum(effect.spread(scene, _TABULATED) ** 2 for effect in effects)
+    return np.interp(values, _TABULATED, np.sqrt(squares)).astype(np.float32)
+
+
+class FileEffect(Effect):
+    """An effect of the file that the picture is kept in."""
+
+    kind = "image"
+
+    @abstractmethod
+    def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
+        """Return the picture as it is read back from the file."""
+
+    @abstractmethod
+    def passed_on(self, scene: Scene, change: float) -> float:
+        """Say how much a change of the picture can change what is read back.
+
+        Rounding makes steps of the smallest changes: what comes out can differ more than what went
+        in.
+
+        Parameters
+        ----------
+        scene
+            The scene.
+        change
+            Root mean square of the change in grey levels.
+        """

@@ -1,0 +1,62 @@
+"""A panel whose light is bundled looks darker from the side."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from occ_model.arrays import Pixels
+from occ_model.camera.optics import Gain, Optics
+from occ_model.camera.photometry import pixel_value, saturate
+from occ_model.camera.projection import pixel_rays, rotation_of
+from occ_model.effects.effect import Observable, OpticsEffect
+from occ_model.effects.sight import corner_points, reachable_luminances
+from occ_model.scene import Scene
+
+
+class Emission(OpticsEffect):
+    """The panel's intensity falls as cos^m of the angle to its normal.
+
+    Its luminance, the intensity over the area that is seen, falls as cos^(m - 1): a Lambertian
+    panel, m = 1, is equally bright from all sides (J. M. Kahn and J. R. Barry, "Wireless infrared
+    communications", Proc. IEEE 85, 1997, for the generalized Lambertian source). Light from
+    elsewhere that the panel reflects is not changed.
+    """
+
+    name = "emission"
+    label = "Bundled emission"
+    parameters = ("lambertian_order",)
+
+    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - rows alike
+        """Bound the change by that of a lit column at the corner seen most from the side."""
+        order = scene.transmitter.lambertian_order
+        if order == 1.0:
+            return 0.0
+        x, y = corner_points(scene).T
+        least = float(_cosine(scene, x, y).min()) ** (order - 1.0)
+        dark, bright = reachable_luminances(scene)
+        return _largest_loss(scene, dark, bright - dark, least)
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Darken the panel by the angle at which each pixel sees it."""
+        power = scene.transmitter.lambertian_order - 1.0
+
+        def gain(first: int, last: int) -> Pixels:
+            x, y = pixel_rays(scene.camera, first, last)
+            return np.asarray(_cosine(scene, x, y) ** np.float32(power), dtype=np.float32)
+
+        return replace(optics, emission=(*optics.emission, Gain(self.name, gain)))
+
+
+def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Give the cosine of the angle between the panel's normal and rays (x, y, 1)."""
+    pose = scene.pose
+    normal = rotation_of(pose)[:, 2]
+    along = np.abs(normal[0] * x + normal[1] * y + normal[2])
+    return np.asarray(along / np.sqrt(1.0 + x * x + y * y))
+
+
+def _largest_loss(scene: Scene, dark: float, emitted: float, factor: float) -> float:
+    """Give the most grey levels that are lost to ``factor``, at any share of the light."""
+    light = emitted * np.linspace(0.0, 1.0, 65)
+    values = saturate(pixel_value(dark + light, scene.camera))
+    return float((values - saturate(pixel_value(dark + light * factor, scene.camera))).max())

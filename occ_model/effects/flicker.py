@@ -1,0 +1,58 @@
+"""Lamps on the mains flicker, at twice the mains' frequency."""
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.exposure import cycle_phases
+from occ_model.camera.photometry import ColumnLight, luminance_levels
+from occ_model.effects.effect import LightEffect, Observable
+from occ_model.effects.sight import shown_value
+from occ_model.scene import Scene
+
+
+class Flicker(LightEffect):
+    """The external illuminance is E_v (1 + m cos(2 pi F x + phi)) at the time x.
+
+    Its mean over an exposure [x, x + t] is E_v (1 + m sinc(F t) cos(2 pi F (x + t/2) + phi)) with
+    sinc(y) = sin(pi y) / (pi y): the exposure is a moving average, and that is its frequency
+    response.
+    """
+
+    name = "flicker"
+    label = "Mains flicker"
+    parameters = ("flicker_depth", "flicker_frequency", "flicker_phase")
+
+    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - columns alike
+        """Bound the change by that of a dark panel at the trough, where the gamma is steepest."""
+        depth = scene.surroundings.flicker_depth * abs(_response(scene))
+        if depth == 0.0:
+            return 0.0
+        dark = float(luminance_levels(scene)[0])
+        return shown_value(dark, scene) - shown_value(dark * (1.0 - depth), scene)
+
+    def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
+        """Let the light from elsewhere change from column to column."""
+        return replace(light, ambient=light.ambient * ambient_shares(scene))
+
+
+def ambient_shares(scene: Scene) -> FloatArray:
+    """Give the mean external illuminance in each column's exposure, as a multiple of E_v.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,)
+    """
+    surroundings, exposure = scene.surroundings, Fraction(scene.camera.exposure_time)
+    cycles = cycle_phases(scene, surroundings.flicker_frequency, exposure / 2)
+    swing = np.cos(2.0 * math.pi * cycles + surroundings.flicker_phase)
+    return np.asarray(1.0 + surroundings.flicker_depth * _response(scene) * swing)
+
+
+def _response(scene: Scene) -> float:
+    """Give sinc(F t); whole cycles are taken out before the sine, which then stays exact."""
+    cycles = Fraction(scene.surroundings.flicker_frequency) * Fraction(scene.camera.exposure_time)
+    return math.sin(math.pi * float(cycles % 2)) / (math.pi * float(cycles))

@@ -1,0 +1,74 @@
+"""The camera keeps its picture as a JPEG file."""
+
+import math
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.effects.effect import FileEffect, Observable
+from occ_model.scene import Scene
+
+_LUMINANCE_STEPS = (
+    (16, 11, 10, 16, 24, 40, 51, 61),
+    (12, 12, 14, 19, 26, 58, 60, 55),
+    (14, 13, 16, 24, 40, 57, 69, 56),
+    (14, 17, 22, 29, 51, 87, 80, 62),
+    (18, 22, 37, 56, 68, 109, 103, 77),
+    (24, 35, 55, 64, 81, 104, 113, 92),
+    (49, 64, 78, 87, 103, 121, 120, 101),
+    (72, 92, 95, 98, 112, 100, 103, 99),
+)
+"""Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
+
+_ROUNDING = 0.5
+"""Grey levels by which rounding the pixels changes them at most, each time."""
+
+
+class Jpeg(FileEffect):
+    """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
+
+    The cosine transform is orthonormal, so that the pixels' mean square error is that of the
+    coefficients (Parseval): at most half a step of each. The contrast enhancement works on what is
+    read back from the file.
+    """
+
+    name = "jpeg"
+    label = "JPEG"
+    parameters = ("jpeg_quality",)
+
+    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - rows alike
+        """Bound the change by half a step of every coefficient, and the pixels' rounding."""
+        if scene.camera.jpeg_quality == 0:
+            return 0.0
+        return _step(scene) / 2.0 + 2.0 * _ROUNDING
+
+    def passed_on(self, scene: Scene, change: float) -> float:
+        """Add the steps that a change makes: as often as it is large against a step.
+
+        Of pixels that change by c, c / 1 round to another level; of coefficients that change by c,
+        c / q round to another step q.
+        """
+        rounded = math.hypot(change, math.sqrt(change))
+        return rounded + math.sqrt(rounded * _step(scene))
+
+    def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
+        """Write and read the file."""
+        quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]
+        _, file = cv2.imencode(".jpg", image, quality)
+        return np.asarray(cv2.imdecode(file, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)
+
+
+def quantization_steps(quality: int) -> FloatArray:
+    """Give the steps of the coefficients at a quality from 1 to 100, shape (8, 8).
+
+    The scaling is that of the Independent JPEG Group's library, which all common writers follow.
+    """
+    percent = 5000 // quality if quality < 50 else 200 - 2 * quality
+    scaled = (np.array(_LUMINANCE_STEPS) * percent + 50) // 100
+    return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
+
+
+def _step(scene: Scene) -> float:
+    """Give the root mean square of the steps."""
+    return float(np.sqrt(np.mean(quantization_steps(scene.camera.jpeg_quality) ** 2)))

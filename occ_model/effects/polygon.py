@@ -1,0 +1,53 @@
+"""Polygons: cutting one by another, and cutting their edges in parts."""
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+
+
+def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
+    """Cut a polygon by a convex one that goes round counter-clockwise.
+
+    Edge by edge of the window, what lies outside it is taken away (I. E. Sutherland and
+    G. W. Hodgman, "Reentrant polygon clipping", Comm. ACM 17, 1974).
+
+    Parameters
+    ----------
+    polygon, window : ndarray of float64, shape (corners, 2)
+        In order.
+
+    Returns
+    -------
+    ndarray of float64, shape (corners, 2)
+        Without corners where nothing is left.
+    """
+    for start, end in zip(window, np.roll(window, -1, axis=0), strict=True):
+        if len(polygon) == 0:
+            break
+        edge = end - start
+        # Above 0 inside.
+        side = edge[0] * (polygon[:, 1] - start[1]) - edge[1] * (polygon[:, 0] - start[0])
+        if (side >= 0.0).all():
+            continue
+        polygon = _inside(polygon, side)
+    return polygon
+
+
+def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
+    kept = []
+    for here in range(len(polygon)):
+        there = (here + 1) % len(polygon)
+        if side[here] >= 0.0:
+            kept.append(polygon[here])
+        if (side[here] >= 0.0) != (side[there] >= 0.0):
+            share = side[here] / (side[here] - side[there])
+            kept.append(polygon[here] * (1.0 - share) + polygon[there] * share)
+    return np.array(kept, dtype=np.float64).reshape(-1, 2)
+
+
+def subdivided(polygon: FloatArray, parts: int) -> FloatArray:
+    """Cut each edge of a polygon in equal parts, shape (corners * parts, 2)."""
+    share = (np.arange(parts) / parts)[None, :, None]
+    following = np.roll(polygon, -1, axis=0)
+    points = polygon[:, None, :] * (1.0 - share) + following[:, None, :] * share
+    return np.asarray(points.reshape(-1, 2))

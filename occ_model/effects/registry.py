@@ -1,0 +1,39 @@
+"""All effects, in the order that light travels."""
+
+from typing import TypeVar
+
+from occ_model.effects.defocus import Defocus
+from occ_model.effects.distortion import Distortion
+from occ_model.effects.effect import Effect
+from occ_model.effects.emission import Emission
+from occ_model.effects.fixed_pattern import FixedPattern
+from occ_model.effects.flicker import Flicker
+from occ_model.effects.full_well import FullWell
+from occ_model.effects.jpeg import Jpeg
+from occ_model.effects.led_edges import LedEdges
+from occ_model.effects.sensor_noise import SensorNoise
+from occ_model.effects.vignetting import Vignetting
+from occ_model.results import Plan
+
+EFFECTS: tuple[Effect, ...] = (
+    LedEdges(),
+    Flicker(),
+    Emission(),
+    Distortion(),
+    Defocus(),
+    Vignetting(),
+    FullWell(),
+    FixedPattern(),
+    SensorNoise(),
+    Jpeg(),
+)
+
+NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
+
+_Kind = TypeVar("_Kind", bound=Effect)
+
+
+def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
+    """Give the effects of a kind that a plan includes, in order."""
+    included = plan.included
+    return tuple(e for e in EFFECTS if isinstance(e, kind) and e.name in included)

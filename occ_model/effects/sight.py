@@ -1,0 +1,146 @@
+"""What the bounds of all effects are drawn from: where the panel is seen, and how bright.
+
+Everything here is of the paper's model, without any effect; how far the other effects can move the
+light is allowed for, so that a bound holds whichever of them are there.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import (
+    FLAT,
+    WHITE,
+    ColumnLight,
+    luminance_levels,
+    panel_values,
+    pixel_value,
+    saturate,
+)
+from occ_model.camera.projection import image_rays, panel_corners
+from occ_model.results import Region
+from occ_model.scene import Scene
+
+_BINS = 64
+"""Steps between the darkest and the brightest column in which columns are counted."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sight:
+    """How the panel is seen.
+
+    Parameters
+    ----------
+    corners : ndarray of float64, shape (4, 2)
+        Of the panel in the image.
+    sides
+        Left, top, right and bottom of a panel that is pictured level and so fills its bounding
+        rectangle, None of any other.
+    region
+        The panel's bounding rectangle in the image; the whole image where no panel is seen.
+    swing
+        Largest less smallest column value, at least one grey level.
+    levels : ndarray of float64, shape (bins + 1,)
+        Pixel values before saturation between which columns are counted.
+    shares : ndarray of float64, shape (bins,)
+        Share of the region's columns between two of them.
+    """
+
+    corners: FloatArray
+    sides: tuple[float, float, float, float] | None
+    region: Region
+    swing: float
+    levels: FloatArray
+    shares: FloatArray
+
+
+def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
+    left, top = corners.min(axis=0).tolist()
+    right, bottom = corners.max(axis=0).tolist()
+    slack = 1e-6 * max(right - left, bottom - top, 1.0)
+    on_rim = (np.abs(corners - (left, top)) < slack) | (np.abs(corners - (right, bottom)) < slack)
+    return (left, top, right, bottom) if on_rim.all() else None
+
+
+@lru_cache(maxsize=16)
+def sight_of(scene: Scene) -> Sight:
+    """Look at a scene.
+
+    Raises
+    ------
+    ProjectionError
+        Part of the panel is behind the camera.
+    """
+    corners = panel_corners(scene)
+    values = panel_values(scene, ColumnLight.of(scene))
+    seen = saturate(values)
+    region = region_of(corners, scene.camera.rows, scene.camera.columns)
+    inside = values[region.first_column : region.last_column]
+    low, high = float(inside.min()), float(inside.max())
+    # A little beyond both ends, so that no rounding puts a column outside.
+    levels = np.linspace(low * (1 - 1e-9), high * (1 + 1e-9) + 1e-9, _BINS + 1)
+    step = levels[1] - levels[0]
+    counts = np.bincount(((inside - levels[0]) / step).astype(np.int64), minlength=_BINS)
+    return Sight(
+        corners=corners,
+        sides=_sides(corners),
+        region=region,
+        swing=max(float(seen.max() - seen.min()), FLAT),
+        levels=levels,
+        shares=counts[:_BINS] / len(inside),
+    )
+
+
+def region_of(corners: FloatArray, rows: int, columns: int) -> Region:
+    """Give the panel's bounding rectangle in the image, the whole image where there is none.
+
+    Parameters
+    ----------
+    corners : ndarray of float64, shape (corners, 2)
+        (column, row) of each corner of the outline.
+    rows, columns
+        Size of the image.
+    """
+    left, top = np.clip(np.ceil(corners.min(axis=0)), 0, (columns, rows)).astype(int).tolist()
+    right, bottom = (
+        np.clip(np.floor(corners.max(axis=0)) + 1, 0, (columns, rows)).astype(int).tolist()
+    )
+    if left >= right or top >= bottom:
+        return Region(0, rows, 0, columns)
+    return Region(top, bottom, left, right)
+
+
+def reachable_luminances(scene: Scene) -> tuple[float, float]:
+    """Give the least light of the dark panel and the most of the lit one, flicker included."""
+    dark, bright = luminance_levels(scene).tolist()
+    depth = scene.surroundings.flicker_depth
+    return dark * (1.0 - depth), bright + dark * depth
+
+
+def shown_value(luminance: float, scene: Scene) -> float:
+    """Give the pixel value of a luminance, saturated."""
+    return min(float(pixel_value(np.array([luminance]), scene.camera)[0]), WHITE)
+
+
+def contrast(scene: Scene) -> float:
+    """Give the most by which the lit panel can differ from its dark surroundings, grey levels."""
+    dark, bright = reachable_luminances(scene)
+    return shown_value(bright, scene) - shown_value(dark, scene)
+
+
+def corner_points(scene: Scene) -> FloatArray:
+    """Give the corners of the observed rectangle as rays (x, y), in focal lengths, shape (4, 2)."""
+    region = sight_of(scene).region
+    columns = (region.first_column, region.last_column - 1)
+    rows = (region.first_row, region.last_row - 1)
+    points = np.array([(column, row) for column in columns for row in rows], dtype=np.float64)
+    return image_rays(points, scene.camera)
+
+
+def off_axis_factor(scene: Scene) -> float:
+    """Give cos of the largest angle off the optical axis within the observed rectangle."""
+    x, y = np.abs(corner_points(scene)).max(axis=0).tolist()
+    return 1.0 / math.sqrt(1.0 + x * x + y * y)

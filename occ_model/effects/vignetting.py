@@ -1,0 +1,46 @@
+"""The picture is darker towards its corners."""
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import Pixels
+from occ_model.camera.optics import Gain, Optics
+from occ_model.camera.projection import pixel_rays
+from occ_model.effects.effect import Observable, OpticsEffect
+from occ_model.effects.sight import off_axis_factor, reachable_luminances, shown_value
+from occ_model.scene import Scene
+
+
+class Vignetting(OpticsEffect):
+    """The light at a pixel falls as cos^n of its angle off the optical axis.
+
+    n = 4 is the natural fall-off of a thin lens that keeps straight lines straight (E. Hecht,
+    *Optics*, ch. 5); lenses that are made against it have less. On the axis nothing is lost.
+    """
+
+    name = "vignetting"
+    label = "Vignetting"
+    parameters = ("vignetting_exponent",)
+
+    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - not averaged out
+        """Bound the change by that of a lit column in the observed rectangle's farthest corner."""
+        exponent = scene.lens.vignetting_exponent
+        if exponent == 0.0:
+            return 0.0
+        kept: float = off_axis_factor(scene) ** (exponent / scene.camera.gamma)
+        # What lies above saturation loses less that is seen: most is lost from just there.
+        brightest = shown_value(reachable_luminances(scene)[1], scene)
+        lost: float = brightest * (1.0 - kept)
+        return lost
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Darken every pixel by its angle."""
+        power = -scene.lens.vignetting_exponent / 2.0
+
+        def gain(first: int, last: int) -> Pixels:
+            x, y = pixel_rays(scene.camera, first, last)
+            return np.asarray(cv2.pow(1.0 + x * x + y * y, power), dtype=np.float32)
+
+        return replace(optics, transmission=(*optics.transmission, Gain(self.name, gain)))

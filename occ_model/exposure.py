@@ -29,7 +29,7 @@ class ExposedRows:
     ----------
     rows
         Which rows, and where the panel is in them.
-    mean : ndarray of float32, shape (rows, columns) or (1, columns)
+    mean : ndarray of float32, shape (rows, columns)
         Saturated.
     deviation : ndarray of float32, shape (rows, columns), or None
         What noise adds to it.
@@ -39,26 +39,17 @@ class ExposedRows:
     mean: Pixels
     deviation: Pixels | None
 
-    @property
-    def height(self) -> int:
-        """How many rows."""
-        return self.rows.last - self.rows.first
-
     def values(self) -> Pixels:
         """Give the pixel values, shape (rows, columns)."""
-        if self.deviation is not None:
-            return self.mean + self.deviation
-        return np.ascontiguousarray(np.broadcast_to(self.mean, (self.height, self.mean.shape[1])))
+        return self.mean if self.deviation is None else self.mean + self.deviation
 
-    def to_bytes(self) -> ByteArray:
-        """Round them to the nearest of 0 to 255, shape (rows, columns)."""
+    def to_bytes(self, out: ByteArray) -> None:
+        """Round them to the nearest of 0 to 255."""
         if self.deviation is None:
-            rounded = cv2.convertScaleAbs(self.mean)  # no value is below 0
-            return np.broadcast_to(rounded, (self.height, self.mean.shape[1]))
-        # As one operation, which adds, rounds and saturates at once.
-        mean = np.broadcast_to(self.mean, self.deviation.shape)
-        added = cv2.add(np.ascontiguousarray(mean), self.deviation, dtype=cv2.CV_8U)
-        return np.asarray(added, dtype=np.uint8)
+            cv2.convertScaleAbs(self.mean, dst=out)  # no mean is below 0
+        else:
+            # One operation adds, rounds and saturates.
+            cv2.add(self.mean, self.deviation, dst=out, dtype=cv2.CV_8U)
 
 
 class PixelExposure:
@@ -103,13 +94,26 @@ class PixelExposure:
         if self._noises:
             noise = make(self._noises, self._scene, seed, self._clock.done)
         columns = (self._panel, self._surroundings)
+        last: ExposedRows | None = None
         for rows in picture_rows(self._scene, self._optics, *columns, self._clock.done):
-            mean = rows.values
-            for limit in self._limits:
-                mean = limit.apply(self._scene, mean)
-                self._clock.done(limit.name)
-            deviation = None if noise is None else noise.deviation(mean, rows.last - rows.first)
-            yield ExposedRows(rows, np.minimum(mean, np.float32(WHITE)), deviation)
+            height = rows.last - rows.first
+            deviation = None if noise is None else noise.deviation(rows.values, height)
+            if last is not None and last.rows.values is rows.values and len(last.mean) == height:
+                mean = last.mean  # most rows have the mean values of the rows before
+            else:
+                mean = self._saturated(rows)
+            last = ExposedRows(rows, mean, deviation)
+            yield last
+
+    def _saturated(self, rows: Rows) -> Pixels:
+        """Give the mean values of rows as far as a pixel can hold them, each row of its own."""
+        mean = rows.values
+        for limit in self._limits:
+            mean = limit.apply(self._scene, mean)
+            self._clock.done(limit.name)
+        mean = np.minimum(mean, np.float32(WHITE))
+        shape = (rows.last - rows.first, mean.shape[1])
+        return np.ascontiguousarray(np.broadcast_to(mean, shape))
 
     def picture(
         self, enhancement: Enhancement, seed: int, source: NoiseSource
@@ -132,18 +136,18 @@ class PixelExposure:
             rows = exposed.rows
             block = image[rows.first : rows.last]
             if self._files:
-                block[:] = exposed.to_bytes()
+                exposed.to_bytes(out=block)
                 kept.append(rows)
             else:
                 _enhance(exposed, enhancement, block)
-                tally.add(rows, exposed.mean, exposed.deviation)
+                tally.add(exposed)
             self._clock.done("image")
         if self._files:
             image = self._through_files(image)
             for rows in kept:
                 block = image[rows.first : rows.last]
-                tally.add(rows, block.astype(np.float32), None)
-                _overlay(block, enhancement.of_bytes(block), rows.panel)
+                tally.add(ExposedRows(rows, block.astype(np.float32), None))
+                _enhance_bytes(block, enhancement, rows.panel)
             self._clock.done("image")
         return image, tally.means(saturate(self._panel))
 
@@ -177,20 +181,22 @@ class PixelExposure:
 
 def _enhance(exposed: ExposedRows, enhancement: Enhancement, out: ByteArray) -> None:
     """Round pixel values, enhanced within the panel."""
-    rounded = exposed.to_bytes()
+    exposed.to_bytes(out=out)
     if enhancement.needs_fractions:
         enhanced = enhancement(exposed.values())
+        np.copyto(out, enhanced, where=exposed.rows.panel_mask())
     else:
-        enhanced = enhancement.of_bytes(rounded)
-    out[:] = rounded
-    _overlay(out, enhanced, exposed.rows.panel)
+        _enhance_bytes(out, enhancement, exposed.rows.panel)
 
 
-def _overlay(image: ByteArray, enhanced: ByteArray, panel: slice | NDArray[np.bool_]) -> None:
-    if isinstance(panel, slice):
-        image[:, panel] = enhanced[:, panel]
-    else:
-        np.copyto(image, enhanced, where=panel)
+def _enhance_bytes(
+    image: ByteArray, enhancement: Enhancement, panel: slice | NDArray[np.bool_]
+) -> None:
+    """Enhance rounded grey levels within the panel, in place."""
+    if not isinstance(panel, slice):
+        np.copyto(image, enhancement.of_bytes(image), where=panel)
+    elif panel.stop > panel.start:  # OpenCV has no pictures without columns
+        image[:, panel] = enhancement.of_bytes(image[:, panel])
 
 
 class _ColumnTally:
@@ -200,22 +206,17 @@ class _ColumnTally:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)
 
-    def add(self, rows: Rows, mean: Pixels, deviation: Pixels | None) -> None:
+    def add(self, exposed: ExposedRows) -> None:
         """Count some rows in."""
-        height = rows.last - rows.first
-        if isinstance(rows.panel, slice):
-            panel = rows.panel
-            if panel.stop <= panel.start:
-                return
-            repeats = height if len(mean) == 1 else 1
-            self._sums[panel] += repeats * _column_sums(mean[:, panel])
-            if deviation is not None:
-                self._sums[panel] += _column_sums(deviation[:, panel])
-            self._counts[panel] += height
-            return
-        values = mean if deviation is None else mean + deviation
-        self._sums += _column_sums(np.where(rows.panel, values, np.float32(0.0)))
-        self._counts += np.count_nonzero(rows.panel, axis=0)
+        panel = exposed.rows.panel
+        if not isinstance(panel, slice):
+            self._sums += _column_sums(np.where(panel, exposed.values(), np.float32(0.0)))
+            self._counts += np.count_nonzero(panel, axis=0)
+        elif panel.stop > panel.start:
+            self._sums[panel] += _column_sums(exposed.mean[:, panel])
+            if exposed.deviation is not None:
+                self._sums[panel] += _column_sums(exposed.deviation[:, panel])
+            self._counts[panel] += len(exposed.mean)
 
     def means(self, otherwise: FloatArray) -> FloatArray:
         """Give the means, and ``otherwise`` in columns without pixels."""
@@ -224,5 +225,5 @@ class _ColumnTally:
 
 
 def _column_sums(values: Pixels) -> FloatArray:
-    sums = cv2.reduce(np.ascontiguousarray(values), 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
+    sums = cv2.reduce(values, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
     return np.asarray(sums[0], dtype=np.float64)

@@ -261,3 +261,28 @@ class DecodeResult:
     confidence: float | None = None
     folded: FloatArray | None = None
     model: FloatArray | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class AccuracyPoint:
+    """What one way of simulating costs in time, and how wrong it is.
+
+    Parameters
+    ----------
+    part
+        ``"integration"``, ``"effects"``, ``"path"`` or ``"noise"``: what is compared.
+    name
+        The way.
+    seconds
+        Time that it takes.
+    error
+        How far it is from the best that is compared, in levels of the stretched profile.
+    current
+        Whether the settings at hand are this way.
+    """
+
+    part: str
+    name: str
+    seconds: float
+    error: float
+    current: bool = False

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import (
     ColumnLight,
@@ -133,6 +133,30 @@ def render(
         exposure = PixelExposure(scene, chosen, columns.panel, columns.surroundings, clock)
         image, profile = exposure.picture(enhancement, seed, noise)
     return Frame(scene, chosen, image, profile, enhanced, corners, clock.timings)
+
+
+def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "exact") -> Pixels:
+    """Give what a plan's tolerance is of: pixel values before enhancement and rounding.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    chosen
+        Its effects are simulated, and its observable is given.
+    seed, noise
+        As for :func:`render`.
+
+    Returns
+    -------
+    ndarray of float32
+        ``"image"``: the pixels of the panel's bounding rectangle, shape (rows, columns) of it;
+        ``"profile"``: the means of its columns.
+    """
+    clock = StageClock()
+    columns = expose_columns(scene, chosen, clock)
+    exposure = PixelExposure(scene, chosen, columns.panel, columns.surroundings, clock)
+    return exposure.observed(chosen.observable, seed, noise)
 
 
 def _dark(columns: Columns) -> ByteArray:

@@ -142,16 +142,16 @@ def _plain_rows(
     level = np.count_nonzero(changed) <= camera.rows / BLOCK_ROWS
     breaks = np.flatnonzero(changed) + 1 if level else np.empty(0, np.int64)
     starts = [0, *breaks.tolist(), camera.rows]
+    column = np.arange(camera.columns)
     for top, bottom in pairwise(starts):
+        span = slice(int(first[top]), int(last[top]))
+        row = dark_row.copy()
+        row[:, span] = panel_row[:, span]
         for start in range(top, bottom, BLOCK_ROWS):
             stop = min(start + BLOCK_ROWS, bottom)
             if level:
-                span = slice(int(first[start]), int(last[start]))
-                values = dark_row.copy()
-                values[:, span] = panel_row[:, span]
-                yield Rows(start, stop, values, span)
+                yield Rows(start, stop, row, span)
             else:
-                column = np.arange(camera.columns)
                 inside = (column >= first[start:stop, None]) & (column < last[start:stop, None])
                 yield Rows(start, stop, np.where(inside, panel_row, dark_row), inside)
 

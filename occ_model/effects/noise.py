@@ -84,12 +84,17 @@ class ReusedNoise:
         self._done = done
         self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
         self._places = _plane(scene.camera.columns)
+        self._values: Pixels | None = None
+        self._spread: Pixels = np.empty(0, dtype=np.float32)
 
     def deviation(self, values: Pixels, rows: int) -> Pixels:
         """Give the deviations of the next rows."""
         chosen = self._random.integers(0, len(self._places), rows)
         total: Pixels = self._places[chosen]
-        total *= pixel_spread(self._effects, self._scene, values)
+        if values is not self._values:  # most rows have the mean values of the rows before
+            self._values = values
+            self._spread = pixel_spread(self._effects, self._scene, values)
+        total *= self._spread
         self._done(self._effects[-1].name)  # the others come with it for nothing
         return total
 

@@ -1,0 +1,213 @@
+"""What accuracy costs in time, for the scene at hand.
+
+Four comparisons: the closed form of the exposure with samples of it; the effects, one after the
+other, with all of them; the profile path with the image path; and noise that is drawn with noise
+that is used again. All errors are root mean squares in levels of the stretched profile.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.exposure import lit_fraction
+from occ_model.camera.photometry import ColumnLight, panel_values, saturate
+from occ_model.checks import check_seed
+from occ_model.effects.effect import NoiseEffect, Observable, pixel_spread
+from occ_model.effects.noise import NoiseSource
+from occ_model.effects.plan import plan
+from occ_model.effects.registry import planned
+from occ_model.effects.sight import sight_of
+from occ_model.results import AccuracyPoint, Plan
+from occ_model.scene import Scene
+from occ_model.simulation import expose_columns, observe, render
+from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
+
+SAMPLES = tuple(2**power for power in range(13))
+"""1 to 4096 samples an exposure."""
+
+_EXACT_COLUMNS = 97
+"""Columns whose exposure is worked out in rational arithmetic, to compare with."""
+
+Result = TypeVar("Result")
+
+_ENOUGH_SECONDS = 0.05
+_REPEATS = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """The settings at hand, which the study marks.
+
+    Parameters
+    ----------
+    tolerance, observable, force
+        As for :func:`occ_model.plan`.
+    noise, seed
+        As for :func:`occ_model.render`.
+    """
+
+    tolerance: float = 0.5
+    observable: Observable = "image"
+    force: Mapping[str, bool] = field(default_factory=dict)
+    noise: NoiseSource = "exact"
+    seed: int = 1
+
+
+def accuracy(scene: Scene, settings: Settings | None = None) -> Iterator[AccuracyPoint]:
+    """Measure what accuracy costs, point by point: whoever has enough can stop.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        The settings at hand.
+
+    Raises
+    ------
+    ParameterError
+        A setting cannot be.
+    ProjectionError
+        The scene has no picture.
+    """
+    settings = settings or Settings()
+    check_seed(settings.seed)
+    chosen = plan(scene, settings.tolerance, settings.observable, settings.force)
+    return _points(scene, settings, chosen)
+
+
+def point_count(scene: Scene, settings: Settings | None = None) -> int:
+    """Count the points that :func:`accuracy` measures."""
+    settings = settings or Settings()
+    complete = plan(scene, 0.0, settings.observable)
+    noise = 2 if planned(complete, NoiseEffect) else 0
+    return len(SAMPLES) + 1 + len(complete.included) + 2 + 2 + noise
+
+
+def _points(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[AccuracyPoint]:
+    yield from _integration(scene, chosen.stretch)
+    yield from _ladder(scene, settings, chosen)
+    yield from _paths(scene, settings, chosen)
+    yield from _noise_sources(scene, settings, chosen.stretch)
+
+
+def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
+    """Compare the exposure's closed form, and samples of it, with rational arithmetic."""
+    columns = scene.camera.columns
+    some = np.unique(np.linspace(0, columns - 1, _EXACT_COLUMNS).astype(np.int64))
+    truth = _profile(scene, exact_lit_fraction(scene, some))
+
+    def error(lit: FloatArray) -> float:
+        return rms(_profile(scene, lit[some]) - truth) * stretch
+
+    for samples in SAMPLES:
+        seconds, lit = timed(lambda samples=samples: sampled_lit_fraction(scene, samples))
+        name = f"{samples} sample{'s' if samples > 1 else ''}"
+        yield AccuracyPoint("integration", name, seconds, error(lit))
+    seconds, lit = timed(lambda: lit_fraction(scene))
+    yield AccuracyPoint("integration", "closed form", seconds, error(lit), current=True)
+
+
+def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
+    return saturate(panel_values(scene, ColumnLight(lit, np.ones(1))))
+
+
+def _ladder(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[AccuracyPoint]:
+    """Switch the effects on one after the other, the largest bound first."""
+    complete = plan(scene, 0.0, settings.observable)
+    truth = _observed(scene, complete, settings)
+    by_bound = sorted(complete.decisions, key=lambda decision: -decision.bound)
+    steps = [decision.effect for decision in by_bound if decision.included]
+    for count in range(len(steps) + 1):
+        name = f"+ {_label(complete, steps[count - 1])}" if count else "paper's model"
+        yield _rung(scene, name, frozenset(steps[:count]), settings, truth)
+    yield _rung(
+        scene, "this plan", frozenset(chosen.included), settings, truth, current=True
+    )
+
+
+def _rung(
+    scene: Scene,
+    name: str,
+    effects: frozenset[str],
+    settings: Settings,
+    truth: Pixels,
+    *,
+    current: bool = False,
+) -> AccuracyPoint:
+    step = plan(scene, np.inf, settings.observable, dict.fromkeys(sorted(effects), True))
+    difference = _observed(scene, step, settings) - truth
+    seconds, _ = timed(lambda: _rendered(scene, effects, settings))
+    return AccuracyPoint("effects", name, seconds, rms(difference) * step.stretch, current)
+
+
+def _label(chosen: Plan, effect: str) -> str:
+    return next(d.label for d in chosen.decisions if d.effect == effect)
+
+
+def _rendered(scene: Scene, effects: frozenset[str], settings: Settings) -> object:
+    force = dict.fromkeys(sorted(effects), True)
+    return render(scene, tolerance=np.inf, seed=settings.seed, force=force, noise=settings.noise)
+
+
+def _observed(scene: Scene, chosen: Plan, settings: Settings) -> Pixels:
+    return observe(scene, chosen, seed=settings.seed, noise=settings.noise)
+
+
+def _paths(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[AccuracyPoint]:
+    """Compare the column values alone, and the means of whole pictures, with all effects."""
+    region = sight_of(scene).region
+    seen = slice(region.first_column, region.last_column)
+    truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
+    seconds, columns = timed(lambda: expose_columns(scene, chosen))
+    error = rms(columns.profile[seen] - truth) * chosen.stretch
+    alone = "image" not in chosen.kinds
+    yield AccuracyPoint("path", "profile path", seconds, error, alone)
+    by_image = plan(scene, np.inf, "profile", dict.fromkeys(chosen.included, True))
+    difference = _observed(scene, by_image, settings) - truth
+    seconds, _ = timed(lambda: _rendered(scene, frozenset(chosen.included), settings))
+    yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch, not alone)
+
+
+def _noise_sources(scene: Scene, settings: Settings, stretch: float) -> Iterator[AccuracyPoint]:
+    """Compare the size of each source's noise with the sensor's."""
+    complete = plan(scene, 0.0, "image")
+    noises = planned(complete, NoiseEffect)
+    if not noises:
+        return
+    names = frozenset(effect.name for effect in noises)
+    noisy = plan(scene, np.inf, "image", dict.fromkeys(sorted(names), True))
+    still = observe(scene, plan(scene, np.inf, "image"), seed=settings.seed)
+    wanted = rms(pixel_spread(noises, scene, still))
+    sources: tuple[NoiseSource, ...] = ("exact", "reused")
+    for source in sources:
+        own = Settings(seed=settings.seed, noise=source)
+        size = rms(_observed(scene, noisy, own) - still)
+        seconds, _ = timed(lambda own=own: _rendered(scene, names, own))
+        name = {"exact": "drawn for each pixel", "reused": "reused plane"}[source]
+        error = abs(size - wanted) * stretch
+        yield AccuracyPoint("noise", name, seconds, error, source == settings.noise)
+
+
+def rms(values: NDArray[np.floating]) -> float:
+    """Give the root mean square."""
+    flat = values.ravel()
+    return float(np.sqrt(np.mean(np.square(flat, dtype=np.float64))))
+
+
+def timed(work: Callable[[], Result]) -> tuple[float, Result]:
+    """Give the least time of a few runs, fewer of slow ones, and what the work gives."""
+    best, spent = np.inf, 0.0
+    for _ in range(_REPEATS):
+        start = perf_counter()
+        result = work()
+        seconds = perf_counter() - start
+        best, spent = min(best, seconds), spent + seconds
+        if spent > _ENOUGH_SECONDS:
+            break
+    return best, result

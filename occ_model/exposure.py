@@ -12,12 +12,13 @@ from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import Optics, Rows, picture_rows
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.effect import FileEffect, NoiseEffect, Observable, OpticsEffect, PixelEffect
-from occ_model.effects.noise import ExactNoise, Noise, NoiseSource, ReusedNoise
+from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
+from occ_model.effects.noise import ExactNoise, Noise, ReusedNoise
 from occ_model.effects.registry import planned
 from occ_model.effects.sight import sight_of
 from occ_model.results import Plan
 from occ_model.scene import Scene
+from occ_model.simulation_settings import NoiseSource, Observable
 from occ_model.stage_clock import StageClock
 
 

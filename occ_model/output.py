@@ -104,3 +104,17 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
     except (OSError, ValueError) as error:
         raise OutputError(f"{path.name} cannot be encoded as {format_name}: {error}.") from None
     return buffer.getvalue()
+
+
+def make_folder(folder: Path) -> None:
+    """Make the folder that figures are written to, where there is none.
+
+    Raises
+    ------
+    OutputError
+        It cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder} cannot be made: {error.strerror or error}.") from None

@@ -9,6 +9,7 @@ from occ_model.errors import ParameterError, SceneFileError
 from occ_model.parameters import parameter_named
 from occ_model.presets import load_preset
 from occ_model.scene import Scene
+from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, SimulationSettings
 
 DEFAULT_PRESET = "phone-68us"
 """The scene where none is asked for: one that all models and decoders have an answer to."""
@@ -79,3 +80,56 @@ def scene_of(options: argparse.Namespace) -> Scene:
     """
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
     return with_settings(scene, options.settings)
+
+
+def add_simulation_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say how a scene is simulated; :func:`simulation_settings_of` reads it."""
+    own = SimulationSettings()
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=own.tolerance,
+        metavar="LEVELS",
+        help="what effects left out may change, in levels of the stretched profile; "
+        "0: simulate all, inf: none; default: %(default)s",
+    )
+    parser.add_argument(
+        "--observable",
+        choices=OBSERVABLES,
+        default=own.observable,
+        help="what the tolerance is of; default: %(default)s",
+    )
+    for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
+        parser.add_argument(
+            f"--{switch}",
+            action="append",
+            default=[],
+            metavar="EFFECT",
+            help=f"{meaning} whatever its bound; may be repeated",
+        )
+    parser.add_argument(
+        "--noise",
+        choices=NOISE_SOURCES,
+        default=own.noise,
+        help="exact: drawn for each pixel; reused: many times faster; default: %(default)s",
+    )
+    parser.add_argument("--seed", type=int, default=own.seed, help="default: %(default)s")
+
+
+def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
+    """Read how a scene is to be simulated.
+
+    Raises
+    ------
+    ParameterError
+        An effect is switched both on and off.
+    """
+    for name in set(options.on) & set(options.off):
+        raise ParameterError(f"effect {name!r} is switched both on and off; allowed: one of them.")
+    return SimulationSettings(
+        tolerance=options.tolerance,
+        observable=options.observable,
+        force={**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
+        noise=options.noise,
+        seed=options.seed,
+    )

@@ -15,13 +15,13 @@ from occ_model.camera.photometry import (
 )
 from occ_model.camera.projection import check_size, paint, panel_corners
 from occ_model.checks import check_choice, check_seed
-from occ_model.effects.effect import LightEffect, Observable, PixelEffect
-from occ_model.effects.noise import NOISE_SOURCES, NoiseSource
+from occ_model.effects.effect import LightEffect, PixelEffect
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
 from occ_model.exposure import PixelExposure
 from occ_model.results import Frame, Plan
 from occ_model.scene import Scene
+from occ_model.simulation_settings import NOISE_SOURCES, NoiseSource, Observable
 from occ_model.stage_clock import StageClock
 
 

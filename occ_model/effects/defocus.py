@@ -13,9 +13,10 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import pixel_value, saturate
-from occ_model.effects.effect import Observable, OpticsEffect
+from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.sight import contrast, reachable_luminances, sight_of
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 
 _REACH = 4.0
 """Standard deviations from the rim after which nothing of it is left."""

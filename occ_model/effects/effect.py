@@ -15,11 +15,7 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import ColumnLight
 from occ_model.scene import Scene
-
-Observable: TypeAlias = Literal["profile", "image"]
-"""What an error is counted in: the panel's bounding rectangle, or the means of its columns."""
-
-OBSERVABLES: tuple[Observable, ...] = ("profile", "image")
+from occ_model.simulation_settings import Observable
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
 """Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""

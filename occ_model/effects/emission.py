@@ -8,9 +8,10 @@ from occ_model.arrays import Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.photometry import pixel_value, saturate
 from occ_model.camera.projection import pixel_rays, rotation_of
-from occ_model.effects.effect import Observable, OpticsEffect
+from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.sight import corner_points, reachable_luminances
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 
 
 class Emission(OpticsEffect):

@@ -4,9 +4,10 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.sensor import deviation
-from occ_model.effects.effect import NoiseEffect, Observable
+from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.noise_bound import noise_bound
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 
 
 class FixedPattern(NoiseEffect):

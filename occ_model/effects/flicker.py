@@ -9,9 +9,10 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import cycle_phases
 from occ_model.camera.photometry import ColumnLight, luminance_levels
-from occ_model.effects.effect import LightEffect, Observable
+from occ_model.effects.effect import LightEffect
 from occ_model.effects.sight import shown_value
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 
 
 class Flicker(LightEffect):

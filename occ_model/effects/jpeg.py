@@ -6,8 +6,9 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.effects.effect import FileEffect, Observable
+from occ_model.effects.effect import FileEffect
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 
 _LUMINANCE_STEPS = (
     (16, 11, 10, 16, 24, 40, 51, 61),

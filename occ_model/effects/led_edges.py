@@ -9,9 +9,10 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import ColumnLight, pixel_value, saturate
-from occ_model.effects.effect import LightEffect, Observable
+from occ_model.effects.effect import LightEffect
 from occ_model.effects.sight import reachable_luminances, sight_of
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 from occ_model.transmitter.edges import EdgedWaveform, most_changes
 from occ_model.transmitter.packet import sent_chips
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import Literal, Protocol, TypeAlias
+from typing import Protocol, TypeAlias
 from zlib import crc32
 
 import numpy as np
@@ -10,10 +10,6 @@ import numpy as np
 from occ_model.arrays import Pixels
 from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.scene import Scene
-
-NoiseSource: TypeAlias = Literal["exact", "reused"]
-
-NOISE_SOURCES: tuple[NoiseSource, ...] = ("exact", "reused")
 
 Done: TypeAlias = Callable[[str], None]
 """Is told that a stage has just ended."""

@@ -4,9 +4,10 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import pixel_value
-from occ_model.effects.effect import NoiseEffect, Observable
+from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.sight import off_axis_factor, reachable_luminances, sight_of
 from occ_model.scene import Scene
+from occ_model.simulation_settings import Observable
 
 
 def noise_bound(effect: NoiseEffect, scene: Scene, observable: Observable) -> float:

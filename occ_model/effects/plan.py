@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
 from occ_model.checks import check_choice, check_tolerance
-from occ_model.effects.effect import OBSERVABLES, Effect, FileEffect, NoiseEffect, Observable
+from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.noise_bound import steepness
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sight import sight_of
 from occ_model.results import Decision, Plan
 from occ_model.scene import Scene
+from occ_model.simulation_settings import OBSERVABLES, Observable
 
 
 def plan(

@@ -13,7 +13,7 @@ from matplotlib.patches import Polygon
 from occ_model.arrays import FloatArray
 from occ_model.band_model import band_profile
 from occ_model.camera.projection import row_spans
-from occ_model.errors import BandModelUndefined, OutputError
+from occ_model.errors import BandModelUndefined
 from occ_model.export.drawing import BAND, PHOTO, SIMULATION, save_figure
 from occ_model.export.provenance import Provenance
 from occ_model.export.tables import write_table
@@ -179,17 +179,3 @@ def _draw_rates(ax: Axes, grid: FloatArray) -> AxesImage:
         colour = "black" if rate > 50 else "white"
         ax.text(x, y, f"{rate:.0f}", ha="center", va="center", fontsize=6, color=colour)
     return image
-
-
-def make_folder(folder: Path) -> None:
-    """Make the folder that figures are written to, where there is none.
-
-    Raises
-    ------
-    OutputError
-        It cannot be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder} cannot be made: {error.strerror or error}.") from None

@@ -5,8 +5,8 @@ other, with all of them; the profile path with the image path; and noise that is
 that is used again. All errors are root mean squares in levels of the stretched profile.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from functools import partial
 from time import perf_counter
 from typing import TypeVar
 
@@ -17,14 +17,14 @@ from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.checks import check_seed
-from occ_model.effects.effect import NoiseEffect, Observable, pixel_spread
-from occ_model.effects.noise import NoiseSource
+from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
 from occ_model.effects.sight import sight_of
 from occ_model.results import AccuracyPoint, Plan
 from occ_model.scene import Scene
 from occ_model.simulation import expose_columns, observe, render
+from occ_model.simulation_settings import NOISE_SOURCES, SimulationSettings
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
 SAMPLES = tuple(2**power for power in range(13))
@@ -39,26 +39,7 @@ _ENOUGH_SECONDS = 0.05
 _REPEATS = 5
 
 
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """The settings at hand, which the study marks.
-
-    Parameters
-    ----------
-    tolerance, observable, force
-        As for :func:`occ_model.plan`.
-    noise, seed
-        As for :func:`occ_model.render`.
-    """
-
-    tolerance: float = 0.5
-    observable: Observable = "image"
-    force: Mapping[str, bool] = field(default_factory=dict)
-    noise: NoiseSource = "exact"
-    seed: int = 1
-
-
-def accuracy(scene: Scene, settings: Settings | None = None) -> Iterator[AccuracyPoint]:
+def accuracy(scene: Scene, settings: SimulationSettings | None = None) -> Iterator[AccuracyPoint]:
     """Measure what accuracy costs, point by point: whoever has enough can stop.
 
     Parameters
@@ -75,21 +56,21 @@ def accuracy(scene: Scene, settings: Settings | None = None) -> Iterator[Accurac
     ProjectionError
         The scene has no picture.
     """
-    settings = settings or Settings()
+    settings = settings or SimulationSettings()
     check_seed(settings.seed)
     chosen = plan(scene, settings.tolerance, settings.observable, settings.force)
     return _points(scene, settings, chosen)
 
 
-def point_count(scene: Scene, settings: Settings | None = None) -> int:
+def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int:
     """Count the points that :func:`accuracy` measures."""
-    settings = settings or Settings()
+    settings = settings or SimulationSettings()
     complete = plan(scene, 0.0, settings.observable)
     noise = 2 if planned(complete, NoiseEffect) else 0
     return len(SAMPLES) + 1 + len(complete.included) + 2 + 2 + noise
 
 
-def _points(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[AccuracyPoint]:
+def _points(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
     yield from _integration(scene, chosen.stretch)
     yield from _ladder(scene, settings, chosen)
     yield from _paths(scene, settings, chosen)
@@ -106,10 +87,10 @@ def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
         return rms(_profile(scene, lit[some]) - truth) * stretch
 
     for samples in SAMPLES:
-        seconds, lit = timed(lambda samples=samples: sampled_lit_fraction(scene, samples))
+        seconds, lit = timed(partial(sampled_lit_fraction, scene, samples))
         name = f"{samples} sample{'s' if samples > 1 else ''}"
         yield AccuracyPoint("integration", name, seconds, error(lit))
-    seconds, lit = timed(lambda: lit_fraction(scene))
+    seconds, lit = timed(partial(lit_fraction, scene))
     yield AccuracyPoint("integration", "closed form", seconds, error(lit), current=True)
 
 
@@ -117,7 +98,7 @@ def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
     return saturate(panel_values(scene, ColumnLight(lit, np.ones(1))))
 
 
-def _ladder(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[AccuracyPoint]:
+def _ladder(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
     """Switch the effects on one after the other, the largest bound first."""
     complete = plan(scene, 0.0, settings.observable)
     truth = _observed(scene, complete, settings)
@@ -126,23 +107,21 @@ def _ladder(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[Accuracy
     for count in range(len(steps) + 1):
         name = f"+ {_label(complete, steps[count - 1])}" if count else "paper's model"
         yield _rung(scene, name, frozenset(steps[:count]), settings, truth)
-    yield _rung(
-        scene, "this plan", frozenset(chosen.included), settings, truth, current=True
-    )
+    yield _rung(scene, "this plan", frozenset(chosen.included), settings, truth, current=True)
 
 
 def _rung(
     scene: Scene,
     name: str,
     effects: frozenset[str],
-    settings: Settings,
+    settings: SimulationSettings,
     truth: Pixels,
     *,
     current: bool = False,
 ) -> AccuracyPoint:
     step = plan(scene, np.inf, settings.observable, dict.fromkeys(sorted(effects), True))
     difference = _observed(scene, step, settings) - truth
-    seconds, _ = timed(lambda: _rendered(scene, effects, settings))
+    seconds, _ = timed(partial(_rendered, scene, effects, settings))
     return AccuracyPoint("effects", name, seconds, rms(difference) * step.stretch, current)
 
 
@@ -150,31 +129,33 @@ def _label(chosen: Plan, effect: str) -> str:
     return next(d.label for d in chosen.decisions if d.effect == effect)
 
 
-def _rendered(scene: Scene, effects: frozenset[str], settings: Settings) -> object:
+def _rendered(scene: Scene, effects: frozenset[str], settings: SimulationSettings) -> object:
     force = dict.fromkeys(sorted(effects), True)
     return render(scene, tolerance=np.inf, seed=settings.seed, force=force, noise=settings.noise)
 
 
-def _observed(scene: Scene, chosen: Plan, settings: Settings) -> Pixels:
+def _observed(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixels:
     return observe(scene, chosen, seed=settings.seed, noise=settings.noise)
 
 
-def _paths(scene: Scene, settings: Settings, chosen: Plan) -> Iterator[AccuracyPoint]:
+def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
     """Compare the column values alone, and the means of whole pictures, with all effects."""
     region = sight_of(scene).region
     seen = slice(region.first_column, region.last_column)
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
-    seconds, columns = timed(lambda: expose_columns(scene, chosen))
+    seconds, columns = timed(partial(expose_columns, scene, chosen))
     error = rms(columns.profile[seen] - truth) * chosen.stretch
     alone = "image" not in chosen.kinds
     yield AccuracyPoint("path", "profile path", seconds, error, alone)
     by_image = plan(scene, np.inf, "profile", dict.fromkeys(chosen.included, True))
     difference = _observed(scene, by_image, settings) - truth
-    seconds, _ = timed(lambda: _rendered(scene, frozenset(chosen.included), settings))
+    seconds, _ = timed(partial(_rendered, scene, frozenset(chosen.included), settings))
     yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch, not alone)
 
 
-def _noise_sources(scene: Scene, settings: Settings, stretch: float) -> Iterator[AccuracyPoint]:
+def _noise_sources(
+    scene: Scene, settings: SimulationSettings, stretch: float
+) -> Iterator[AccuracyPoint]:
     """Compare the size of each source's noise with the sensor's."""
     complete = plan(scene, 0.0, "image")
     noises = planned(complete, NoiseEffect)
@@ -184,11 +165,10 @@ def _noise_sources(scene: Scene, settings: Settings, stretch: float) -> Iterator
     noisy = plan(scene, np.inf, "image", dict.fromkeys(sorted(names), True))
     still = observe(scene, plan(scene, np.inf, "image"), seed=settings.seed)
     wanted = rms(pixel_spread(noises, scene, still))
-    sources: tuple[NoiseSource, ...] = ("exact", "reused")
-    for source in sources:
-        own = Settings(seed=settings.seed, noise=source)
+    for source in NOISE_SOURCES:
+        own = SimulationSettings(seed=settings.seed, noise=source)
         size = rms(_observed(scene, noisy, own) - still)
-        seconds, _ = timed(lambda own=own: _rendered(scene, names, own))
+        seconds, _ = timed(partial(_rendered, scene, names, own))
         name = {"exact": "drawn for each pixel", "reused": "reused plane"}[source]
         error = abs(size - wanted) * stretch
         yield AccuracyPoint("noise", name, seconds, error, source == settings.noise)

@@ -57,7 +57,8 @@ def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
     def lit_until(time: Fraction) -> Fraction:
         period, rest = divmod(time, len(chips))
         chip = int(rest)
-        return period * before[-1] + before[chip] + (rest - chip) * chips[chip]
+        lit: Fraction = period * before[-1] + before[chip] + (rest - chip) * chips[chip]
+        return lit
 
     shares = []
     for column in columns.tolist():

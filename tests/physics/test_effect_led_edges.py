@@ -70,13 +70,13 @@ def test_edged_light_is_that_of_exact_arithmetic(edge: float, exposure: float) -
         assert found[column] == pytest.approx(float(exact_share(scene, column)), rel=0, abs=2e-12)
 
 
-@pytest.mark.parametrize("exposure", [0.01, 0.7, 1.0, 3.3, 100.0])
+@pytest.mark.parametrize("exposure", [0.01, 1.0, 3.3, 100.0])
 @pytest.mark.parametrize("edge", [0.05, 1.0, 1.9, 24.0, 150.0])
 def test_edged_light_is_the_sharp_light_averaged_over_the_edge_time(
     edge: float, exposure: float
 ) -> None:
     scene = edged_scene(edge, exposure, columns=40)
-    samples = 3000
+    samples = 500
     before = (np.arange(samples) + 0.5) / samples * scene.transmitter.edge_time
     sampled = [
         lit_fraction(scene.replace(start_time=scene.model.start_time - float(shift)))
@@ -108,7 +108,7 @@ def test_the_longest_patterns_lose_no_digits(edge: float) -> None:
     scene = edged_scene(edge, 0.01, pattern=slow, readout_time=8.3 / FREQUENCY)
     found = edged_lit_fraction(scene)
     for column in (0, 17, 499):
-        assert found[column] == pytest.approx(float(exact_share(scene, column)), rel=0, abs=1e-6)
+        assert found[column] == pytest.approx(float(exact_share(scene, column)), rel=0, abs=1e-8)
 
 
 @pytest.mark.parametrize("exposure", EXPOSURES)

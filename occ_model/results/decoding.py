@@ -1,12 +1,10 @@
-"""What the simulation and the receiver hand to whoever shows or stores it."""
+"""What a receiver finds, step by step."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.scene import Scene
 
 
 def _nothing() -> ByteArray:
@@ -53,116 +51,6 @@ class Location:
     bright_level: int
     contours: int
     growth: int
-
-
-@dataclass(frozen=True, slots=True)
-class Decision:
-    """What a plan does with one effect.
-
-    Parameters
-    ----------
-    effect
-        Its name.
-    label
-        The field's term for it.
-    kind
-        ``"column"``: it leaves all rows of the panel alike; ``"noise"``: alike but for independent
-        noise; ``"image"``: not alike.
-    bound
-        How much leaving it out can change what is observed, root mean square in levels of the
-        stretched profile. 0 where the scene has none of it.
-    included
-        Whether it is simulated.
-    forced
-        Whether the user decided so.
-    reason
-        Why, in words.
-    """
-
-    effect: str
-    label: str
-    kind: str
-    bound: float
-    included: bool
-    forced: bool
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """Which effects are simulated, and why.
-
-    Parameters
-    ----------
-    tolerance
-        How much all that is left out may change what is observed, in levels of the stretched
-        profile.
-    observable
-        What is observed: ``"image"`` or ``"profile"``.
-    decisions
-        One for each effect, in the order that light travels.
-    left_out
-        How much all that is left out, by the plan and not by the user, can change what is
-        observed: at most the tolerance.
-    stretch
-        Levels of the stretched profile to one grey level.
-    """
-
-    tolerance: float
-    observable: str
-    decisions: tuple[Decision, ...]
-    left_out: float
-    stretch: float
-
-    def __contains__(self, effect: object) -> bool:
-        return any(d.effect == effect and d.included for d in self.decisions)
-
-    @property
-    def included(self) -> tuple[str, ...]:
-        """The names of the effects that are simulated."""
-        return tuple(d.effect for d in self.decisions if d.included)
-
-    @property
-    def kinds(self) -> frozenset[str]:
-        """The kinds of the effects that are simulated."""
-        return frozenset(d.kind for d in self.decisions if d.included)
-
-    def __str__(self) -> str:
-        return "\n".join(f"{d.label}: {d.reason}" for d in self.decisions)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Frame:
-    """One simulated picture and what it was made of.
-
-    Parameters
-    ----------
-    scene
-        The scene.
-    image : ndarray of uint8, shape (rows, columns)
-        The picture.
-    plan
-        Which effects were simulated.
-    profile : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding.
-        With column effects only it is the column's value itself, PV_sim; also in columns that do
-        not show the panel.
-    enhanced : ndarray of uint8, shape (columns,)
-        The column values after enhancement; as they stand in the image where that has column
-        effects only.
-    corners : ndarray of float64, shape (4, 2)
-        The panel's corners in the image, each as (column, row), in order round the panel.
-    timings
-        Seconds that each stage took, an effect under its name, in the order they ran.
-    """
-
-    scene: Scene
-    plan: Plan
-    image: ByteArray
-    profile: FloatArray
-    enhanced: ByteArray
-    corners: FloatArray
-    timings: Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -261,28 +149,3 @@ class DecodeResult:
     confidence: float | None = None
     folded: FloatArray | None = None
     model: FloatArray | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class AccuracyPoint:
-    """What one way of simulating costs in time, and how wrong it is.
-
-    Parameters
-    ----------
-    part
-        ``"integration"``, ``"effects"``, ``"path"`` or ``"noise"``: what is compared.
-    name
-        The way.
-    seconds
-        Time that it takes.
-    error
-        How far it is from the best that is compared, in levels of the stretched profile.
-    current
-        Whether the settings at hand are this way.
-    """
-
-    part: str
-    name: str
-    seconds: float
-    error: float
-    current: bool = False

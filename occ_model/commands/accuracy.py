@@ -1,0 +1,57 @@
+"""``occ-model accuracy``."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from occ_model.commands.parser import Commands
+from occ_model.output import make_folder
+from occ_model.results import AccuracyPoint
+from occ_model.settings import (
+    add_scene_options,
+    add_simulation_options,
+    scene_of,
+    simulation_settings_of,
+)
+from occ_model.study.accuracy import accuracy, point_count
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser("accuracy", help="show what accuracy costs in time")
+    add_scene_options(parser)
+    add_simulation_options(parser)
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="folder for the figure as PDF, PNG and CSV"
+    )
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from tqdm import tqdm
+
+    scene, settings = scene_of(options), simulation_settings_of(options)
+    measured = accuracy(scene, settings)
+    if options.out:
+        make_folder(options.out)  # rather than after minutes of work
+    points = []
+    with tqdm(total=point_count(scene, settings), unit="point", file=sys.stderr) as bar:
+        for point in measured:
+            points.append(point)
+            bar.write(_line(point), file=sys.stdout)
+            bar.update()
+    if options.out:
+        # matplotlib takes half a second to import: only for those who want a figure.
+        from occ_model.export.accuracy_figure import write_accuracy_figure
+
+        write_accuracy_figure(options.out, scene, settings, points)
+        print(f"{options.out}: the figure as PDF, PNG and CSV")
+    return 0
+
+
+def _line(point: AccuracyPoint) -> str:
+    mark = "  <- current" if point.current else ""
+    return (
+        f"{point.part:12}{point.name:28}{1e3 * point.seconds:10.3f} ms"
+        f"{point.error:12.3g} levels{mark}"
+    )

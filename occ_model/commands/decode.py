@@ -1,0 +1,60 @@
+"""``occ-model decode``."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from occ_model.commands.parser import Commands
+from occ_model.exit_codes import EXIT_FAILURE
+from occ_model.photo.load import SCAN_AXES, load_photo
+from occ_model.receiver.decode import decode
+from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.results import DecodeResult
+from occ_model.settings import add_scene_options, scene_of
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser("decode", help="read the code from a picture or photo")
+    parser.add_argument("file", type=Path, help="image file")
+    add_scene_options(parser)
+    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPERS)
+    parser.add_argument(
+        "--scan-axis",
+        choices=SCAN_AXES,
+        default="auto",
+        help="what the shutter scanned in the file; auto: across the stripes (default)",
+    )
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    scene = scene_of(options)
+    photo = load_photo(options.file, options.scan_axis)
+    result = decode(photo.image, scene, options.decoder)
+    for line in _report(result):
+        print(line)
+    if result.failure is not None:
+        print(result.failure, file=sys.stderr)
+        return EXIT_FAILURE
+    return 0
+
+
+def _report(result: DecodeResult) -> list[str]:
+    lines = []
+    if result.code is not None:
+        lines += [f"code         {result.code}", f"bits         {''.join(map(str, result.bits))}"]
+    if result.region is not None:
+        region = result.region
+        lines.append(
+            f"region       columns {region.first_column} to {region.last_column - 1}, "
+            f"rows {region.first_row} to {region.last_row - 1}"
+        )
+    if result.chip_length is not None:
+        lines.append(f"chip length  {result.chip_length:.2f} columns")
+    if result.confidence is not None:
+        lines.append(f"confidence   {result.confidence:.3f}")
+        lines.append(f"correlation  {result.correlation:.4f}")
+    if result.chips.size:
+        lines.append(f"chips        {''.join(map(str, result.chips))}")
+    return lines

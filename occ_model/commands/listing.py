@@ -1,0 +1,39 @@
+"""``occ-model presets`` and ``occ-model parameters``."""
+
+import argparse
+
+from occ_model.commands.parser import Commands
+from occ_model.parameters import PARAMETERS
+from occ_model.presets import preset_named, presets
+
+
+def add_to(commands: Commands) -> None:
+    """Add the commands."""
+    parser = commands.add_parser("presets", help="list the presets, or one with its sources")
+    parser.add_argument("name", nargs="?", help="the preset to show whole")
+    parser.set_defaults(command=_presets)
+    parser = commands.add_parser("parameters", help="list what --set can set")
+    parser.set_defaults(command=_parameters)
+
+
+def _presets(options: argparse.Namespace) -> int:
+    if options.name is None:
+        for name in presets():
+            print(f"{name:20}{preset_named(name).title}")
+        return 0
+    preset = preset_named(options.name)
+    print(preset.title)
+    for name, declaration in PARAMETERS.items():
+        value = declaration.format(preset.scene.value(name))  # type: ignore[arg-type]
+        note = preset.sources.get(name, "")
+        if name in preset.assumed:
+            note = f"assumed: {preset.assumed[name]}"
+        print(f"{name:26}{value:16}{note}".rstrip())
+    return 0
+
+
+def _parameters(_options: argparse.Namespace) -> int:
+    for name, declaration in PARAMETERS.items():
+        print(f"{name:26}{declaration.meaning}")
+        print(f"{'':26}allowed: {declaration.allowed}")
+    return 0

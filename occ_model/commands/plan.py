@@ -1,0 +1,26 @@
+"""``occ-model plan``."""
+
+import argparse
+
+from occ_model.commands.parser import Commands
+from occ_model.effects.plan import plan
+from occ_model.settings import (
+    add_scene_options,
+    add_simulation_options,
+    scene_of,
+    simulation_settings_of,
+)
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser("plan", help="say which effects a scene calls for, and why")
+    add_scene_options(parser)
+    add_simulation_options(parser)
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    scene, settings = scene_of(options), simulation_settings_of(options)
+    print(plan(scene, settings.tolerance, settings.observable, settings.force))
+    return 0

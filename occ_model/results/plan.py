@@ -1,0 +1,81 @@
+"""Which effects are simulated, and why."""
+
+from dataclasses import dataclass
+
+from occ_model.simulation_settings import Observable
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What a plan does with one effect.
+
+    Parameters
+    ----------
+    effect
+        Its name.
+    label
+        The field's term for it.
+    kind
+        ``"column"``: it leaves all rows of the panel alike; ``"noise"``: alike but for independent
+        noise; ``"image"``: not alike.
+    bound
+        How much leaving it out can change what is observed, root mean square in levels of the
+        stretched profile. 0 where the scene has none of it.
+    included
+        Whether it is simulated.
+    forced
+        Whether the user decided so.
+    reason
+        Why, in words.
+    """
+
+    effect: str
+    label: str
+    kind: str
+    bound: float
+    included: bool
+    forced: bool
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Which effects are simulated, and why.
+
+    Parameters
+    ----------
+    tolerance
+        How much all that is left out may change what is observed, in levels of the stretched
+        profile.
+    observable
+        What is observed: ``"image"`` or ``"profile"``.
+    decisions
+        One for each effect, in the order that light travels.
+    left_out
+        How much all that is left out, by the plan and not by the user, can change what is
+        observed: at most the tolerance.
+    stretch
+        Levels of the stretched profile to one grey level.
+    """
+
+    tolerance: float
+    observable: Observable
+    decisions: tuple[Decision, ...]
+    left_out: float
+    stretch: float
+
+    def __contains__(self, effect: object) -> bool:
+        return any(d.effect == effect and d.included for d in self.decisions)
+
+    @property
+    def included(self) -> tuple[str, ...]:
+        """The names of the effects that are simulated."""
+        return tuple(d.effect for d in self.decisions if d.included)
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        """The kinds of the effects that are simulated."""
+        return frozenset(d.kind for d in self.decisions if d.included)
+
+    def __str__(self) -> str:
+        return "\n".join(f"{d.label}: {d.reason}" for d in self.decisions)

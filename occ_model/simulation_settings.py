@@ -1,0 +1,40 @@
+"""How a scene is simulated: what its picture may differ by, and where its noise comes from."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+Observable: TypeAlias = Literal["profile", "image"]
+"""What an error is counted in: the panel's bounding rectangle, or the means of its columns."""
+
+OBSERVABLES: tuple[Observable, ...] = ("profile", "image")
+
+NoiseSource: TypeAlias = Literal["exact", "reused"]
+"""Whether noise is drawn for every pixel, or taken from a plane of noise again and again."""
+
+NOISE_SOURCES: tuple[NoiseSource, ...] = ("exact", "reused")
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationSettings:
+    """All that :func:`occ_model.render` is told besides the scene.
+
+    Parameters
+    ----------
+    tolerance
+        How much effects left out may change, in levels of the stretched profile.
+    observable
+        What the tolerance is of.
+    force
+        Effects switched on (True) or off (False) by hand.
+    noise
+        Where noise comes from.
+    seed
+        Of all that is random.
+    """
+
+    tolerance: float = 0.5
+    observable: Observable = "image"
+    force: Mapping[str, bool] = field(default_factory=dict)
+    noise: NoiseSource = "exact"
+    seed: int = 1

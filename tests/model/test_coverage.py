@@ -1,0 +1,150 @@
+"""How much of each pixel the panel covers, against counting and against direct blurs."""
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from occ_model.camera.coverage import Coverage
+from occ_model.camera.projection import row_spans
+
+ROWS, COLUMNS = 90, 120
+STAR = np.array(
+    [[60, 4.3], [70.2, 35], [110.7, 38], [75.1, 50], [100, 85.6], [59.5, 60], [20.3, 85], [45, 50]]
+)
+POINT = st.tuples(st.floats(-200, 300), st.floats(-200, 300))
+
+
+def covered(
+    outline: np.ndarray, blur: float = 0.0, size: tuple[int, int] = (ROWS, COLUMNS)
+) -> np.ndarray:
+    return Coverage(outline, *size, blur).rows(0, size[0])
+
+
+def counted(outline: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Which pixels lie inside, each by the edges that a ray to its left crosses."""
+    x, y = columns[None, :], rows[:, None]
+    inside = np.zeros((len(rows), len(columns)), dtype=bool)
+    for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        if y0 == y1:
+            continue
+        crossed = ((y0 <= y) != (y1 <= y)) & (x0 + (y - y0) / (y1 - y0) * (x1 - x0) <= x)
+        inside ^= crossed
+    return inside
+
+
+def blurred(outline: np.ndarray, blur: float, size: tuple[int, int]) -> np.ndarray:
+    """The same at full resolution: a sharp mask, wide margins round it, one Gaussian blur."""
+    rows, columns = size
+    margin = int(5 * blur) + 1
+    mask = counted(outline, np.arange(-margin, rows + margin), np.arange(-margin, columns + margin))
+    wide = cv2.GaussianBlur(mask.astype(np.float64), (0, 0), blur)
+    return wide[margin:-margin, margin:-margin]
+
+
+def convex_quad(rng: np.random.Generator, reach: float) -> np.ndarray:
+    """Four points in order round an ellipse, turned and moved."""
+    angle = np.sort(rng.uniform(0, 2 * np.pi, 4))
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    stretched = circle @ rng.normal(0, reach, (2, 2))
+    return stretched + rng.uniform(-0.5, 1.5, 2) * (COLUMNS, ROWS)
+
+
+@pytest.mark.parametrize("reach", [1.0, 30.0, 300.0, 1e6])
+def test_sharp_coverage_of_a_convex_outline_is_its_row_spans(reach: float) -> None:
+    rng = np.random.default_rng(5)
+    for _ in range(50):
+        outline = convex_quad(rng, reach)[:: rng.choice([-1, 1])]
+        first, last = row_spans(outline, ROWS, COLUMNS)
+        column = np.arange(COLUMNS)
+        expected = (column >= first[:, None]) & (column < last[:, None])
+        np.testing.assert_array_equal(covered(outline), expected)
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+@pytest.mark.parametrize("scale", [0.3, 1.0, 1.7, 40.0])
+def test_a_concave_outline_covers_just_the_pixels_inside(scale: float, turned: int) -> None:
+    middle = np.array([60.0, 45.0])
+    outline = ((STAR - middle) * scale + middle)[::turned]
+    expected = counted(outline, np.arange(ROWS), np.arange(COLUMNS))
+    assert expected.any()
+    np.testing.assert_array_equal(covered(outline), expected)
+
+
+@given(points=st.lists(POINT, min_size=3, max_size=3, unique=True))
+def test_triangles_cover_just_the_pixels_inside(points: list[tuple[float, float]]) -> None:
+    outline = np.array(points)
+    expected = counted(outline, np.arange(ROWS), np.arange(COLUMNS))
+    found = covered(outline)
+    y, x = np.mgrid[0:ROWS, 0:COLUMNS].astype(float)
+    clear = np.ones((ROWS, COLUMNS), dtype=bool)
+    for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        clear &= np.abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)) > 1e-6
+    np.testing.assert_array_equal(found[clear], expected[clear])
+
+
+@pytest.mark.parametrize("blur", [0.0, 0.3, 2.0, 15.0, 210.0])
+def test_an_outline_far_outside_covers_nothing_and_one_round_all_covers_all(blur: float) -> None:
+    square = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]]) * 1e7
+    for shift in ([3e7, 0], [-3e7, 0], [0, 3e7], [0, -3e7]):
+        assert covered(square + shift, blur).max() < 1e-7
+    np.testing.assert_allclose(covered(square, blur), 1.0, rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize("blur", [0.4, 1.0, 3.0, 7.9, 8.0, 12.5, 30.0, 60.0])
+@pytest.mark.parametrize("scale", [0.5, 1.0, 3.0])
+def test_blurred_coverage_is_a_blur_at_full_resolution(scale: float, blur: float) -> None:
+    outline = (STAR - [60, 45]) * scale + [70, 40]
+    expected = blurred(outline, blur, (ROWS, COLUMNS))
+    # The coarse grid's cells and the straight lines between them add 1/64 to its variance.
+    largest = 6e-3 if blur >= 8.0 else 2e-4
+    np.testing.assert_allclose(covered(outline, blur), expected, rtol=0, atol=largest)
+
+
+@pytest.mark.parametrize("blur", [1e-3, 0.1, 2.0, 9.0, 20.0, 33.3])
+def test_a_blur_spreads_light_and_loses_none(blur: float) -> None:
+    size = (400, 500)
+    outline = np.array([[200.2, 170.9], [301.7, 180.3], [290.4, 230.8], [195.5, 220.6]])
+    sharp = covered(outline, 0.0, size)
+    soft = covered(outline, blur, size)
+    assert soft.sum() == pytest.approx(sharp.sum(), rel=2e-3)
+    row, column = np.mgrid[0 : size[0], 0 : size[1]]
+    for place in (row, column):
+        assert np.average(place, weights=soft) == pytest.approx(
+            np.average(place, weights=sharp), abs=0.02 + 0.002 * blur
+        )
+        spread = [
+            np.average((place - np.average(place, weights=w)) ** 2, weights=w)
+            for w in (soft, sharp)
+        ]
+        assert spread[0] - spread[1] == pytest.approx(blur**2, rel=0.03, abs=0.02)
+
+
+@pytest.mark.parametrize("blur", [0.0, 3.0, 20.0])
+def test_rows_are_the_same_however_many_are_asked_for(blur: float) -> None:
+    whole = Coverage(STAR, ROWS, COLUMNS, blur)
+    one_by_one = np.concatenate([whole.rows(row, row + 1) for row in range(ROWS)])
+    np.testing.assert_allclose(one_by_one, whole.rows(0, ROWS), rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("blur", [0.2, 1.0, 5.0, 10.0, 100.0])
+def test_an_outline_beyond_the_rim_is_not_darker_at_the_rim(blur: float) -> None:
+    reach = 6.0 * blur + 10.0
+    outline = np.array(
+        [[-reach, 20.0], [COLUMNS + reach, 20.0], [COLUMNS + reach, 70.0], [-reach, 70.0]]
+    )
+    soft = covered(outline, blur)
+    # As many rows of it are above and below each pixel at the rim as in the middle.
+    np.testing.assert_allclose(soft, np.tile(soft[:, 60:61], COLUMNS), rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize("blur", [5e-324, 1e-200, 1e-20, 1e-3])
+def test_a_blur_of_next_to_nothing_is_sharp(blur: float) -> None:
+    np.testing.assert_array_equal(covered(STAR, blur), covered(STAR))
+
+
+@pytest.mark.parametrize("blur", [0.0, 4.0, 40.0])
+def test_a_picture_of_one_pixel_is_covered(blur: float) -> None:
+    square = np.array([[-500.0, -500], [500, -500], [500, 500], [-500, 500]])
+    assert covered(square, blur, (1, 1))[0, 0] == pytest.approx(1.0, abs=1e-4)

@@ -1,0 +1,202 @@
+"""Laws of a lens that bends straight lines, against OpenCV's model of one."""
+
+import dataclasses
+from functools import lru_cache
+
+import cv2
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.camera.optics import Optics
+from occ_model.camera.projection import image_rays
+from occ_model.effects.distortion import Distortion
+from occ_model.scene import Lens, Scene
+
+ROWS, COLUMNS = 200, 400
+LENSES = [
+    {"radial_k1": 0.2},
+    {"radial_k1": -0.1, "radial_k2": 0.02},
+    {"tangential_p1": 0.02},
+    {"tangential_p2": -0.03},
+    {"radial_k1": -0.12, "radial_k2": 0.03, "tangential_p1": 0.01, "tangential_p2": -0.015},
+]
+POSES = [
+    {"distance": 1.2},
+    {"distance": 0.9, "roll": 0.4},
+    {"distance": 1.5, "yaw": 0.6, "pitch": -0.3, "roll": -1.0, "offset_x": 0.1},
+]
+HUGE = [{"distance": 0.2}, {"distance": 0.05, "roll": 0.5}, {"distance": 0.5, "yaw": 0.8}]
+ONLY = {"sensor-noise": False, "fixed-pattern": False, "distortion": True}
+
+
+def bent(**changes: float | str) -> Scene:
+    return Scene().replace(rows=ROWS, columns=COLUMNS, enhancement="none").replace(**changes)
+
+
+def outline_of(scene: Scene) -> np.ndarray:
+    return Distortion().apply(scene, Optics(occ.panel_corners(scene))).outline
+
+
+def opencv_camera(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """The camera matrix, and the coefficients in OpenCV's order."""
+    focal, lens = scene.camera.focal_length_pixels, scene.lens
+    matrix = np.array([[focal, 0, (COLUMNS - 1) / 2], [0, focal, (ROWS - 1) / 2], [0, 0, 1.0]])
+    coefficients = [lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2]
+    return matrix, np.array(coefficients)
+
+
+def projected(points: np.ndarray, scene: Scene) -> np.ndarray:
+    """Points in the camera's coordinates, pictured by OpenCV with the distortion."""
+    still = np.zeros(3)
+    pictured, _ = cv2.projectPoints(points, still, still, *opencv_camera(scene))
+    return pictured[:, 0]
+
+
+@lru_cache
+def rays_of_pixels(lens: Lens) -> np.ndarray:
+    """The ray that reaches each pixel: OpenCV's projection undone, step by step."""
+    scene = dataclasses.replace(bent(), lens=lens)
+    row, column = np.mgrid[0:ROWS, 0:COLUMNS].astype(float)
+    pixels = np.column_stack([column.ravel(), row.ravel()])
+    rays = image_rays(pixels, scene.camera)
+    for _ in range(15):
+        missed = pixels - projected(np.column_stack([rays, np.ones(len(rays))]), scene)
+        rays = rays + missed / scene.camera.focal_length_pixels
+    assert np.abs(missed).max() < 1e-3
+    return rays
+
+
+def panel_seen(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Pixels that see the panel, by the ray that reaches each; and those whose ray is at its rim."""
+    rays = rays_of_pixels(scene.lens)
+    corners = image_rays(occ.panel_corners(scene), scene.camera)
+    inside, margin = np.ones(len(rays), dtype=bool), np.full(len(rays), np.inf)
+    for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        edge = (end - start) / np.hypot(*(end - start))
+        side = edge[0] * (rays[:, 1] - start[1]) - edge[1] * (rays[:, 0] - start[0])
+        inside &= side >= 0
+        margin = np.minimum(margin, np.abs(side))
+    at_rim = margin * scene.camera.focal_length_pixels < 0.02
+    return inside.reshape(ROWS, COLUMNS), at_rim.reshape(ROWS, COLUMNS)
+
+
+@pytest.mark.parametrize("lens", LENSES)
+@pytest.mark.parametrize("pose", POSES)
+def test_the_corners_are_where_opencv_projects_them(
+    lens: dict[str, float], pose: dict[str, float]
+) -> None:
+    scene = bent(**lens, **pose)
+    rays = image_rays(occ.panel_corners(scene), scene.camera)
+    expected = projected(np.column_stack([rays, np.ones(4)]), scene)
+    outline = outline_of(scene)
+    for corner in expected:
+        assert np.hypot(*(outline - corner).T).min() < 1e-9
+
+
+@pytest.mark.parametrize("lens", LENSES)
+@pytest.mark.parametrize("pose", POSES)
+def test_the_edges_run_where_opencv_projects_them(
+    lens: dict[str, float], pose: dict[str, float]
+) -> None:
+    scene = bent(**lens, **pose)
+    rays = image_rays(occ.panel_corners(scene), scene.camera)
+    share = np.linspace(0, 1, 1001)[:, None, None]
+    points = (rays * (1 - share) + np.roll(rays, -1, axis=0) * share).reshape(-1, 2)
+    expected = projected(np.column_stack([points, np.ones(len(points))]), scene)
+    outline = outline_of(scene)
+    following = np.roll(outline, -1, axis=0) - outline
+    offset = expected[:, None] - outline
+    along = np.clip((offset * following).sum(-1) / (following**2).sum(-1), 0, 1)
+    distance = np.hypot(*np.moveaxis(offset - along[..., None] * following, -1, 0)).min(axis=1)
+    assert distance.max() < 0.02
+
+
+@pytest.mark.parametrize("lens", LENSES)
+@pytest.mark.parametrize("pose", POSES + HUGE)
+def test_a_pixel_shows_the_panel_where_its_ray_meets_it(
+    lens: dict[str, float], pose: dict[str, float]
+) -> None:
+    scene = bent(**lens, **pose, pattern="1", illuminance=0.0)
+    inside, at_rim = panel_seen(scene)
+    image = occ.render(scene, force=ONLY).image
+    np.testing.assert_array_equal((image > 0)[~at_rim], inside[~at_rim])
+    assert at_rim.mean() < 0.01
+
+
+@pytest.mark.parametrize("lens", LENSES)
+def test_stripes_stay_columns(lens: dict[str, float]) -> None:
+    scene = bent(**lens, distance=0.9, roll=0.2, enhancement="equalization")
+    frame = occ.render(scene, force=ONLY)
+    inside, at_rim = panel_seen(scene)
+    columns = np.broadcast_to(occ.render(scene, tolerance=float("inf")).enhanced, inside.shape)
+    shown = inside & ~at_rim
+    assert shown.mean() > 0.3
+    np.testing.assert_array_equal(frame.image[shown], columns[shown])
+    outside = frame.image[~inside & ~at_rim]
+    assert outside.min() == outside.max()
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+@pytest.mark.parametrize("pose", POSES)
+def test_a_lens_without_coefficients_is_nothing(pose: dict[str, float], enhancement: str) -> None:
+    # A start at which no column lies halfway between two grey levels.
+    scene = bent(enhancement=enhancement, start_time=1.2345e-4, **pose)
+    bare = occ.render(scene, tolerance=float("inf"))
+    forced = occ.render(scene, tolerance=float("inf"), force={"distortion": True})
+    assert Distortion().bound(scene, "image") == 0.0
+    np.testing.assert_array_equal(forced.image, bare.image)
+
+
+def test_a_lens_with_hardly_any_distortion_pictures_the_straight_panel() -> None:
+    scene = bent(radial_k1=1e-12, roll=0.4, distance=0.9)
+    bare = occ.render(scene, tolerance=float("inf"))
+    np.testing.assert_array_equal(occ.render(scene, force=ONLY).image, bare.image)
+
+
+@pytest.mark.parametrize(
+    "lens",
+    [
+        {"radial_k1": -1.0},
+        {"radial_k1": -0.5},
+        {"radial_k2": -5.0},
+        {"tangential_p1": 0.9},
+    ],
+)
+@pytest.mark.parametrize("distance", [0.05, 1.2, 50.0])
+def test_a_lens_that_folds_the_picture_is_refused_with_its_coefficients(
+    lens: dict[str, float], distance: float
+) -> None:
+    with pytest.raises(occ.ProjectionError) as refusal:
+        occ.render(bent(**lens, distance=distance), force=ONLY)
+    for name, value in lens.items():
+        assert f"{name[-2]}_{name[-1]} = {value:g}" in str(refusal.value)
+
+
+@pytest.mark.parametrize("k1", [-0.15, 0.5, 10.0])
+def test_a_panel_a_thousand_times_the_picture_fills_it(k1: float) -> None:
+    scene = bent(radial_k1=k1, distance=0.001)
+    frame = occ.render(scene, force=ONLY)
+    np.testing.assert_array_equal(frame.image, np.tile(frame.enhanced, (ROWS, 1)))
+
+
+def test_a_panel_out_of_sight_leaves_the_picture_dark() -> None:
+    for offset in (3.0, 40.0, 5000.0):
+        scene = bent(radial_k1=-0.1, offset_x=offset)
+        frame = occ.render(scene, tolerance=0, force=ONLY)
+        assert frame.image.min() == frame.image.max()
+
+
+@pytest.mark.parametrize("lens", LENSES)
+@pytest.mark.parametrize("pose", POSES)
+def test_leaving_distortion_out_changes_no_more_than_its_bound(
+    lens: dict[str, float], pose: dict[str, float]
+) -> None:
+    scene = bent(**lens, **pose, pattern="1")
+    bare = occ.render(scene, tolerance=float("inf"))
+    left, top = np.ceil(np.maximum(bare.corners.min(axis=0), 0)).astype(int)
+    right, bottom = np.floor(bare.corners.max(axis=0)).astype(int) + 1
+    change = occ.render(scene, force=ONLY).image.astype(float) - bare.image
+    seen = change[top:bottom, left:right]
+    # Both pictures are rounded, to the same two values.
+    assert np.sqrt(np.mean(seen**2)) <= Distortion().bound(scene, "image") + 0.01

@@ -1,0 +1,115 @@
+"""Laws of a picture that is darker towards its corners."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.effects.vignetting import Vignetting
+from occ_model.exposure import PixelExposure
+from occ_model.scene import Scene
+from occ_model.simulation import expose_columns
+from occ_model.stage_clock import StageClock
+
+ONLY = {"sensor-noise": False, "fixed-pattern": False, "vignetting": True}
+
+
+def vignetted(**changes: float | str) -> Scene:
+    """A steady panel that fills a picture whose middle pixel lies on the optical axis."""
+    chosen: dict[str, float | str] = {
+        "rows": 101,
+        "columns": 301,
+        "pattern": "1",
+        "distance": 0.1,
+        "vignetting_exponent": 4.0,
+        "luminance": 2000.0,
+        "enhancement": "none",
+    }
+    return Scene().replace(**(chosen | changes))
+
+
+def exposed(scene: Scene, force: dict[str, bool]) -> PixelExposure:
+    plan = occ.plan(scene, force=force)
+    columns = expose_columns(scene, plan)
+    return PixelExposure(scene, plan, columns.panel, columns.surroundings, StageClock())
+
+
+def shown(scene: Scene, force: dict[str, bool] = ONLY) -> np.ndarray:
+    """The pixel values before rounding, shape (rows, columns)."""
+    return np.concatenate([part.values() for part in exposed(scene, force).rows(1, "exact")])
+
+
+def cosine(scene: Scene, row: int, column: int) -> float:
+    """Of the angle between a pixel's ray and the axis, which meets row 50 and column 150."""
+    off_axis = math.hypot(row - 50, column - 150)
+    return math.cos(math.atan(off_axis / scene.camera.focal_length_pixels))
+
+
+@pytest.mark.parametrize("gamma", [1.0, 2.22])
+@pytest.mark.parametrize("exponent", [1.0, 4.0, 8.0])
+def test_pixels_darken_by_the_power_of_their_cosine(exponent: float, gamma: float) -> None:
+    scene = vignetted(vignetting_exponent=exponent, gamma=gamma, luminance=1000.0)
+    values = shown(scene)
+    unvignetted = occ.column_profile(scene)[0]
+    assert unvignetted < 255.0
+    for pixel in ((50, 150), (50, 0), (0, 150), (0, 0), (100, 300), (13, 222)):
+        factor = cosine(scene, *pixel) ** (exponent / gamma)
+        assert values[pixel] == pytest.approx(unvignetted * factor, rel=1e-5)
+
+
+def test_on_the_axis_nothing_is_lost() -> None:
+    scene = vignetted()
+    assert shown(scene)[50, 150] == pytest.approx(occ.column_profile(scene)[150], rel=1e-6)
+
+
+def test_all_light_is_lost_alike_that_of_the_surroundings_too() -> None:
+    scene = vignetted(distance=3.0, illuminance=3000.0)
+    values = shown(scene)
+    dark = float(occ.column_profile(scene.replace(pattern="0"))[0])
+    assert values[0, 0] == pytest.approx(dark * cosine(scene, 0, 0) ** (4 / 2.22), rel=1e-5)
+
+
+def test_the_picture_is_the_vignetted_one_rounded() -> None:
+    scene = vignetted(pattern="", distance=2.0)
+    frame = occ.render(scene, force=ONLY)
+    np.testing.assert_array_equal(frame.image, np.rint(shown(scene)))
+
+
+def test_an_even_lens_is_nothing() -> None:
+    scene = vignetted(vignetting_exponent=0.0, pattern="", distance=2.0)
+    assert Vignetting().bound(scene, "image") == 0.0
+    bare = occ.render(scene, tolerance=float("inf"))
+    forced = occ.render(scene, tolerance=float("inf"), force={"vignetting": True})
+    np.testing.assert_array_equal(forced.image, bare.image)
+
+
+@pytest.mark.parametrize("limit", ["white", "full well"])
+def test_light_is_lost_before_a_pixel_is_full(limit: str) -> None:
+    scene = vignetted(iso=2000.0, full_well=1e9)
+    unlimited = float(np.ravel(expose_columns(scene, occ.plan(scene, np.inf)).panel)[0])
+    full = 255.0
+    if limit == "full well":
+        # As many electrons as the pixel value 200 stands for, of the light of the lit panel.
+        light = 0.65 * 136e-6 / 2.48**2 * (2000 + 290 * 0.4 / math.pi) * 8.8e15 * 1e-12 * 0.55
+        full = 200.0
+        scene = scene.replace(full_well=light * (full / unlimited) ** 2.22)
+    values = shown(scene, ONLY | {"full-well": True})
+    corner = unlimited * cosine(scene, 0, 0) ** (4 / 2.22)
+    assert unlimited > 255.0
+    assert values[50, 150] == pytest.approx(full, rel=1e-3)
+    assert values[0, 0] == pytest.approx(min(corner, full), rel=1e-3)
+
+
+@pytest.mark.parametrize("luminance", [100.0, 2000.0, 1e5])
+@pytest.mark.parametrize("distance", [0.1, 2.0])
+def test_leaving_vignetting_out_changes_no_more_than_its_bound(
+    luminance: float, distance: float
+) -> None:
+    scene = vignetted(luminance=luminance, distance=distance, pattern="")
+    with_it, without = (
+        exposed(scene, ONLY | {"vignetting": on}).observed("image", 1, "exact")
+        for on in (True, False)
+    )
+    change = with_it - without
+    assert 0.0 < np.sqrt(np.mean(change**2)) <= Vignetting().bound(scene, "image")

@@ -21,7 +21,7 @@ from occ_model.effects.registry import planned
 from occ_model.exposure import PixelExposure
 from occ_model.results import Frame, Plan
 from occ_model.scene import Scene
-from occ_model.simulation_settings import NOISE_SOURCES, NoiseSource, Observable
+from occ_model.simulation_settings import NOISE_SOURCES, TOLERANCE, NoiseSource, Observable
 from occ_model.stage_clock import StageClock
 
 
@@ -75,7 +75,7 @@ def expose_columns(scene: Scene, chosen: Plan, clock: StageClock | None = None) 
 def render(
     scene: Scene,
     *,
-    tolerance: float = 0.5,
+    tolerance: float = TOLERANCE.default,
     seed: int = 1,
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,

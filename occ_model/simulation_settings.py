@@ -1,8 +1,12 @@
 """How a scene is simulated: what its picture may differ by, and where its noise comes from."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
+
+from occ_model.declarations import Quantity
+from occ_model.units import LEVEL
 
 Observable: TypeAlias = Literal["profile", "image"]
 """What an error is counted in: the panel's bounding rectangle, or the means of its columns."""
@@ -13,6 +17,15 @@ NoiseSource: TypeAlias = Literal["exact", "reused"]
 """Whether noise is drawn for every pixel, or taken from a plane of noise again and again."""
 
 NOISE_SOURCES: tuple[NoiseSource, ...] = ("exact", "reused")
+
+
+TOLERANCE = Quantity(
+    "tolerance",
+    "Tolerance",
+    "",
+    "How much effects left out may change what is observed, in levels of the stretched profile.",
+    unit=LEVEL, low=0.0, high=math.inf, slider=(0.01, 100.0), scale="log", default=0.5,
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +46,7 @@ class SimulationSettings:
         Of all that is random.
     """
 
-    tolerance: float = 0.5
+    tolerance: float = TOLERANCE.default
     observable: Observable = "image"
     force: Mapping[str, bool] = field(default_factory=dict)
     noise: NoiseSource = "exact"

@@ -130,4 +130,5 @@ RADIAN = Unit("rad", shown=("°", math.pi / 180), spellings=(("deg", math.pi / 1
 LUX = Unit("lx")
 NIT = Unit("cd/m²", spellings=(("cd/m2", 1.0), ("nit", 1.0), ("nits", 1.0)))
 PIXEL = Unit("px", spellings=(("pixel", 1.0), ("pixels", 1.0)))
+LEVEL = Unit("levels")
 ELECTRON = Unit("e⁻", spellings=(("e", 1.0), ("e-", 1.0), ("electrons", 1.0)))

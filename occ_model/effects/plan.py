@@ -5,19 +5,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
-from occ_model.checks import check_choice, check_tolerance
+from occ_model.checks import check_choice
 from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.noise_bound import steepness
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sight import sight_of
 from occ_model.results import Decision, Plan
 from occ_model.scene import Scene
-from occ_model.simulation_settings import OBSERVABLES, Observable
+from occ_model.simulation_settings import OBSERVABLES, TOLERANCE, Observable
 
 
 def plan(
     scene: Scene,
-    tolerance: float = 0.5,
+    tolerance: float = TOLERANCE.default,
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,
 ) -> Plan:
@@ -56,7 +56,7 @@ def plan(
     ProjectionError
         Part of the panel is behind the camera.
     """
-    check_tolerance(tolerance)
+    tolerance = TOLERANCE.check(tolerance)
     check_choice("observable", observable, OBSERVABLES)
     forced = dict(force or {})
     for name in forced:
@@ -70,7 +70,7 @@ def plan(
     decisions = tuple(
         _decide(effect, bounds[effect.name], budget, forced.get(effect.name)) for effect in EFFECTS
     )
-    return Plan(float(tolerance), observable, decisions, budget.spent, stretch)
+    return Plan(tolerance, observable, decisions, budget.spent, stretch)
 
 
 def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, float]:

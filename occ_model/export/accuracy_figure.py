@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,14 +11,13 @@ from occ_model import colours
 from occ_model.export.drawing import house_style, save_figure
 from occ_model.export.provenance import Provenance
 from occ_model.export.tables import write_table
-from occ_model.results import ACCURACY_PARTS, AccuracyPoint
+from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
 
 _NAME = "accuracy"
 
-_LEAST_ERROR = 1e-16
-"""Levels at which no error at all is drawn: a logarithmic scale has no zero."""
+_SMALL: dict[str, Any] = {"fontsize": 6, "ha": "center", "va": "bottom", "color": "grey"}
 
 _MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "D"), strict=True))
 _COLOURS = dict(
@@ -27,8 +27,6 @@ _COLOURS = dict(
         strict=True,
     )
 )
-_NAMED_EVERY = 4
-"""Of the samples, only every so many are named."""
 
 
 def write_accuracy_figure(
@@ -66,33 +64,41 @@ def write_accuracy_figure(
 
 
 def _draw(points: Sequence[AccuracyPoint]) -> Figure:
-    figure = Figure(figsize=(7.2, 6.4))
-    axes = figure.subplots(2, 2)
-    for ax, (part, title) in zip(axes.flat, ACCURACY_PARTS.items(), strict=True):
+    figure = Figure(figsize=(7.2, 4.6))
+    ax = figure.subplots()
+    for part in ACCURACY_PARTS:
         _draw_part(ax, part, [point for point in points if point.part == part])
-        ax.set_title(title, fontsize=9)
-    figure.supxlabel("time (ms)", fontsize=9)
-    figure.supylabel("root mean square error (levels of the stretched profile)", fontsize=9)
+    ax.plot([], [], "o", markersize=8, fillstyle="none", color="black", label="current setting")
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.margins(0.08)
+    ax.set_ylim(bottom=LEAST_ERROR / 1.6)
+    ax.axhline(LEAST_ERROR, color="grey", linewidth=0.5, linestyle="--")
+    ax.text(0.4, LEAST_ERROR, "this or less", transform=ax.get_yaxis_transform(), **_SMALL)
+    ax.grid(linewidth=0.3)
+    ax.set_xlabel("time (ms)")
+    ax.set_ylabel("root mean square error\n(levels of the stretched profile)")
+    figure.legend(loc="outside right center", frameon=False, fontsize=7)
     return figure
 
 
 def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> None:
-    if not points:
-        ax.text(0.5, 0.5, "nothing to compare", ha="center", transform=ax.transAxes)
-        return
+    style: dict[str, Any] = {"color": _COLOURS[part], "marker": _MARKERS[part], "markersize": 4}
     times = [1e3 * point.seconds for point in points]
-    errors = [max(point.error, _LEAST_ERROR) for point in points]
-    line = "-" if part in ("integration", "effects") else ""
-    ax.plot(times, errors, linestyle=line, linewidth=0.8, color=_COLOURS[part], alpha=0.5)
-    ax.plot(times, errors, linestyle="", marker=_MARKERS[part], markersize=4, color=_COLOURS[part])
-    for number, point in enumerate(points):
-        x, y = times[number], errors[number]
+    errors = [max(point.error, LEAST_ERROR) for point in points]
+    line = "-" if part in CHAINED_PARTS else ""
+    ax.plot(times[:-1], errors[:-1], linestyle=line, linewidth=0.7, **style)
+    ax.plot(times[-1:], errors[-1:], linestyle="", label=ACCURACY_PARTS[part], **style)
+    for number, (point, x, y) in enumerate(zip(points, times, errors, strict=True)):
+        # Side by side, so that neighbours' names do not cover each other.
+        side = -1 if number % 2 else 1
+        align = "left" if side > 0 else "right"
+        name = point.name if part != "effects" else str(number)
+        if part != "integration" or number % 4 == 0 or point.current:
+            ax.annotate(
+                name, (x, y), (6 * side, 4), textcoords="offset points", fontsize=6, ha=align
+            )
+        if part == "effects":
+            ax.plot([], [], " ", label=f"   {number}  {point.name}")
         if point.current:
-            ax.plot(x, y, "o", markersize=11, fillstyle="none", color="black", zorder=3)
-        if part != "integration" or number % _NAMED_EVERY == 0 or point.current:
-            name = f"{point.name} (current)" if point.current else point.name
-            ax.annotate(name, (x, y), xytext=(5, 3), textcoords="offset points", fontsize=6)
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.margins(0.12)
-    ax.grid(linewidth=0.3)
+            ax.plot(x, y, "o", markersize=10, fillstyle="none", color="black", zorder=3)

@@ -1,12 +1,14 @@
 """What the model hands to whoever shows or stores it."""
 
-from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
+from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision, Plan
 
 __all__ = [
     "ACCURACY_PARTS",
+    "CHAINED_PARTS",
+    "LEAST_ERROR",
     "AccuracyPoint",
     "Decision",
     "DecodeResult",

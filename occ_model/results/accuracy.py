@@ -3,12 +3,18 @@
 from dataclasses import dataclass
 
 ACCURACY_PARTS = {
-    "integration": "exposure: samples in time against the closed form",
+    "integration": "exposure: samples in time, closed form",
     "effects": "effects, one after the other",
-    "path": "columns alone against whole pictures",
-    "noise": "noise drawn against noise used again",
+    "path": "columns alone, whole pictures",
+    "noise": "noise drawn, noise used again",
 }
 """What an accuracy study compares, and how it is called."""
+
+CHAINED_PARTS = ("integration", "effects")
+"""The parts whose points follow from each other, all but the last."""
+
+LEAST_ERROR = 1e-3
+"""Levels below which an error is drawn as this one: a thousandth of one is no error to anyone."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.results import DecodeResult, Plan
 from occ_model.scene import Scene
 from occ_model.simulation import render
+from occ_model.simulation_settings import TOLERANCE
 from occ_model.study.observation import decode_profile
 from occ_model.transmitter.packet import bits_of, packet_length
 
@@ -29,7 +30,7 @@ def success_rate(
     decoder: str = PAPERS,
     seed: int = 1,
     *,
-    tolerance: float = 0.5,
+    tolerance: float = TOLERANCE.default,
     force: Mapping[str, bool] | None = None,
     path: Way = "auto",
 ) -> float:

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.optics import Optics, Rows, picture_rows
+from occ_model.camera.optics import Optics, Panel, Rows, picture_rows
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
@@ -132,23 +131,21 @@ class PixelExposure:
         camera = self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.uint8)
         tally = _ColumnTally(camera.columns)
-        kept: list[Rows] = []
+        panels: list[tuple[slice, Panel]] = []
         for exposed in self.rows(seed, source):
-            rows = exposed.rows
-            block = image[rows.first : rows.last]
+            rows, panel = exposed.rows.place, exposed.rows.panel
             if self._files:
-                exposed.to_bytes(out=block)
-                kept.append(rows)
+                exposed.to_bytes(out=image[rows])
+                panels.append((rows, panel))
             else:
-                _enhance(exposed, enhancement, block)
-                tally.add(exposed)
+                _enhance(exposed, enhancement, image[rows])
+                tally.add(panel, exposed.mean, exposed.deviation)
             self._clock.done("image")
         if self._files:
             image = self._through_files(image)
-            for rows in kept:
-                block = image[rows.first : rows.last]
-                tally.add(ExposedRows(rows, block.astype(np.float32), None))
-                _enhance_bytes(block, enhancement, rows.panel)
+            for rows, panel in panels:
+                tally.add(panel, image[rows].astype(np.float32))
+                _enhance_bytes(image[rows], enhancement, panel)
             self._clock.done("image")
         return image, tally.means(saturate(self._panel))
 
@@ -165,7 +162,7 @@ class PixelExposure:
         camera = self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.float32)
         for exposed in self.rows(seed, source):
-            image[exposed.rows.first : exposed.rows.last] = exposed.values()
+            image[exposed.rows.place] = exposed.values()
         if self._files:
             image = self._through_files(to_bytes(image)).astype(np.float32)
         seen = image[region.first_row : region.last_row, region.first_column : region.last_column]
@@ -190,9 +187,7 @@ def _enhance(exposed: ExposedRows, enhancement: Enhancement, out: ByteArray) -> 
         _enhance_bytes(out, enhancement, exposed.rows.panel)
 
 
-def _enhance_bytes(
-    image: ByteArray, enhancement: Enhancement, panel: slice | NDArray[np.bool_]
-) -> None:
+def _enhance_bytes(image: ByteArray, enhancement: Enhancement, panel: Panel) -> None:
     """Enhance rounded grey levels within the panel, in place."""
     if not isinstance(panel, slice):
         np.copyto(image, enhancement.of_bytes(image), where=panel)
@@ -207,17 +202,17 @@ class _ColumnTally:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)
 
-    def add(self, exposed: ExposedRows) -> None:
+    def add(self, panel: Panel, mean: Pixels, deviation: Pixels | None = None) -> None:
         """Count some rows in."""
-        panel = exposed.rows.panel
         if not isinstance(panel, slice):
-            self._sums += _column_sums(np.where(panel, exposed.values(), np.float32(0.0)))
+            values = mean if deviation is None else mean + deviation
+            self._sums += _column_sums(np.where(panel, values, np.float32(0.0)))
             self._counts += np.count_nonzero(panel, axis=0)
         elif panel.stop > panel.start:
-            self._sums[panel] += _column_sums(exposed.mean[:, panel])
-            if exposed.deviation is not None:
-                self._sums[panel] += _column_sums(exposed.deviation[:, panel])
-            self._counts[panel] += len(exposed.mean)
+            self._sums[panel] += _column_sums(mean[:, panel])
+            if deviation is not None:
+                self._sums[panel] += _column_sums(deviation[:, panel])
+            self._counts[panel] += len(mean)
 
     def means(self, otherwise: FloatArray) -> FloatArray:
         """Give the means, and ``otherwise`` in columns without pixels."""

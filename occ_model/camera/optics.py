@@ -7,6 +7,7 @@ needs little more memory than its own bytes.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import TypeAlias
 
 import cv2
 import numpy as np
@@ -74,6 +75,10 @@ class Optics:
         return plain_outline and not (self.blur or self.emission or self.transmission)
 
 
+Panel: TypeAlias = slice | NDArray[np.bool_]
+"""Where the panel is in some rows: the same columns of each, or an array of them all."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Rows:
     """Some rows of a picture.
@@ -91,7 +96,12 @@ class Rows:
     first: int
     last: int
     values: Pixels
-    panel: slice | NDArray[np.bool_]
+    panel: Panel
+
+    @property
+    def place(self) -> slice:
+        """Which rows of the picture they are."""
+        return slice(self.first, self.last)
 
     def panel_mask(self) -> NDArray[np.bool_]:
         """Give where the panel is as an array, shape (rows, columns)."""

@@ -9,7 +9,7 @@ from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.photometry import pixel_value, saturate
 from occ_model.camera.projection import pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.sight import corner_points, reachable_luminances
+from occ_model.effects.sight import reachable_luminances, sight_of
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
@@ -32,7 +32,7 @@ class Emission(OpticsEffect):
         order = scene.transmitter.lambertian_order
         if order == 1.0:
             return 0.0
-        x, y = corner_points(scene).T
+        x, y = sight_of(scene).corner_rays.T
         least = float(_cosine(scene, x, y).min()) ** (order - 1.0)
         dark, bright = reachable_luminances(scene)
         return _largest_loss(scene, dark, bright - dark, least)

@@ -1,6 +1,7 @@
 """The camera keeps its picture as a JPEG file."""
 
 import math
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -42,7 +43,7 @@ class Jpeg(FileEffect):
         """Bound the change by half a step of every coefficient, and the pixels' rounding."""
         if scene.camera.jpeg_quality == 0:
             return 0.0
-        return _step(scene) / 2.0 + 2.0 * _ROUNDING
+        return _step(scene.camera.jpeg_quality) / 2.0 + 2.0 * _ROUNDING
 
     def passed_on(self, scene: Scene, change: float) -> float:
         """Add the steps that a change makes: as often as it is large against a step.
@@ -51,7 +52,7 @@ class Jpeg(FileEffect):
         c / q round to another step q.
         """
         rounded = math.hypot(change, math.sqrt(change))
-        return rounded + math.sqrt(rounded * _step(scene))
+        return rounded + math.sqrt(rounded * _step(scene.camera.jpeg_quality))
 
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
         """Write and read the file."""
@@ -70,6 +71,7 @@ def quantization_steps(quality: int) -> FloatArray:
     return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
 
 
-def _step(scene: Scene) -> float:
+@lru_cache(maxsize=101)
+def _step(quality: int) -> float:
     """Give the root mean square of the steps."""
-    return float(np.sqrt(np.mean(quantization_steps(scene.camera.jpeg_quality) ** 2)))
+    return float(np.sqrt(np.mean(quantization_steps(quality) ** 2)))

@@ -1,5 +1,7 @@
 """How much noise there is to see: what the bounds of the noise effects share."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from occ_model.arrays import FloatArray
@@ -51,6 +53,7 @@ def moves_light(scene: Scene) -> bool:
     )
 
 
+@lru_cache(maxsize=16)
 def _all_levels(scene: Scene) -> FloatArray:
     """Give the levels from the darkest pixel that any effects can make to the brightest one."""
     dark, bright = reachable_luminances(scene)

@@ -66,7 +66,7 @@ def plan(
     if tolerance == math.inf:  # also of what a bound says to be without end
         budget = _Budget(tolerance, frozenset(NAMES), 0.0)
     else:
-        budget = _spend(scene, tolerance, bounds, forced, stretch)
+        budget = _spend(scene, tolerance, observable, bounds, forced, stretch)
     decisions = tuple(
         _decide(effect, bounds[effect.name], budget, forced.get(effect.name)) for effect in EFFECTS
     )
@@ -100,6 +100,7 @@ class _Budget:
 def _spend(
     scene: Scene,
     tolerance: float,
+    observable: Observable,
     bounds: Mapping[str, float],
     forced: Mapping[str, bool],
     stretch: float,
@@ -112,7 +113,7 @@ def _spend(
     if not kept:
         return budget
     # A file is made of pixels, whatever is observed of it later.
-    pixels = _bounds(scene, "image", stretch)
+    pixels = bounds if observable == "image" else _bounds(scene, "image", stretch)
     free = sorted((n for n in free if n != kept[0].name), key=lambda name: pixels[name])
     return _leave_out(free, pixels, tolerance, kept[0], scene, stretch)
 

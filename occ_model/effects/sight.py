@@ -22,7 +22,7 @@ from occ_model.camera.photometry import (
 )
 from occ_model.camera.projection import image_rays, panel_corners
 from occ_model.results import Region
-from occ_model.scene import Scene
+from occ_model.scene import Camera, Scene
 
 _BINS = 64
 """Steps between the darkest and the brightest column in which columns are counted."""
@@ -41,6 +41,8 @@ class Sight:
         rectangle, None of any other.
     region
         The panel's bounding rectangle in the image; the whole image where no panel is seen.
+    corner_rays : ndarray of float64, shape (4, 2)
+        Its corners as rays (x, y), in focal lengths.
     swing
         Largest less smallest column value, at least one grey level.
     levels : ndarray of float64, shape (bins + 1,)
@@ -52,6 +54,7 @@ class Sight:
     corners: FloatArray
     sides: tuple[float, float, float, float] | None
     region: Region
+    corner_rays: FloatArray
     swing: float
     levels: FloatArray
     shares: FloatArray
@@ -88,10 +91,18 @@ def sight_of(scene: Scene) -> Sight:
         corners=corners,
         sides=_sides(corners),
         region=region,
+        corner_rays=_corner_rays(region, scene.camera),
         swing=max(float(seen.max() - seen.min()), FLAT),
         levels=levels,
         shares=counts[:_BINS] / len(inside),
     )
+
+
+def _corner_rays(region: Region, camera: Camera) -> FloatArray:
+    left, right = region.first_column, region.last_column - 1
+    top, bottom = region.first_row, region.last_row - 1
+    points = np.array([(left, top), (right, top), (right, bottom), (left, bottom)], np.float64)
+    return image_rays(points, camera)
 
 
 def region_of(corners: FloatArray, rows: int, columns: int) -> Region:
@@ -131,16 +142,7 @@ def contrast(scene: Scene) -> float:
     return shown_value(bright, scene) - shown_value(dark, scene)
 
 
-def corner_points(scene: Scene) -> FloatArray:
-    """Give the corners of the observed rectangle as rays (x, y), in focal lengths, shape (4, 2)."""
-    region = sight_of(scene).region
-    columns = (region.first_column, region.last_column - 1)
-    rows = (region.first_row, region.last_row - 1)
-    points = np.array([(column, row) for column in columns for row in rows], dtype=np.float64)
-    return image_rays(points, scene.camera)
-
-
 def off_axis_factor(scene: Scene) -> float:
     """Give cos of the largest angle off the optical axis within the observed rectangle."""
-    x, y = np.abs(corner_points(scene)).max(axis=0).tolist()
+    x, y = np.abs(sight_of(scene).corner_rays).max(axis=0).tolist()
     return 1.0 / math.sqrt(1.0 + x * x + y * y)

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
+from math import inf
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -25,6 +26,7 @@ from occ_model.scene import Scene
 _ROUNDS = 41
 _COLD_STARTS = 7
 _FIRST_FRAME = Path(__file__).with_name("first_frame.py")
+_PEAK_MEMORY = Path(__file__).with_name("peak_memory.py")
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,8 @@ def profile_cost() -> Row:
 def frame_cost() -> Row:
     """Compare a full phone frame with a plain copy of it."""
     scene = occ.load_preset("phone-136us")
-    image = occ.render(scene).image
-    a, b = side_by_side(lambda: occ.render(scene), image.copy)
+    image = occ.render(scene, tolerance=inf).image
+    a, b = side_by_side(lambda: occ.render(scene, tolerance=inf), image.copy)
     return Row(
         "noise-free full phone frame against a plain copy of it",
         f"{a / b:.2f} ({1e3 * a:.2f} ms, {1e3 * b:.2f} ms)",
@@ -79,15 +81,70 @@ def frame_cost() -> Row:
 def tilted_frame_cost() -> Row:
     """Compare a full phone frame with a tilted panel with a plain copy of it."""
     scene = occ.load_preset("phone-136us").replace(roll=0.3, yaw=0.3)
-    image = occ.render(scene).image
-    a, b = side_by_side(lambda: occ.render(scene), image.copy)
+    image = occ.render(scene, tolerance=inf).image
+    a, b = side_by_side(lambda: occ.render(scene, tolerance=inf), image.copy)
     return Row("the same with the panel tilted", f"{a / b:.2f} ({1e3 * a:.2f} ms)", "")
+
+
+def reused_noise_cost() -> Row:
+    """Compare a full phone frame with noise from a plane with a plain copy of it."""
+    scene = occ.load_preset("phone-136us")
+    image = occ.render(scene).image
+    a, b, exact = side_by_side(
+        lambda: occ.render(scene, noise="reused"), image.copy, lambda: occ.render(scene), rounds=11
+    )
+    return Row(
+        "the same with the sensor's noise from a reused plane",
+        f"{a / b:.0f} ({1e3 * a:.1f} ms; drawn for each pixel {1e3 * exact:.0f} ms)",
+        "at most 30",
+    )
+
+
+def complete_cost() -> Row:
+    """Compare a full phone frame with all effects with a plain copy of it."""
+    scene = occ.load_preset("phone-136us-real")
+    image = occ.render(scene).image
+    a, b, reused = side_by_side(
+        lambda: occ.render(scene, tolerance=0.0),
+        image.copy,
+        lambda: occ.render(scene, tolerance=0.0, noise="reused"),
+        rounds=5,
+    )
+    return Row(
+        "the same with all ten effects",
+        f"{a / b:.0f} ({1e3 * a:.0f} ms; noise from a reused plane {1e3 * reused:.0f} ms)",
+        "",
+    )
+
+
+def complete_memory() -> Row:
+    """Measure the peak memory of a full phone frame with all effects, in frames."""
+    command = [sys.executable, str(_PEAK_MEMORY), "phone-136us-real"]
+    frames = float(subprocess.run(command, check=True, capture_output=True).stdout)
+    return Row("its peak memory, in bytes of the frame", f"{frames:.1f}", "at most 10")
+
+
+def planning_cost() -> Row:
+    """Time planning: alone, and with every effect in the scene."""
+    bare, real = occ.load_preset("phone-136us"), occ.load_preset("phone-136us-real")
+    start = count()
+    a, b, profile = side_by_side(
+        lambda: occ.plan(bare.replace(start_time=1e-7 * next(start))),
+        lambda: occ.plan(real.replace(start_time=1e-7 * next(start))),
+        lambda: occ.column_profile(bare),
+        rounds=401,
+    )
+    return Row(
+        "planning, against the column profile alone",
+        f"{a / profile:.1f} ({1e3 * a:.2f} ms; with every effect in the scene {1e3 * b:.2f} ms)",
+        "under 0.3 ms",
+    )
 
 
 def decode_cost() -> Row:
     """Compare the decoding of a full phone frame with a plain copy of it."""
     scene = occ.load_preset("phone-136us")
-    image = occ.render(scene).image
+    image = occ.render(scene, tolerance=inf).image
     a, b = side_by_side(lambda: occ.decode(image, scene), image.copy)
     return Row(
         "threshold decoding of a full phone frame against a plain copy of it",
@@ -117,7 +174,7 @@ def profile_path_cost() -> Row:
     """Compare simulating and decoding a profile with making and decoding the image."""
     scene = occ.load_preset("phone-136us")
     a, b = side_by_side(
-        lambda: occ.decode(occ.render(scene).image, scene), lambda: _read_by_profile(scene)
+        lambda: occ.decode(occ.render(scene, tolerance=inf).image, scene), lambda: _read_by_profile(scene)
     )
     return Row(
         "the same by way of the image, against by way of the profile",
@@ -179,6 +236,10 @@ _ALL = (
     profile_cost,
     frame_cost,
     tilted_frame_cost,
+    reused_noise_cost,
+    complete_cost,
+    complete_memory,
+    planning_cost,
     decode_cost,
     profile_cost_with_reading,
     profile_path_cost,

@@ -1,0 +1,138 @@
+"""Laws of the accuracy study, and its command."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.results import ACCURACY_PARTS, AccuracyPoint
+from occ_model.scene import Scene
+from occ_model.simulation_settings import SimulationSettings
+from occ_model.study.accuracy import SAMPLES, accuracy, point_count
+from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
+
+SMALL = ("rows=80", "columns=400", "panel_width=0.1", "panel_height=0.02")
+
+
+def small(preset: str) -> Scene:
+    return occ.load_preset(preset).replace(
+        rows=80, columns=400, panel_width=0.1, panel_height=0.02, distance=0.5
+    )
+
+
+@pytest.fixture(scope="module")
+def points() -> list[AccuracyPoint]:
+    return list(accuracy(small("phone-136us-real")))
+
+
+def of(points: list[AccuracyPoint], part: str) -> list[AccuracyPoint]:
+    return [point for point in points if point.part == part]
+
+
+def test_every_part_is_measured_and_counted_before(points: list[AccuracyPoint]) -> None:
+    assert list(dict.fromkeys(point.part for point in points)) == list(ACCURACY_PARTS)
+    assert len(points) == point_count(small("phone-136us-real"))
+    assert all(point.seconds > 0.0 for point in points)
+
+
+@pytest.mark.parametrize("preset", ["phone-68us", "tablet-122us"])
+def test_points_are_counted_right_where_effects_are_few(preset: str) -> None:
+    scene = small(preset).replace(gain_variation=0.0)
+    settings = SimulationSettings(tolerance=np.inf)
+    assert len(list(accuracy(scene, settings))) == point_count(scene, settings)
+
+
+def test_the_closed_form_is_exact_and_samples_become_so_one_over_their_number(
+    points: list[AccuracyPoint],
+) -> None:
+    *samples, closed = of(points, "integration")
+    assert closed.error < 1e-9
+    assert len(samples) == len(SAMPLES) == 13
+    errors = np.array([point.error for point in samples])
+    # Each sample decides over 1/n of the exposure: its error falls in proportion, on the average.
+    slope = np.polyfit(np.log(SAMPLES), np.log(errors), 1)[0]
+    assert slope == pytest.approx(-1.0, abs=0.15)
+
+
+def test_the_ladder_ends_at_the_complete_simulation(points: list[AccuracyPoint]) -> None:
+    *ladder, current = of(points, "effects")
+    assert ladder[0].name == "paper's model"
+    assert ladder[0].error > 1.0
+    assert ladder[-1].error == 0.0
+    assert current.name == "this plan"
+    assert current.error <= 0.5
+
+
+def test_the_current_setting_is_marked_once_a_part(points: list[AccuracyPoint]) -> None:
+    for part in ACCURACY_PARTS:
+        assert sum(point.current for point in of(points, part)) == 1
+
+
+def test_both_noise_sources_have_the_sensors_noise() -> None:
+    scene = small("phone-68us")
+    drawn, reused = of(list(accuracy(scene)), "noise")
+    pixels = np.prod(occ.render(scene).image.shape)
+    size = occ.plan(scene).decisions[8].bound
+    # The standard error of a root mean square of n numbers is its 1 / sqrt(2 n).
+    for point in (drawn, reused):
+        assert point.error < 5 * size / np.sqrt(2 * pixels / 20)
+
+
+def test_rational_arithmetic_agrees_with_the_closed_form() -> None:
+    scene = small("phone-136us").replace(start_time=1.25e-4)
+    columns = np.arange(0, 400, 7)
+    exact = exact_lit_fraction(scene, columns) * scene.camera.exposure_time
+    np.testing.assert_allclose(exact, occ.on_time(scene)[columns], rtol=0.0, atol=1e-18)
+
+
+def test_samples_count_chips_that_are_lit() -> None:
+    scene = small("phone-136us").replace(pattern="1")
+    assert (sampled_lit_fraction(scene, 7) == 1.0).all()
+    halves = scene.replace(pattern="10", exposure_time=1e-3, switching_frequency=1e3)
+    assert sampled_lit_fraction(halves.replace(start_time=0.5e-3), 4)[0] == 0.5
+
+
+def test_a_setting_that_cannot_be_is_refused_before_anything_is_measured() -> None:
+    with pytest.raises(occ.ParameterError, match="tolerance is -1"):
+        accuracy(Scene(), SimulationSettings(tolerance=-1.0))
+
+
+def test_the_command_prints_the_table_and_writes_the_figure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings = [word for setting in SMALL for word in ("--set", setting)]
+    folder = tmp_path / "new"
+    command = ["accuracy", *settings, "--noise", "reused", "--tolerance", "2", "--out", str(folder)]
+    assert main(command) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert sum("<- current" in line for line in printed) == len(ACCURACY_PARTS)
+    assert any(line.startswith("integration 4096 samples") for line in printed)
+    assert {path.name for path in folder.iterdir()} == {
+        f"accuracy.{e}" for e in ("pdf", "png", "csv")
+    }
+    lines = (folder / "accuracy.csv").read_text(encoding="utf-8").splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    assert len(rows) == len(printed) - 1
+    assert float(rows[0]["time (ms)"]) > 0.0
+    with Image.open(folder / "accuracy.png") as picture:
+        assert "tolerance 2 levels of the image" in str(picture.info["Description"])
+
+
+def test_the_plan_is_told_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plan", "--off", "sensor-noise", "--tolerance", "0.1"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 10
+    assert any(line.startswith("Shot and read noise: ") and "by hand" in line for line in lines)
+
+
+def test_an_effect_that_is_not_there_or_both_on_and_off_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["plan", "--on", "blur"]) == 2
+    assert "effect is 'blur'; allowed: led-edges," in capsys.readouterr().err
+    assert main(["plan", "--on", "jpeg", "--off", "jpeg"]) == 2
+    assert "'jpeg' is switched both on and off" in capsys.readouterr().err

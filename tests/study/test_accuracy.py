@@ -9,6 +9,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.effects.sight import sight_of
 from occ_model.results import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
@@ -75,11 +76,11 @@ def test_the_current_setting_is_marked_once_a_part(points: list[AccuracyPoint]) 
 def test_both_noise_sources_have_the_sensors_noise() -> None:
     scene = small("phone-68us")
     drawn, reused = of(list(accuracy(scene)), "noise")
-    pixels = np.prod(occ.render(scene).image.shape)
-    size = occ.plan(scene).decisions[8].bound
-    # The standard error of a root mean square of n numbers is its 1 / sqrt(2 n).
+    region = sight_of(scene).region
+    size = sum(decision.bound for decision in occ.plan(scene).decisions)
+    # The standard error of the root mean square of n numbers is its 1 / sqrt(2 n).
     for point in (drawn, reused):
-        assert point.error < 5 * size / np.sqrt(2 * pixels / 20)
+        assert point.error < 5 * size / np.sqrt(2 * region.rows * region.columns)
 
 
 def test_rational_arithmetic_agrees_with_the_closed_form() -> None:
@@ -111,9 +112,8 @@ def test_the_command_prints_the_table_and_writes_the_figure(
     printed = capsys.readouterr().out.splitlines()
     assert sum("<- current" in line for line in printed) == len(ACCURACY_PARTS)
     assert any(line.startswith("integration 4096 samples") for line in printed)
-    assert {path.name for path in folder.iterdir()} == {
-        f"accuracy.{e}" for e in ("pdf", "png", "csv")
-    }
+    expected = {f"accuracy.{ending}" for ending in ("pdf", "png", "csv")}
+    assert {path.name for path in folder.iterdir()} == expected
     lines = (folder / "accuracy.csv").read_text(encoding="utf-8").splitlines()
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     assert len(rows) == len(printed) - 1

@@ -18,7 +18,7 @@ from occ_model.checks import check_choice, check_seed
 from occ_model.effects.effect import LightEffect, PixelEffect
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
-from occ_model.exposure import PixelExposure
+from occ_model.pixels import PixelExposure
 from occ_model.results import Frame, Plan
 from occ_model.scene import Scene
 from occ_model.simulation_settings import NOISE_SOURCES, TOLERANCE, NoiseSource, Observable

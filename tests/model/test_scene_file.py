@@ -6,7 +6,8 @@ from hypothesis import strategies as st
 
 from occ_model.declarations import ChipPattern, Choice, Count, Quantity
 from occ_model.errors import OccError, ParameterError, SceneFileError
-from occ_model.parameters import MAX_BITS, PARAMETERS
+from occ_model.parameters import PARAMETERS
+from occ_model.parameters.light import MAX_BITS
 from occ_model.scene import GROUPS, Scene
 
 

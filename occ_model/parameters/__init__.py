@@ -1,0 +1,34 @@
+"""Every parameter of a scene, declared once.
+
+Sliders, number fields, tooltips, command-line settings, validation, the keys of a scene file and
+the README's table are all made from these declarations. Values are in SI units.
+"""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from occ_model.declarations import Parameter
+from occ_model.errors import ParameterError
+from occ_model.parameters.camera import CAMERA, LENS, SENSOR
+from occ_model.parameters.light import SURROUNDINGS, TRANSMITTER
+from occ_model.parameters.view import MODEL, POSE, RECEIVER
+
+_DECLARED = (*TRANSMITTER, *CAMERA, *LENS, *SENSOR, *POSE, *SURROUNDINGS, *RECEIVER, *MODEL)
+
+PARAMETERS: dict[str, Parameter] = {parameter.name: parameter for parameter in _DECLARED}
+
+
+def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
+    """Find a declaration.
+
+    Raises
+    ------
+    ParameterError
+        There is no parameter of that name among ``among``; the closest one is suggested.
+    """
+    names = list(among)
+    if name in names:
+        return PARAMETERS[name]
+    near = get_close_matches(name, names, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
+    raise ParameterError(f"There is no parameter {name!r}; {hint}")

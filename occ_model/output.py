@@ -22,7 +22,7 @@ _FORMATS = {
 PICTURE_ENDINGS = tuple(_FORMATS)
 """The endings of the files that pictures are written to."""
 
-_LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
+LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
 """Pixels that a format's encoder takes a side; libjpeg's limit is below the format's own."""
 
 
@@ -89,7 +89,7 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
         raise OutputError(
             f"{path.name} has no ending of an image format; use {', '.join(endings)} or {last}."
         )
-    longest = _LONGEST_SIDE.get(format_name)
+    longest = LONGEST_SIDE.get(format_name)
     if longest is not None and max(image.shape) > longest:
         raise OutputError(
             f"{path.name} cannot be encoded as {format_name}: the picture has "

@@ -8,9 +8,10 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.optics import Optics, Panel, Rows, picture_rows
-from occ_model.camera.photometry import WHITE, saturate
+from occ_model.camera.optics import Optics, Panel, picture_rows
+from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import panel_corners
+from occ_model.columns import Columns
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.noise import ExactNoise, Noise, ReusedNoise
 from occ_model.effects.registry import planned
@@ -27,29 +28,21 @@ class ExposedRows:
 
     Parameters
     ----------
-    rows
-        Which rows, and where the panel is in them.
-    mean : ndarray of float32, shape (rows, columns)
-        Saturated.
-    deviation : ndarray of float32, shape (rows, columns), or None
-        What noise adds to it.
+    place
+        Which rows of the picture.
+    values : ndarray of float32, shape (rows, columns)
+        Pixel values from 0 to 255.
+    panel
+        Where the panel is.
     """
 
-    rows: Rows
-    mean: Pixels
-    deviation: Pixels | None
-
-    def values(self) -> Pixels:
-        """Give the pixel values, shape (rows, columns)."""
-        return self.mean if self.deviation is None else self.mean + self.deviation
+    place: slice
+    values: Pixels
+    panel: Panel
 
     def to_bytes(self, out: ByteArray) -> None:
-        """Round them to the nearest of 0 to 255."""
-        if self.deviation is None:
-            cv2.convertScaleAbs(self.mean, dst=out)  # no mean is below 0
-        else:
-            # One operation adds, rounds and saturates.
-            cv2.add(self.mean, self.deviation, dst=out, dtype=cv2.CV_8U)
+        """Round them."""
+        cv2.convertScaleAbs(self.values, dst=out)
 
 
 class PixelExposure:
@@ -61,8 +54,8 @@ class PixelExposure:
         The scene.
     plan
         Its effects are simulated.
-    panel, surroundings : ndarray of float64, shape (columns,)
-        Pixel values of each column before saturation.
+    columns
+        What each column shows.
     clock
         Is told of each stage.
     """
@@ -71,14 +64,12 @@ class PixelExposure:
         self,
         scene: Scene,
         plan: Plan,
-        panel: FloatArray,
-        surroundings: FloatArray,
+        columns: Columns,
         clock: StageClock,
     ) -> None:
         self._scene = scene
         self._clock = clock
-        self._panel = panel
-        self._surroundings = surroundings
+        self._columns = columns
         self._limits = planned(plan, PixelEffect)
         self._noises = planned(plan, NoiseEffect)
         self._files = planned(plan, FileEffect)
@@ -93,27 +84,24 @@ class PixelExposure:
         noise: Noise | None = None
         if self._noises:
             noise = make(self._noises, self._scene, seed, self._clock.done)
-        columns = (self._panel, self._surroundings)
-        last: ExposedRows | None = None
-        for rows in picture_rows(self._scene, self._optics, *columns, self._clock.done):
+        light = (self._columns.panel, self._columns.surroundings)
+        for rows in picture_rows(self._scene, self._optics, *light, self._clock.done):
+            mean = self._saturated(rows.values)
             height = rows.last - rows.first
-            deviation = None if noise is None else noise.deviation(rows.values, height)
-            if last is not None and last.rows.values is rows.values and len(last.mean) == height:
-                mean = last.mean  # most rows have the mean values of the rows before
+            if noise is None:
+                values = np.ascontiguousarray(np.broadcast_to(mean, (height, mean.shape[1])))
             else:
-                mean = self._saturated(rows)
-            last = ExposedRows(rows, mean, deviation)
-            yield last
+                values = noise.deviation(rows.values, height)
+                values += mean
+                np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
+            yield ExposedRows(rows.place, values, rows.panel)
 
-    def _saturated(self, rows: Rows) -> Pixels:
-        """Give the mean values of rows as far as a pixel can hold them, each row of its own."""
-        mean = rows.values
+    def _saturated(self, mean: Pixels) -> Pixels:
+        """Limit mean values to what a pixel can hold."""
         for limit in self._limits:
             mean = limit.apply(self._scene, mean)
             self._clock.done(limit.name)
-        mean = np.minimum(mean, np.float32(WHITE))
-        shape = (rows.last - rows.first, mean.shape[1])
-        return np.ascontiguousarray(np.broadcast_to(mean, shape))
+        return np.minimum(mean, np.float32(WHITE))
 
     def picture(
         self, enhancement: Enhancement, seed: int, source: NoiseSource
@@ -133,13 +121,12 @@ class PixelExposure:
         tally = _ColumnTally(camera.columns)
         panels: list[tuple[slice, Panel]] = []
         for exposed in self.rows(seed, source):
-            rows, panel = exposed.rows.place, exposed.rows.panel
             if self._files:
-                exposed.to_bytes(out=image[rows])
-                panels.append((rows, panel))
+                exposed.to_bytes(out=image[exposed.place])
+                panels.append((exposed.place, exposed.panel))
             else:
-                _enhance(exposed, enhancement, image[rows])
-                tally.add(panel, exposed.mean, exposed.deviation)
+                _enhance(exposed, enhancement, image[exposed.place])
+                tally.add(exposed.panel, exposed.values)
             self._clock.done("image")
         if self._files:
             image = self._through_files(image)
@@ -147,7 +134,7 @@ class PixelExposure:
                 tally.add(panel, image[rows].astype(np.float32))
                 _enhance_bytes(image[rows], enhancement, panel)
             self._clock.done("image")
-        return image, tally.means(saturate(self._panel))
+        return image, tally.means(self._columns.profile)
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
         """Give what the tolerance is of: pixel values before enhancement and rounding.
@@ -162,7 +149,7 @@ class PixelExposure:
         camera = self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.float32)
         for exposed in self.rows(seed, source):
-            image[exposed.rows.place] = exposed.values()
+            image[exposed.place] = exposed.values
         if self._files:
             image = self._through_files(to_bytes(image)).astype(np.float32)
         seen = image[region.first_row : region.last_row, region.first_column : region.last_column]
@@ -180,11 +167,12 @@ class PixelExposure:
 def _enhance(exposed: ExposedRows, enhancement: Enhancement, out: ByteArray) -> None:
     """Round pixel values, enhanced within the panel."""
     exposed.to_bytes(out=out)
-    if enhancement.needs_fractions:
-        enhanced = enhancement(exposed.values())
-        np.copyto(out, enhanced, where=exposed.rows.panel_mask())
+    if not enhancement.needs_fractions:
+        _enhance_bytes(out, enhancement, exposed.panel)
+    elif isinstance(exposed.panel, slice):
+        out[:, exposed.panel] = enhancement(exposed.values[:, exposed.panel])
     else:
-        _enhance_bytes(out, enhancement, exposed.rows.panel)
+        np.copyto(out, enhancement(exposed.values), where=exposed.panel)
 
 
 def _enhance_bytes(image: ByteArray, enhancement: Enhancement, panel: Panel) -> None:
@@ -202,17 +190,14 @@ class _ColumnTally:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)
 
-    def add(self, panel: Panel, mean: Pixels, deviation: Pixels | None = None) -> None:
+    def add(self, panel: Panel, values: Pixels) -> None:
         """Count some rows in."""
         if not isinstance(panel, slice):
-            values = mean if deviation is None else mean + deviation
             self._sums += _column_sums(np.where(panel, values, np.float32(0.0)))
             self._counts += np.count_nonzero(panel, axis=0)
         elif panel.stop > panel.start:
-            self._sums[panel] += _column_sums(mean[:, panel])
-            if deviation is not None:
-                self._sums[panel] += _column_sums(deviation[:, panel])
-            self._counts[panel] += len(mean)
+            self._sums[panel] += _column_sums(values[:, panel])
+            self._counts[panel] += len(values)
 
     def means(self, otherwise: FloatArray) -> FloatArray:
         """Give the means, and ``otherwise`` in columns without pixels."""

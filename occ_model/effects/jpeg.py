@@ -7,7 +7,12 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import FileEffect
+from occ_model.effects.sight import sight_of
+from occ_model.errors import ParameterError
+from occ_model.output import LONGEST_SIDE
+from occ_model.results import Region
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
@@ -40,10 +45,14 @@ class Jpeg(FileEffect):
     parameters = ("jpeg_quality",)
 
     def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - rows alike
-        """Bound the change by half a step of every coefficient, and the pixels' rounding."""
+        """Bound the change by half a step of every coefficient, and the pixels' rounding.
+
+        What is wrong in a block can all lie in the part of it that is observed.
+        """
         if scene.camera.jpeg_quality == 0:
             return 0.0
-        return _step(scene.camera.jpeg_quality) / 2.0 + 2.0 * _ROUNDING
+        error = _step(scene.camera.jpeg_quality) / 2.0 * _crowding(sight_of(scene).region)
+        return min(error + 2.0 * _ROUNDING, WHITE)
 
     def passed_on(self, scene: Scene, change: float) -> float:
         """Add the steps that a change makes: as often as it is large against a step.
@@ -51,11 +60,26 @@ class Jpeg(FileEffect):
         Of pixels that change by c, c / 1 round to another level; of coefficients that change by c,
         c / q round to another step q.
         """
+        step = _step(scene.camera.jpeg_quality) * _crowding(sight_of(scene).region)
         rounded = math.hypot(change, math.sqrt(change))
-        return rounded + math.sqrt(rounded * _step(scene.camera.jpeg_quality))
+        return rounded + math.sqrt(rounded * step)
 
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Write and read the file."""
+        """Write and read the file.
+
+        Raises
+        ------
+        ParameterError
+            The picture is larger than such a file can hold.
+        """
+        if scene.camera.jpeg_quality == 0:
+            return image
+        if max(image.shape) > LONGEST_SIDE["JPEG"]:
+            raise ParameterError(
+                f"jpeg_quality is {scene.camera.jpeg_quality}, and the picture has "
+                f"{image.shape[0]} rows and {image.shape[1]} columns; allowed: jpeg_quality 0, or "
+                f"up to {LONGEST_SIDE['JPEG']} of each."
+            )
         quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]
         _, file = cv2.imencode(".jpg", image, quality)
         return np.asarray(cv2.imdecode(file, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)
@@ -69,6 +93,13 @@ def quantization_steps(quality: int) -> FloatArray:
     percent = 5000 // quality if quality < 50 else 200 - 2 * quality
     scaled = (np.array(_LUMINANCE_STEPS) * percent + 50) // 100
     return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
+
+
+def _crowding(region: Region) -> float:
+    """Give how much larger the error in a region can be than in the blocks that it lies in."""
+    high = (region.last_row - 1) // 8 - region.first_row // 8 + 1
+    wide = (region.last_column - 1) // 8 - region.first_column // 8 + 1
+    return math.sqrt(64.0 * high * wide / (region.rows * region.columns))
 
 
 @lru_cache(maxsize=101)

@@ -51,6 +51,8 @@ class LedEdges(LightEffect):
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Let the columns see the ramps."""
+        if scene.transmitter.edge_time == 0.0:
+            return light
         return replace(light, lit=edged_lit_fraction(scene))
 
 

@@ -1,11 +1,12 @@
 """How much noise there is to see: what the bounds of the noise effects share."""
 
+import math
 from functools import lru_cache
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import pixel_value
+from occ_model.camera.photometry import WHITE, pixel_value
 from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.sight import off_axis_factor, reachable_luminances, sight_of
 from occ_model.scene import Scene
@@ -19,24 +20,45 @@ def noise_bound(effect: NoiseEffect, scene: Scene, observable: Observable) -> fl
     are, it is averaged over the columns there are; where they do not, the largest is taken.
     """
     sight = sight_of(scene)
-    if moves_light(scene) or sight.sides is None:
-        mean_square = float(effect.spread(scene, _all_levels(scene)).max()) ** 2
-    else:
-        squares = effect.spread(scene, sight.levels) ** 2
-        mean_square = float(np.maximum(squares[1:], squares[:-1]) @ sight.shares)
+    as_in_the_paper = sight.sides is not None and not moves_light(scene)
+    levels = sight.levels if as_in_the_paper else _all_levels(scene)
+    spread = effect.spread(scene, levels)
+    squares = spread**2
     if observable == "profile":
-        mean_square /= sight.region.rows
-    return float(np.sqrt(mean_square))
+        squares = squares / sight.region.rows + _cut_off(levels, spread) ** 2
+    if not as_in_the_paper:
+        return math.sqrt(float(squares.max()))
+    return math.sqrt(float(np.maximum(squares[1:], squares[:-1]) @ sight.shares))
 
 
-def steepness(effects: tuple[NoiseEffect, ...], scene: Scene) -> float:
-    """Give by how many grey levels the noise changes where the mean changes by one, at most.
+def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
+    """Bound how far the mean of noisy pixels moves as they are cut off at black and white.
 
-    An effect that changes the light changes its noise too.
+    A normal deviation that is cut off u standard deviations from its mean loses
+    phi(u) - u Q(u) of them, at most phi(u) / (1 + u^2) (Mills's ratio).
+    """
+    lost = np.zeros(len(levels))
+    some = spread > 0.0
+    for room in (levels[some], WHITE - np.minimum(levels[some], WHITE)):
+        u = room / spread[some]
+        lost[some] += np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) / (1.0 + u * u)
+    return lost * spread
+
+
+def louder(effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observable) -> float:
+    """Give how much more a change of the light changes what is observed, with noise in it.
+
+    Another light has another noise. Where one level more makes k levels more of noise, the change
+    of a pixel is sqrt(1 + k^2) levels; that of a mean over rows is 1 + k phi(0), for what is cut
+    off at black and white, and k over the root of their number.
     """
     levels = _all_levels(scene)
     spread = np.sqrt(sum(effect.spread(scene, levels) ** 2 for effect in effects))
-    return float(np.abs(np.diff(spread) / np.diff(levels)).max())
+    slope = float(np.abs(np.diff(spread) / np.diff(levels)).max())
+    if observable == "image":
+        return math.hypot(1.0, slope)
+    rows = sight_of(scene).region.rows
+    return math.hypot(1.0 + slope / math.sqrt(2.0 * math.pi), slope / math.sqrt(rows))
 
 
 def moves_light(scene: Scene) -> bool:
@@ -59,4 +81,4 @@ def _all_levels(scene: Scene) -> FloatArray:
     dark, bright = reachable_luminances(scene)
     darkest = dark * off_axis_factor(scene) ** scene.lens.vignetting_exponent
     low, high = pixel_value(np.array([darkest, bright]), scene.camera)
-    return np.linspace(low, min(float(high), 255.0) + 1e-9, 257)
+    return np.linspace(low, min(float(high), WHITE) + 1e-9, 257)

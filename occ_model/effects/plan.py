@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from occ_model.camera.photometry import WHITE
 from occ_model.checks import check_choice
 from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
-from occ_model.effects.noise_bound import steepness
+from occ_model.effects.noise_bound import louder
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sight import sight_of
 from occ_model.results import Decision, Plan
@@ -79,9 +79,7 @@ def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, f
     noise = tuple(e for e in EFFECTS if isinstance(e, NoiseEffect) and bounds[e.name])
     others = [e.name for e in EFFECTS if not isinstance(e, NoiseEffect) and bounds[e.name]]
     if noise and others:
-        # Another light has another noise, which does not average out with the light's change.
-        rows = sight_of(scene).region.rows if observable == "profile" else 1
-        more = math.hypot(1.0, steepness(noise, scene) / math.sqrt(rows))
+        more = louder(noise, scene, observable)
         for name in others:
             bounds[name] *= more
     return bounds

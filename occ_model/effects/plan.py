@@ -1,7 +1,7 @@
 """The plan: which effects a scene calls for."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
@@ -28,8 +28,8 @@ def plan(
     then differs by no more from what it is with all effects. Bounds and tolerance are counted in
     levels of the stretched profile, grey levels times 255 / swing: what a decoder sees is contrast.
 
-    A file's rounding turns small changes into steps. With it in the plan, what is left out is
-    counted as it comes through the file.
+    A file's rounding turns small changes into steps. With it in the plan, bounds are counted as
+    they come through the file.
 
     Parameters
     ----------
@@ -64,13 +64,24 @@ def plan(
     stretch = WHITE / sight_of(scene).swing
     bounds = _bounds(scene, observable, stretch)
     if tolerance == math.inf:  # also of what a bound says to be without end
-        budget = _Budget(tolerance, frozenset(NAMES), 0.0)
+        left_out, spent, file = set(NAMES), 0.0, None
     else:
-        budget = _spend(scene, tolerance, observable, bounds, forced, stretch)
+        left_out, spent = _leave_out(bounds, forced, tolerance)
+        file = _file_in(left_out, bounds, forced)
+        if file is not None:
+            # A file is made of pixels, whatever is observed of it later.
+            pixels = bounds if observable == "image" else _bounds(scene, "image", stretch)
+            through = _Through(file, scene, stretch)
+            left_out, spent = _leave_out(pixels, forced, tolerance, through)
+            bounds = {
+                name: bound if name == file.name else through(bound)
+                for name, bound in pixels.items()
+            }
     decisions = tuple(
-        _decide(effect, bounds[effect.name], budget, forced.get(effect.name)) for effect in EFFECTS
+        _decide(effect, bounds[effect.name], effect.name in left_out, tolerance, forced, file)
+        for effect in EFFECTS
     )
-    return Plan(tolerance, observable, decisions, budget.spent, stretch)
+    return Plan(tolerance, observable, decisions, spent, stretch)
 
 
 def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, float]:
@@ -86,83 +97,90 @@ def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, f
 
 
 @dataclass(frozen=True, slots=True)
-class _Budget:
-    """What the tolerance is spent on."""
+class _Through:
+    """What a change, in levels of the stretched profile, becomes in a file."""
 
-    tolerance: float
-    left_out: frozenset[str]
-    spent: float
-    file: str = ""
+    file: FileEffect
+    scene: Scene
+    stretch: float
+
+    def __call__(self, change: float) -> float:
+        if not change:
+            return 0.0
+        return self.file.passed_on(self.scene, change / self.stretch) * self.stretch
 
 
-def _spend(
-    scene: Scene,
-    tolerance: float,
-    observable: Observable,
-    bounds: Mapping[str, float],
-    forced: Mapping[str, bool],
-    stretch: float,
-) -> _Budget:
-    """Leave out the smallest bounds first, as far as the tolerance reaches."""
-    free = sorted((name for name in NAMES if name not in forced), key=lambda name: bounds[name])
-    budget = _leave_out(free, bounds, tolerance)
-    files = [e for e in EFFECTS if isinstance(e, FileEffect) and bounds[e.name]]
-    kept = [e for e in files if e.name not in budget.left_out and forced.get(e.name, True)]
-    if not kept:
-        return budget
-    # A file is made of pixels, whatever is observed of it later.
-    pixels = bounds if observable == "image" else _bounds(scene, "image", stretch)
-    free = sorted((n for n in free if n != kept[0].name), key=lambda name: pixels[name])
-    return _leave_out(free, pixels, tolerance, kept[0], scene, stretch)
+def _file_in(
+    left_out: set[str], bounds: Mapping[str, float], forced: Mapping[str, bool]
+) -> FileEffect | None:
+    """Give the file that the picture is kept in, None where it is left out or none."""
+    for effect in EFFECTS:
+        name = effect.name
+        if isinstance(effect, FileEffect) and bounds[name] and name not in left_out:
+            return effect if forced.get(name, True) else None
+    return None
 
 
 def _leave_out(
-    free: list[str],
     bounds: Mapping[str, float],
+    forced: Mapping[str, bool],
     tolerance: float,
-    file: FileEffect | None = None,
-    scene: Scene | None = None,
-    stretch: float = 1.0,
-) -> _Budget:
+    through: Callable[[float], float] = float,
+) -> tuple[set[str], float]:
+    """Leave out the smallest bounds first, as far as the tolerance reaches.
+
+    Returns
+    -------
+    left_out
+        The names of effects.
+    spent
+        What they can change together, as it comes through the file.
+    """
     total, spent, left_out = 0.0, 0.0, set()
-    for name in free:
+    for name in sorted((name for name in NAMES if name not in forced), key=bounds.__getitem__):
         total += bounds[name]
-        seen = total
-        if file is not None and scene is not None and total:
-            seen = file.passed_on(scene, total / stretch) * stretch
-        if seen > tolerance:
+        if through(total) > tolerance:
             break
-        spent = seen
+        spent = through(total)
         left_out.add(name)
-    return _Budget(tolerance, frozenset(left_out), spent, file.label if file else "")
+    return left_out, spent
 
 
-def _decide(effect: Effect, bound: float, budget: _Budget, forced: bool | None) -> Decision:
-    included = effect.name not in budget.left_out if forced is None else forced
+def _decide(
+    effect: Effect,
+    bound: float,
+    is_left_out: bool,
+    tolerance: float,
+    forced: Mapping[str, bool],
+    file: FileEffect | None,
+) -> Decision:
+    by_hand = forced.get(effect.name)
+    included = not is_left_out if by_hand is None else by_hand
+    size = f"at most {bound:.2g} levels" if bound else "none in this scene"
+    if bound and file is not None and file is not effect:
+        size += f" through {file.label}"
+    if by_hand is not None:
+        reason = f"{size}: switched {'on' if included else 'off'} by hand"
+    elif not bound:
+        reason = f"{size}: left out"
+    else:
+        reason = f"{size}, {_comparison(bound, tolerance, included)}"
     return Decision(
         effect=effect.name,
         label=effect.label,
         kind=effect.kind,
         bound=bound,
         included=included,
-        forced=forced is not None,
-        reason=_reason(bound, budget, included, forced),
+        forced=by_hand is not None,
+        reason=reason,
     )
 
 
-def _reason(bound: float, budget: _Budget, included: bool, forced: bool | None) -> str:
-    size = f"at most {bound:.2g} levels" if bound else "none in this scene"
-    if forced is not None:
-        return f"{size}: switched {'on' if included else 'off'} by hand"
-    if not bound:
-        return f"{size}: left out"
-    if budget.tolerance == math.inf:
-        return f"{size}, no limit: left out"
-    limit = f"tolerance {budget.tolerance:g}"
+def _comparison(bound: float, tolerance: float, included: bool) -> str:
+    if tolerance == math.inf:
+        return "no limit: left out"
     if not included:
-        return f"{size}, {limit}: left out"
-    if bound > budget.tolerance:
-        return f"{size}, {limit}: taken in"
-    if budget.file:
-        return f"{size}, which {budget.file} can turn into more than the {limit}: taken in"
-    return f"{size}, with what is left out already more than the {limit}: taken in"
+        return f"tolerance {tolerance:g}: left out"
+    if bound > tolerance:
+        return f"tolerance {tolerance:g}: taken in"
+    return f"with what is left out already more than the tolerance {tolerance:g}: taken in"

@@ -71,7 +71,9 @@ class Coverage:
         sharp = self._sharp(-self._margin, rows + self._margin, self._cell)
         reach = math.ceil(self._margin / self._cell)
         size = (2 * reach + 1, 2 * reach + 1)
-        blurred = cv2.GaussianBlur(sharp, size, self._blur / self._cell)
+        # The cells' own width and the interpolation between them blur by a half cell already.
+        blur = math.sqrt((self._blur / self._cell) ** 2 - 0.25)
+        blurred = cv2.GaussianBlur(sharp, size, blur)
         return np.asarray(blurred, dtype=np.float32)
 
     def _enlarged(self, coarse: Pixels, first: int, last: int) -> Pixels:

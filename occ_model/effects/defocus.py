@@ -12,9 +12,15 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.optics import Optics
-from occ_model.camera.photometry import pixel_value, saturate
+from occ_model.camera.photometry import pixel_value
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.sight import contrast, reachable_luminances, sight_of
+from occ_model.effects.sight import (
+    contrast,
+    just_white,
+    reachable_luminances,
+    shown_change,
+    sight_of,
+)
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
@@ -96,9 +102,16 @@ def _rim(scene: Scene, both: bool) -> tuple[float, float]:
     """
     distance, share = _tail()
     dark, bright = reachable_luminances(scene)
-    light = dark + (bright - dark) * np.stack([1.0 - share, share])
-    full = saturate(pixel_value(np.array([[bright], [dark]]), scene.camera))
-    change = np.abs(saturate(pixel_value(light, scene.camera)) - full)[: 2 if both else 1]
+    # On the panel's side columns that are just not saturated, under the strongest vignetting,
+    # change most; on the other side the brightest ones do.
+    change = np.zeros((2, len(share)))
+    for lit in (bright, max(min(bright, just_white(scene)), dark)):
+        light = dark + (lit - dark) * np.stack([1.0 - share, share])
+        full = pixel_value(np.array([[lit], [dark]]), scene.camera)
+        seen = pixel_value(light, scene.camera)
+        moved = shown_change(np.minimum(seen, full), np.maximum(seen, full), scene)
+        change = np.maximum(change, moved)
+    change = change[: 2 if both else 1]
     step = distance[1]
     return (
         _SLACK * step * float((change**2).sum()),

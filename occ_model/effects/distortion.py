@@ -111,15 +111,22 @@ def _outlines(scene: Scene) -> tuple[FloatArray, FloatArray]:
     """
     camera = scene.camera
     rays = image_rays(sight_of(scene).corners, camera)
-    needed = math.hypot(camera.rows, camera.columns) / 2 + 4.0 * blur_of(scene) + 1.0
-    view = _view(scene.lens, needed / camera.focal_length_pixels)
+    focal = camera.focal_length_pixels
+    corner = (math.hypot(camera.rows, camera.columns) / 2 + 1.0) / focal
+    needed = corner + 4.0 * blur_of(scene) / focal
+    view = _view(scene.lens, corner, needed)
     if np.hypot(*rays.T).max() > view.radius:
         rays = clipped(rays, view.rim)
     if len(rays) == 0:
         rays = np.full((3, 2), 2.0 * view.radius)  # a panel without area, out of sight
         return image_points(rays, camera), image_points(rays, camera)
     rays = subdivided(rays, _PARTS)
-    return image_points(rays, camera), image_points(distorted(rays, scene.lens), camera)
+    bent = distorted(rays, scene.lens)
+    # A panel that goes on where the lens folds goes on as far as its light can come from.
+    beyond = np.hypot(*rays.T) >= view.radius
+    far = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
+    bent[beyond] *= far[:, None]
+    return image_points(rays, camera), image_points(bent, camera)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -131,29 +138,31 @@ class _View:
 
 
 @lru_cache(maxsize=16)
-def _view(lens: Lens, needed: float) -> _View:
+def _view(lens: Lens, corner: float, needed: float) -> _View:
     """Find the rays that are pictured up to ``needed`` focal lengths from the centre.
+
+    Where the lens folds before that, they are those as far as it does not.
 
     Raises
     ------
     ProjectionError
-        The distortion folds back before it has come that far.
+        It folds back before the picture's ``corner``.
     """
     angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     rays = (_RADII * needed)[:, None, None] * circle
     folded = np.asarray((_area_scale(rays, lens) <= 0.0).any(axis=1))
-    reached = (np.hypot(*np.moveaxis(distorted(rays, lens), -1, 0)) >= needed).all(axis=1)
-    enough = np.flatnonzero(reached)
-    # One step further out: the polygon's corners lie a little outside its circle.
-    last = int(enough[0]) + 1 if enough.size else len(_RADII)
-    if last >= len(_RADII) or folded[: last + 1].any():
+    far = np.hypot(*np.moveaxis(distorted(rays, lens), -1, 0)).min(axis=1)
+    last = int(np.argmax(far >= needed)) if (far >= needed).any() else len(_RADII) - 2
+    if folded[: last + 2].any():
+        last = int(np.argmax(folded)) - 2
+    if last < 0 or far[last] < corner:
         raise ProjectionError(
             f"A lens with k_1 = {lens.radial_k1:g}, k_2 = {lens.radial_k2:g}, "
             f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture back "
             "before its corners are reached; bring them nearer to 0."
         )
-    radius = float(_RADII[last - 1]) * needed
+    radius = float(_RADII[last]) * needed
     return _View(radius, circle * radius / math.cos(math.pi / _DIRECTIONS))
 
 

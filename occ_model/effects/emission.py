@@ -6,10 +6,9 @@ import numpy as np
 
 from occ_model.arrays import Pixels
 from occ_model.camera.optics import Gain, Optics
-from occ_model.camera.photometry import pixel_value, saturate
 from occ_model.camera.projection import pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.sight import reachable_luminances, sight_of
+from occ_model.effects.sight import just_white, largest_change, reachable_luminances, sight_of
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
@@ -58,6 +57,6 @@ def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 def _largest_loss(scene: Scene, dark: float, emitted: float, factor: float) -> float:
     """Give the most grey levels that are lost to ``factor``, at any share of the light."""
-    light = emitted * np.linspace(0.0, 1.0, 65)
-    values = saturate(pixel_value(dark + light, scene.camera))
-    return float((values - saturate(pixel_value(dark + light * factor, scene.camera))).max())
+    # The loss grows with the light until that saturates, under the strongest vignetting.
+    light = min(max(just_white(scene) - dark, 0.0), emitted)
+    return largest_change(dark + light * factor, dark + light, scene)

@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import cycle_phases
 from occ_model.camera.photometry import ColumnLight, luminance_levels
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.sight import shown_value
+from occ_model.effects.sight import largest_change
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
@@ -33,7 +33,7 @@ class Flicker(LightEffect):
         if depth == 0.0:
             return 0.0
         dark = float(luminance_levels(scene)[0])
-        return shown_value(dark, scene) - shown_value(dark * (1.0 - depth), scene)
+        return largest_change(dark * (1.0 - depth), dark, scene)
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Let the light from elsewhere change from column to column."""

@@ -8,9 +8,9 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import column_phases
-from occ_model.camera.photometry import ColumnLight, pixel_value, saturate
+from occ_model.camera.photometry import ColumnLight, pixel_value
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.sight import reachable_luminances, sight_of
+from occ_model.effects.sight import reachable_luminances, shown_change, sight_of
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 from occ_model.transmitter.edges import EdgedWaveform, most_changes
@@ -47,7 +47,8 @@ class LedEdges(LightEffect):
         else:
             low, high = pixel_value(np.array([dark, bright]), scene.camera)
             steps = np.array([low, low + (high - low) * share])
-        return float(np.diff(saturate(steps))[0]) * math.sqrt(_share_of_columns(scene))
+        change = float(shown_change(steps[:1], steps[1:], scene)[0])
+        return change * math.sqrt(_share_of_columns(scene))
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Let the columns see the ramps."""

@@ -16,6 +16,7 @@ from occ_model.camera.photometry import (
     WHITE,
     ColumnLight,
     luminance_levels,
+    luminance_of,
     panel_values,
     pixel_value,
     saturate,
@@ -136,10 +137,42 @@ def shown_value(luminance: float, scene: Scene) -> float:
     return min(float(pixel_value(np.array([luminance]), scene.camera)[0]), WHITE)
 
 
+def shown_change(low: FloatArray, high: FloatArray, scene: Scene) -> FloatArray:
+    """Give the most by which pixel values can differ in a picture, in grey levels.
+
+    Vignetting may dim both by the same factor: they differ most where the higher just saturates.
+
+    Parameters
+    ----------
+    low, high : ndarray of float64
+        Before saturation, none of ``high`` below that of ``low``.
+    """
+    dimmest = dimmest_light(scene) ** (1.0 / scene.camera.gamma)
+    dimmed = np.clip(WHITE / np.maximum(high, WHITE), dimmest, 1.0)
+    return saturate(dimmed * high) - saturate(dimmed * low)
+
+
 def contrast(scene: Scene) -> float:
     """Give the most by which the lit panel can differ from its dark surroundings, grey levels."""
     dark, bright = reachable_luminances(scene)
-    return shown_value(bright, scene) - shown_value(dark, scene)
+    return largest_change(dark, bright, scene)
+
+
+def largest_change(dark: float, bright: float, scene: Scene) -> float:
+    """Give the most by which two luminances can differ in a picture, in grey levels."""
+    low, high = pixel_value(np.array([[dark], [bright]]), scene.camera)
+    return float(shown_change(low, high, scene)[0])
+
+
+def just_white(scene: Scene) -> float:
+    """Give the luminance that still reaches the largest pixel value where most light is lost."""
+    return float(luminance_of(np.array([WHITE]), scene.camera)[0]) / dimmest_light(scene)
+
+
+def dimmest_light(scene: Scene) -> float:
+    """Give the least share of the light that vignetting leaves in the observed rectangle."""
+    exponent = scene.lens.vignetting_exponent
+    return off_axis_factor(scene) ** exponent if exponent else 1.0
 
 
 def off_axis_factor(scene: Scene) -> float:

@@ -68,7 +68,7 @@ def rays_of_pixels(lens: Lens) -> np.ndarray:
 
 
 def panel_seen(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """Pixels that see the panel, by the ray that reaches each; and those whose ray is at its rim."""
+    """Which pixels see the panel, by the ray that reaches each; and which see its very rim."""
     rays = rays_of_pixels(scene.lens)
     corners = image_rays(occ.panel_corners(scene), scene.camera)
     inside, margin = np.ones(len(rays), dtype=bool), np.full(len(rays), np.inf)
@@ -171,6 +171,18 @@ def test_a_lens_that_folds_the_picture_is_refused_with_its_coefficients(
         occ.render(bent(**lens, distance=distance), force=ONLY)
     for name, value in lens.items():
         assert f"{name[-2]}_{name[-1]} = {value:g}" in str(refusal.value)
+
+
+@pytest.mark.parametrize("blur", [0.0, 5.0, 30.0, 200.0])
+@pytest.mark.parametrize("k1", [-0.1, -0.15])
+def test_no_blur_folds_a_lens_that_does_not_fold(k1: float, blur: float) -> None:
+    """Only beyond the picture's corners does it fold: 0.83 focal lengths from the middle."""
+    scene = bent(radial_k1=k1, point_spread=blur, distance=0.05)
+    frame = occ.render(scene, tolerance=0, force=ONLY)
+    largest = 1.0 if blur else 0.0
+    np.testing.assert_allclose(
+        frame.image.astype(float), np.tile(frame.enhanced, (ROWS, 1)), rtol=0, atol=largest
+    )
 
 
 @pytest.mark.parametrize("k1", [-0.15, 0.5, 10.0])

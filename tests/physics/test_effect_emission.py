@@ -7,11 +7,16 @@ import pytest
 
 import occ_model as occ
 from occ_model.camera.optics import Optics, picture_rows
-from occ_model.camera.photometry import luminance_levels, luminance_of
+from occ_model.camera.photometry import (
+    ColumnLight,
+    luminance_levels,
+    luminance_of,
+    panel_values,
+    surroundings_values,
+)
 from occ_model.camera.projection import image_points
 from occ_model.effects.emission import Emission
 from occ_model.scene import Scene
-from occ_model.simulation import expose_columns
 
 ROWS, COLUMNS = 101, 301
 AXIS = (50, 150)
@@ -39,8 +44,10 @@ def steady(**changes: float | str) -> Scene:
 def pictured_luminance(scene: Scene) -> np.ndarray:
     """The luminance that each pixel shows, shape (rows, columns)."""
     optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
-    columns = expose_columns(scene, occ.plan(scene, float("inf")))
-    rows = picture_rows(scene, optics, columns.panel, columns.surroundings, lambda stage: None)
+    light = ColumnLight.of(scene)
+    panel = panel_values(scene, light)
+    around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
+    rows = picture_rows(scene, optics, panel, around, lambda stage: None)
     return luminance_of(np.concatenate([part.values for part in rows]), scene.camera)
 
 
@@ -93,10 +100,11 @@ def test_each_corner_is_seen_at_the_angle_between_its_normal_and_its_ray() -> No
         return np.array([x * cos - y * sin, x * sin + y * cos, z])
 
     normal = turned(0.0, 0.0, -1.0)
+    place = np.array([pose.offset_x, pose.offset_y, pose.distance])
     optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
     gains = optics.emission[0].rows(0, ROWS)
     for x, y in ((-0.2, -0.3), (0.1, -0.3), (0.1, 0.2), (0.0, 0.0)):
-        point = turned(x, y, 0.0) + [pose.offset_x, pose.offset_y, pose.distance]
+        point = turned(x, y, 0.0) + place
         column, row = np.rint(image_points(point[:2] / point[2], scene.camera)).astype(int)
         cosine = -normal @ point / np.linalg.norm(point)
         assert gains[row, column] == pytest.approx(cosine**2, rel=0.01)

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.exposure import lit_fraction
-from occ_model.effects.led_edges import edged_lit_fraction
+from occ_model.camera.photometry import ColumnLight
+from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
 from occ_model.scene import Scene
 from occ_model.transmitter.edges import most_changes
 
@@ -71,20 +72,21 @@ def test_edged_light_is_that_of_exact_arithmetic(edge: float, exposure: float) -
 
 
 @pytest.mark.parametrize("exposure", [0.01, 1.0, 3.3, 100.0])
-@pytest.mark.parametrize("edge", [0.05, 1.0, 1.9, 24.0, 150.0])
+@pytest.mark.parametrize("edge", [0.05, 1.0, 1.9, 31.0])
 def test_edged_light_is_the_sharp_light_averaged_over_the_edge_time(
     edge: float, exposure: float
 ) -> None:
-    scene = edged_scene(edge, exposure, columns=40)
-    samples = 500
+    scene = edged_scene(edge, exposure, columns=20)
+    samples = round(400 + 20 * edge)
     before = (np.arange(samples) + 0.5) / samples * scene.transmitter.edge_time
     sampled = [
         lit_fraction(scene.replace(start_time=scene.model.start_time - float(shift)))
         for shift in before
     ]
-    # The midpoint rule's error: a step's edge lies within one sample of where it is taken to be.
+    # The midpoint rule's error: each change of chip lies within a sample of where it is taken.
+    largest = 2.0 * math.sqrt(1.0 + edge) / samples
     np.testing.assert_allclose(
-        edged_lit_fraction(scene), np.mean(sampled, axis=0), rtol=0, atol=1.5 / samples
+        edged_lit_fraction(scene), np.mean(sampled, axis=0), rtol=0, atol=largest
     )
 
 
@@ -123,7 +125,8 @@ def test_an_edge_towards_nothing_is_sharp(exposure: float) -> None:
 
 def test_no_edge_at_all_is_sharp() -> None:
     scene = edged_scene(0.0, 1.7)
-    np.testing.assert_array_equal(edged_lit_fraction(scene), lit_fraction(scene))
+    light = LedEdges().apply(scene, ColumnLight.of(scene))
+    np.testing.assert_array_equal(light.lit, lit_fraction(scene))
 
 
 def test_edges_below_and_above_one_chip_meet() -> None:

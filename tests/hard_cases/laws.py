@@ -1,0 +1,72 @@
+"""How many cases a law is tried on, and how wrong it was found at worst."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis.strategies import SearchStrategy
+
+EVERYDAY = 3_000
+"""Cases of all laws together where ``OCC_HARD_CASES`` does not ask for more."""
+
+LAWS = 40
+"""Laws that share them: at least so many are tried."""
+
+_EACH = max(int(os.environ.get("OCC_HARD_CASES", EVERYDAY)) // LAWS, 20)
+
+
+@dataclass
+class Found:
+    """What was found of one law."""
+
+    ranges: str
+    cases: int = 0
+    worst: float = 0.0
+
+
+FOUND: dict[str, Found] = {}
+"""By the law."""
+
+
+def record(law: str, ranges: str, error: float) -> None:
+    """Note how wrong a law was found in one case.
+
+    Parameters
+    ----------
+    law
+        What holds, in a few words, and what the error is relative to.
+    ranges
+        Of what it was tried.
+    error
+        Not negative; a number that is none counts as infinitely wrong.
+    """
+    found = FOUND.setdefault(law, Found(ranges))
+    found.cases += 1
+    found.worst = max(found.worst, error if error == error else float("inf"))
+
+
+def cases(**strategies: SearchStrategy[Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Try a test on generated cases, always the same ones."""
+
+    def decorate(test: Callable[..., None]) -> Callable[..., None]:
+        chosen = settings(
+            max_examples=_EACH,
+            deadline=None,
+            derandomize=True,
+            database=None,
+            suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
+        )
+        return chosen(given(**strategies)(test))
+
+    return decorate
+
+
+def table() -> list[str]:
+    """Write what was found, in Markdown."""
+    lines = ["| law | range | cases | worst error |", "|---|---|---|---|"]
+    for law, found in sorted(FOUND.items()):
+        worst = "none" if found.worst == 0.0 else f"{found.worst:.1e}"
+        lines.append(f"| {law} | {found.ranges} | {found.cases:,} | {worst} |")
+    return lines

@@ -1,0 +1,172 @@
+"""Laws of a lens that makes a spot of a point."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.camera.optics import Optics, picture_rows
+from occ_model.camera.photometry import (
+    ColumnLight,
+    luminance_levels,
+    luminance_of,
+    panel_values,
+    surroundings_values,
+)
+from occ_model.effects.defocus import Defocus, blur_of
+from occ_model.scene import Scene
+from occ_model.simulation import observe
+
+ROWS, COLUMNS = 201, 401
+WIDTH, HEIGHT = 151, 81
+"""Pixels of the panel, whose rim lies between pixels: the optical axis meets one's centre."""
+
+ONLY = {"sensor-noise": False, "fixed-pattern": False, "full-well": False, "defocus": True}
+
+
+def unsharp(blur: float, **changes: float | str) -> Scene:
+    focal = Scene().replace(rows=ROWS, columns=COLUMNS).camera.focal_length_pixels
+    chosen: dict[str, float | str] = {
+        "rows": ROWS,
+        "columns": COLUMNS,
+        "point_spread": blur,
+        "distance": 1.0,
+        "panel_width": WIDTH / focal,
+        "panel_height": HEIGHT / focal,
+        "pattern": "1",
+        "enhancement": "none",
+    }
+    return Scene().replace(**(chosen | changes))
+
+
+def pictured_luminance(scene: Scene) -> np.ndarray:
+    """The luminance that each pixel shows, shape (rows, columns)."""
+    optics = Defocus().apply(scene, Optics(occ.panel_corners(scene)))
+    light = ColumnLight.of(scene)
+    panel = panel_values(scene, light)
+    around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
+    rows = picture_rows(scene, optics, panel, around, lambda stage: None)
+    return luminance_of(np.concatenate([part.values for part in rows]), scene.camera)
+
+
+def panel_share(scene: Scene) -> np.ndarray:
+    """The share of the lit panel's own light in each pixel."""
+    dark, bright = luminance_levels(scene)
+    return (pictured_luminance(scene) - dark) / (bright - dark)
+
+
+def soft_step(size: int, width: int, blur: float) -> np.ndarray:
+    """Light across a slit of some width in the middle, through a Gaussian point spread."""
+    place = np.arange(size) - (size - 1) / 2
+    ends = [(place - sign * width / 2) / (blur * math.sqrt(2)) for sign in (-1, 1)]
+    rise, fall = ([math.erf(x) for x in end] for end in ends)
+    return (np.array(rise) - np.array(fall)) / 2
+
+
+@pytest.mark.parametrize("gamma", [1.0, 2.22])
+@pytest.mark.parametrize("blur", [1.0, 2.5, 6.0, 8.0, 15.0])
+def test_the_rim_of_a_level_panel_is_the_error_function_in_light(blur: float, gamma: float) -> None:
+    scene = unsharp(blur, gamma=gamma, luminance=1500.0)
+    expected = np.outer(soft_step(ROWS, HEIGHT, blur), soft_step(COLUMNS, WIDTH, blur))
+    # A kernel of pixels falls short of the curve between them, the more the narrower it is.
+    largest = 0.02 / blur**2 if blur < 8.0 else 5e-3
+    np.testing.assert_allclose(panel_share(scene), expected, rtol=0, atol=largest)
+
+
+@pytest.mark.parametrize("blur", [0.3, 1.0, 5.0, 9.0])
+def test_light_is_conserved_where_the_panel_lies_well_inside(blur: float) -> None:
+    assert panel_share(unsharp(blur)).sum() == pytest.approx(WIDTH * HEIGHT, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("focus", "distance"), [(0.3, 1.2), (1.2, 0.5), (0.1, 5.0), (1e6, 1.0), (0.8, 0.9)]
+)
+@pytest.mark.parametrize("f_number", [1.8, 8.0])
+def test_the_blur_out_of_focus_is_that_of_a_thin_lens(
+    focus: float, distance: float, f_number: float
+) -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        focus_distance=focus, distance=distance, f_number=f_number
+    )
+    focal = scene.camera.focal_length_pixels * 1e-6  # pixels of a micrometre
+    image_of_panel, sensor = (1 / (1 / focal - 1 / d) for d in (distance, focus))
+    # Similar triangles behind an aperture that is focal / f_number wide.
+    circle = focal / f_number * abs(sensor - image_of_panel) / image_of_panel
+    # The lens's formula is for distances far beyond its focal length, of 3.5 mm here.
+    assert blur_of(scene) == pytest.approx(circle / 1e-6 / 4, rel=2 * focal / min(focus, distance))
+
+
+def test_the_blur_of_a_disc_has_its_spread_along_each_axis() -> None:
+    y, x = np.mgrid[-1:1:801j, -1:1:801j]
+    disc = x[x**2 + y**2 <= 1.0]
+    assert disc.std() == pytest.approx(2.0 / 4.0, rel=1e-3)  # a diameter of 2
+
+
+def test_a_panel_in_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
+    focused = Scene().replace(focus_distance=1.2, distance=1.2)
+    assert blur_of(focused) == 0.0
+    assert Defocus().bound(focused, "image") == 0.0
+    away = Scene().replace(focus_distance=0.6, distance=1.2)
+    both = away.replace(point_spread=3.0)
+    assert blur_of(both) == pytest.approx(math.hypot(3.0, blur_of(away)))
+
+
+@pytest.mark.parametrize("blur", [0.7, 3.0, 12.0, 40.0])
+def test_a_panel_beyond_the_picture_is_not_darker_at_its_rim(blur: float) -> None:
+    scene = unsharp(blur, distance=0.05)
+    np.testing.assert_allclose(panel_share(scene), 1.0, rtol=0, atol=2e-4)
+
+
+@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
+@pytest.mark.parametrize("blur", [2.0, 9.0])
+def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
+    # Chips of one column's time: the finest stripes there are.
+    scene = unsharp(
+        blur,
+        pattern="01",
+        switching_frequency=125e3,
+        exposure_time=8e-6,
+        iso=1600.0,
+        averaging=averaging,
+    )
+    profile = occ.column_profile(scene)
+    assert np.ptp(profile) > 50
+    frame = occ.render(scene, force=ONLY)
+    reach = math.ceil(4 * blur)
+    middle = slice((COLUMNS - WIDTH) // 2 + reach, (COLUMNS + WIDTH) // 2 - reach)
+    row = frame.image[ROWS // 2, middle].astype(float)
+    assert len(row) > 70
+    np.testing.assert_allclose(row, profile[middle], rtol=0, atol=0.51)
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+def test_a_sharp_lens_is_nothing(enhancement: str) -> None:
+    scene = unsharp(0.0, pattern="", enhancement=enhancement, roll=0.2, start_time=1.2345e-4)
+    bare = occ.render(scene, tolerance=math.inf)
+    forced = occ.render(scene, tolerance=math.inf, force={"defocus": True})
+    np.testing.assert_array_equal(forced.image, bare.image)
+
+
+def test_a_blur_far_wider_than_the_picture_is_pictured_at_once() -> None:
+    scene = unsharp(1000.0, focus_distance=0.001, distance=1e4)
+    assert blur_of(scene) == ROWS + COLUMNS
+    share = panel_share(scene)
+    assert 0.0 < share.max() < 0.01
+    assert np.ptp(share) < 0.002
+
+
+@pytest.mark.parametrize("pattern", ["1", ""])
+@pytest.mark.parametrize("roll", [0.0, 0.3])
+@pytest.mark.parametrize("blur", [0.5, 3.0, 15.0])
+@pytest.mark.parametrize("observable", ["image", "profile"])
+def test_leaving_defocus_out_changes_no_more_than_its_bound(
+    observable: str, blur: float, roll: float, pattern: str
+) -> None:
+    scene = unsharp(blur, roll=roll, pattern=pattern)
+    soft, sharp = (
+        observe(scene, occ.plan(scene, math.inf, observable, {"defocus": on}))  # type: ignore[arg-type]
+        for on in (True, False)
+    )
+    change = float(np.sqrt(np.mean((soft - sharp) ** 2)))
+    assert 0.0 < change <= Defocus().bound(scene, observable)  # type: ignore[arg-type]

@@ -1,0 +1,139 @@
+"""Laws of a picture that goes through a JPEG file, against the files that OpenCV writes."""
+
+import io
+import math
+
+import cv2
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.effects.jpeg import Jpeg, quantization_steps
+from occ_model.effects.sight import region_of
+from occ_model.scene import Scene
+
+QUALITIES = [1, 2, 5, 10, 20, 35, 49, 50, 51, 65, 80, 90, 95, 98, 99, 100]
+
+
+def kept_at(quality: int) -> Scene:
+    return Scene().replace(jpeg_quality=quality)
+
+
+def root_mean_square(change: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(change**2)))
+
+
+def steps_in_file(quality: int) -> np.ndarray:
+    """What stands in a file that OpenCV writes, shape (8, 8)."""
+    written = cv2.imencode(".jpg", np.zeros((8, 8), np.uint8), [cv2.IMWRITE_JPEG_QUALITY, quality])
+    with Image.open(io.BytesIO(written[1].tobytes())) as picture:
+        table = list(picture.quantization[0])  # type: ignore[attr-defined]
+    assert len(table) == 64
+    return np.array(table).reshape(8, 8)
+
+
+def worst_case(quality: int) -> np.ndarray:
+    """Blocks of coefficients half a step off, as far as 8 bits hold them, shape (256, 256)."""
+    rng = np.random.default_rng(quality)
+    steps = quantization_steps(quality)
+    blocks = []
+    for _ in range(32 * 32):
+        whole = rng.integers(-1, 1, (8, 8)) * (rng.random((8, 8)) < rng.uniform(0, 1))
+        coefficients = (whole + 0.5) * steps * rng.choice([-1, 1], (8, 8))
+        blocks.append(cv2.idct(coefficients) + 128.0)
+    tiled = np.array(blocks).reshape(32, 32, 8, 8).swapaxes(1, 2).reshape(256, 256)
+    return np.clip(np.rint(tiled), 0, 255).astype(np.uint8)
+
+
+@pytest.mark.parametrize("quality", range(1, 101))
+def test_the_steps_are_those_in_the_file(quality: int) -> None:
+    np.testing.assert_array_equal(quantization_steps(quality), steps_in_file(quality))
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_no_picture_changes_by_more_than_the_bound(quality: int) -> None:
+    scene = kept_at(quality)
+    rng = np.random.default_rng(7)
+    pictures = {
+        "noise": rng.uniform(0, 255, (200, 203)),
+        "faint noise": rng.normal(40.0, 3.0, (200, 203)),
+        "black and white": rng.integers(0, 2, (64, 64)) * 255.0,
+        "checks": (np.indices((65, 67)).sum(axis=0) % 2) * 255.0,
+        "stripes": np.tile(rng.integers(0, 2, 200) * 180.0 + 12.0, (30, 1)),
+        "even": np.full((33, 17), 117.5),
+        "one pixel": np.full((1, 1), 200.4),
+        "worst": worst_case(quality).astype(float),
+    }
+    bound = Jpeg().bound(scene, "image")
+    for name, values in pictures.items():
+        rounded = np.clip(np.rint(values), 0, 255).astype(np.uint8)
+        change = Jpeg().apply(scene, rounded) - values
+        assert root_mean_square(change) <= bound, name
+
+
+@pytest.mark.parametrize("quality", [10, 50, 90])
+def test_the_worst_case_is_near_the_bound(quality: int) -> None:
+    scene = kept_at(quality)
+    worst = worst_case(quality)
+    change = root_mean_square(Jpeg().apply(scene, worst) - worst.astype(float))
+    assert change > 0.3 * Jpeg().bound(scene, "image")
+
+
+@pytest.mark.parametrize("quality", [5, 20, 50, 75, 95])
+@pytest.mark.parametrize("distance", [0.5, 2.0, 10.0, 40.0, 100.0])
+def test_a_panel_of_any_size_changes_by_no_more_than_the_bound(
+    distance: float, quality: int
+) -> None:
+    scene = Scene().replace(
+        rows=160, columns=160, distance=distance, jpeg_quality=quality, pattern="1", iso=800.0
+    )
+    quiet = {"sensor-noise": False, "fixed-pattern": False}
+    scene = scene.replace(enhancement="none", roll=0.3)
+    with_it = occ.render(scene, tolerance=0, force=quiet).image.astype(float)
+    without = occ.render(scene, tolerance=math.inf).image
+    region = region_of(occ.panel_corners(scene), 160, 160)
+    seen = (with_it - without)[
+        region.first_row : region.last_row, region.first_column : region.last_column
+    ]
+    assert root_mean_square(seen) <= Jpeg().bound(scene, "image")
+
+
+def test_a_better_quality_changes_less() -> None:
+    picture = np.random.default_rng(2).integers(0, 256, (160, 160), dtype=np.uint8)
+    changes = [
+        root_mean_square(Jpeg().apply(kept_at(quality), picture) - picture.astype(float))
+        for quality in (5, 20, 50, 80, 95, 100)
+    ]
+    assert (np.diff(changes) < 0).all()
+    assert changes[-1] < 1.0
+
+
+def test_quality_zero_is_no_file_at_all() -> None:
+    scene = kept_at(0).replace(rows=60, columns=200, start_time=1.2345e-4)
+    assert Jpeg().bound(scene, "image") == 0.0
+    assert "jpeg" not in occ.plan(scene, tolerance=0)
+    bare = occ.render(scene, tolerance=math.inf)
+    forced = occ.render(scene, tolerance=math.inf, force={"jpeg": True})
+    np.testing.assert_array_equal(forced.image, bare.image)
+
+
+def test_the_picture_is_the_files_and_enhanced_after_it() -> None:
+    scene = kept_at(30).replace(rows=60, columns=200, distance=0.05)
+    only = {"sensor-noise": False, "fixed-pattern": False}
+    plain = occ.render(scene.replace(enhancement="none"), tolerance=0, force=only)
+    sharp = occ.render(scene.replace(enhancement="none", jpeg_quality=0), force=only)
+    np.testing.assert_array_equal(plain.image, Jpeg().apply(scene, sharp.image))
+    np.testing.assert_allclose(plain.profile, plain.image.mean(axis=0), atol=1e-9)
+    equalized = occ.render(scene, tolerance=0, force=only).image
+    # One grey level of the file always becomes the same one, and none a darker one than it was.
+    for level in np.unique(plain.image):
+        assert len(np.unique(equalized[plain.image == level])) == 1
+    order = np.argsort(plain.image, axis=None)
+    assert (np.diff(equalized.ravel()[order].astype(int)) >= 0).all()
+
+
+def test_a_picture_too_large_for_a_file_is_refused() -> None:
+    scene = kept_at(80).replace(rows=1, columns=70_000)
+    with pytest.raises(occ.ParameterError, match="jpeg_quality"):
+        occ.render(scene, tolerance=0)

@@ -1,0 +1,168 @@
+"""Laws of pictures with effects: what is in them, and what stands beside them."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.camera.photometry import ColumnLight, panel_values
+from occ_model.camera.projection import row_spans
+from occ_model.effects.flicker import Flicker
+from occ_model.effects.full_well import FullWell
+from occ_model.effects.led_edges import LedEdges
+from occ_model.effects.registry import EFFECTS, NAMES
+from occ_model.scene import Scene
+
+ROWS, COLUMNS = 200, 400
+COLUMN_EFFECTS = {"led-edges", "flicker", "full-well"}
+NOISE = {"sensor-noise": False, "fixed-pattern": False}
+
+ALL: dict[str, float | int] = {
+    "edge_time": 20e-6,
+    "flicker_depth": 0.5,
+    "lambertian_order": 2.0,
+    "radial_k1": -0.15,
+    "point_spread": 1.5,
+    "vignetting_exponent": 4.0,
+    "jpeg_quality": 90,
+}
+"""What it takes for every effect to be there."""
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    """A panel in the middle of a small picture, with no effect but its sensor's noise."""
+    bare = occ.load_preset("phone-136us")
+    return bare.replace(rows=ROWS, columns=COLUMNS, enhancement="none", start_time=1.2345e-4)
+
+
+def whole(scene: Scene) -> Scene:
+    """The same with every effect; the low ISO speed makes the well full, the light bright."""
+    return scene.replace(**ALL, iso=20.0, luminance=1e5, illuminance=3e4)
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+def test_without_a_limit_the_picture_is_the_papers(scene: Scene, enhancement: str) -> None:
+    complete = whole(scene).replace(enhancement=enhancement, roll=0.3)
+    frame = occ.render(complete, tolerance=math.inf)
+    assert frame.plan.included == ()
+    np.testing.assert_array_equal(frame.profile, occ.column_profile(complete))
+    first, last = row_spans(frame.corners, ROWS, COLUMNS)
+    column = np.arange(COLUMNS)
+    inside = (column >= first[:, None]) & (column < last[:, None])
+    dark = occ.column_profile(complete.replace(pattern="0"))[0]
+    expected = np.where(inside, frame.enhanced, np.rint(dark))
+    np.testing.assert_array_equal(frame.image, expected)
+
+
+def test_at_no_tolerance_every_effect_that_is_not_nothing_is_there(scene: Scene) -> None:
+    assert occ.render(whole(scene), tolerance=0).plan.included == NAMES
+    assert set(occ.render(scene, tolerance=0).plan.included) == set(NOISE)
+    for one, value in ALL.items():
+        chosen = scene.replace(**{one: value})
+        there = {effect.name for effect in EFFECTS if effect.bound(chosen, "image")}
+        assert there - set(NOISE) == {next(e.name for e in EFFECTS if one in e.parameters)}
+        assert set(occ.plan(chosen, tolerance=0).included) == there
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_effect_is_switched_on_and_off_by_hand(scene: Scene, name: str) -> None:
+    complete = whole(scene)
+    off = occ.render(complete, tolerance=0, force={name: False})
+    assert set(off.plan.included) == set(NAMES) - {name}
+    on = occ.render(complete, tolerance=math.inf, force={name: True})
+    assert on.plan.included == (name,)
+    bare = occ.render(complete, tolerance=math.inf)
+    assert not np.array_equal(on.image, bare.image)
+    assert not np.array_equal(off.image, occ.render(complete, tolerance=0).image)
+
+
+@pytest.mark.parametrize("name", sorted(set(NAMES) - set(NOISE)))
+def test_an_effect_that_the_scene_has_none_of_changes_nothing_by_hand(
+    scene: Scene, name: str
+) -> None:
+    bare = occ.render(scene, tolerance=math.inf)
+    forced = occ.render(scene, tolerance=math.inf, force={name: True})
+    assert forced.plan.included == (name,)
+    np.testing.assert_array_equal(forced.image, bare.image)
+    np.testing.assert_allclose(
+        forced.profile, bare.profile, rtol=0, atol=0.51
+    )  # of bytes, in a file
+
+
+@pytest.mark.parametrize("source", ["exact", "reused"])
+def test_every_effect_that_is_simulated_is_timed(scene: Scene, source: str) -> None:
+    frame = occ.render(whole(scene), tolerance=0, noise=source)  # type: ignore[arg-type]
+    timed = set(frame.timings)
+    # Reused numbers are scaled to all noise at once.
+    untimed = {"fixed-pattern"} if source == "reused" else set()
+    assert set(NAMES) - timed == untimed
+    assert all(seconds >= 0.0 for seconds in frame.timings.values())
+    assert not set(occ.render(scene, tolerance=math.inf).timings) & set(NAMES)
+
+
+@pytest.mark.parametrize("pose", [{"distance": 1.2}, {"distance": 0.8, "roll": 0.2, "yaw": 0.4}])
+@pytest.mark.parametrize("effects", ["noise", "all", "all but the file", "all but noise"])
+def test_the_profile_is_the_mean_of_the_panels_pixels(
+    scene: Scene, effects: str, pose: dict[str, float]
+) -> None:
+    complete = (scene if effects == "noise" else whole(scene)).replace(**pose)
+    if effects == "noise":
+        complete = complete.replace(illuminance=3000.0)
+    force = NOISE if effects == "all but noise" else {}
+    if effects != "all":
+        complete = complete.replace(jpeg_quality=0)
+    # A panel that is straight and sharp, so that its pixels are known.
+    complete = complete.replace(radial_k1=0.0, point_spread=0.0)
+    frame = occ.render(complete, tolerance=0, force=force)
+    first, last = row_spans(frame.corners, ROWS, COLUMNS)
+    column = np.arange(COLUMNS)
+    inside = (column >= first[:, None]) & (column < last[:, None])
+    seen = inside.any(axis=0)
+    means = frame.image.sum(axis=0, where=inside)[seen] / inside.sum(axis=0)[seen]
+    assert 0.2 < seen.mean() < 1.0
+    largest = 0.51 if effects != "noise" else 0.25  # noise dithers the rounding
+    np.testing.assert_allclose(frame.profile[seen], means, rtol=0, atol=largest)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"illuminance": 0.0}, {"iso": 6400.0, "luminance": 370.0}],
+)
+def test_the_profile_is_the_mean_of_pixels_that_noise_drives_to_black_or_white(
+    scene: Scene, changes: dict[str, float]
+) -> None:
+    frame = occ.render(scene.replace(distance=0.05, **changes), tolerance=0)
+    assert ((frame.image == 0) | (frame.image == 255)).mean() > 0.01
+    np.testing.assert_allclose(frame.profile, frame.image.mean(axis=0), rtol=0, atol=0.5)
+
+
+@pytest.mark.parametrize("roll", [0.0, 0.3])
+def test_column_effects_alone_leave_the_profile_to_the_columns(scene: Scene, roll: float) -> None:
+    complete = whole(scene).replace(roll=roll)
+    force = {name: name in COLUMN_EFFECTS for name in NAMES}
+    frame = occ.render(complete, force=force)
+    assert set(frame.plan.included) == COLUMN_EFFECTS
+    assert frame.plan.kinds == {"column"}
+    light = Flicker().apply(complete, LedEdges().apply(complete, ColumnLight.of(complete)))
+    columns = FullWell().apply(complete, panel_values(complete, light))
+    np.testing.assert_array_equal(frame.profile, np.minimum(columns, 255.0))
+    first, last = row_spans(frame.corners, ROWS, COLUMNS)
+    for row in range(0, ROWS, 7):
+        span = slice(first[row], last[row])
+        np.testing.assert_array_equal(frame.image[row, span], frame.enhanced[span])
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+@pytest.mark.parametrize("roll", [0.0, 0.3])
+def test_pictures_made_by_columns_and_by_pixels_are_the_same(
+    scene: Scene, enhancement: str, roll: float
+) -> None:
+    """A lens that is switched on by hand and does nothing takes the way of the pixels."""
+    complete = whole(scene).replace(enhancement=enhancement, roll=roll, point_spread=0.0)
+    columns = {name: name in COLUMN_EFFECTS for name in NAMES}
+    by_columns = occ.render(complete, force=columns)
+    by_pixels = occ.render(complete, force=columns | {"defocus": True})
+    np.testing.assert_array_equal(by_pixels.image, by_columns.image)
+    np.testing.assert_allclose(by_pixels.profile, by_columns.profile, rtol=1e-6)

@@ -28,7 +28,7 @@ from occ_model.errors import (
 from occ_model.photo.load import Photo, load_photo
 from occ_model.presets import load_preset, presets
 from occ_model.receiver.decode import decode
-from occ_model.results import DecodeResult, Frame, Region
+from occ_model.results import DecodeResult, Decision, Frame, Plan, Region
 from occ_model.scene import Scene
 from occ_model.simulation import render
 from occ_model.study.success_rate import success_rate
@@ -39,12 +39,14 @@ __all__ = [
     "BandModelUndefined",
     "DecodeInputError",
     "DecodeResult",
+    "Decision",
     "Frame",
     "OccError",
     "OutputError",
     "ParameterError",
     "Photo",
     "PhotoError",
+    "Plan",
     "PresetError",
     "ProjectionError",
     "Region",

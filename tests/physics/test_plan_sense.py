@@ -1,0 +1,112 @@
+"""Common sense that a plan must show."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.effects.registry import EFFECTS
+from occ_model.effects.sight import sight_of
+from occ_model.receiver.decoders import DECODERS
+from occ_model.scene import Scene
+from occ_model.study.observation import decode_profile
+from occ_model.study.paper_grid import DISTANCES, FREQUENCIES, point_scene
+
+COLUMNS_ONLY = {"sensor-noise": False, "fixed-pattern": False}
+
+
+def close_up() -> Scene:
+    """A bright panel that fills more than 3,000 rows."""
+    scene = occ.load_preset("phone-68us").replace(distance=0.6)
+    assert sight_of(scene).region.rows > 3000
+    return scene
+
+
+def noises(scene: Scene, tolerance: float = 0.5) -> set[str]:
+    plan = occ.plan(scene, tolerance, "profile")
+    return {d.effect for d in plan.decisions if d.kind == "noise" and d.included}
+
+
+def test_a_bright_close_panel_needs_no_noise_for_its_profile() -> None:
+    assert noises(close_up()) == set()
+    assert {"sensor-noise", "fixed-pattern"} <= set(occ.plan(close_up()).included)  # its picture
+
+
+def test_a_far_panel_of_twenty_rows_needs_noise() -> None:
+    far = close_up().replace(panel_height=0.02, distance=3.4)
+    assert sight_of(far).region.rows == 20
+    assert "sensor-noise" in noises(far)
+
+
+@pytest.mark.parametrize("pattern", ["01", ""])
+def test_near_the_null_the_same_scene_needs_noise(pattern: str) -> None:
+    scene = close_up().replace(pattern=pattern)
+    null = scene.replace(switching_frequency=2.0 / scene.camera.exposure_time * (1 + 1e-4))
+    assert noises(scene) == set()
+    if pattern == "01":  # of packets only the single chips vanish there
+        assert "sensor-noise" in noises(null)
+    assert occ.plan(null, 0.5, "profile").stretch > occ.plan(scene, 0.5, "profile").stretch
+
+
+def test_a_camera_without_distortion_never_runs_that_stage(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise AssertionError
+
+    for effect in EFFECTS:
+        if effect.name == "distortion":
+            monkeypatch.setattr(type(effect), "apply", fail)
+    scene = occ.load_preset("phone-136us-real").replace(radial_k1=0, radial_k2=0, rows=50)
+    timings = occ.render(scene, tolerance=0.0).timings
+    assert "distortion" not in timings
+    assert "defocus" in timings
+
+
+def test_an_edge_of_a_microsecond_counts_at_100_khz_and_not_at_2_khz() -> None:
+    # The same ramp touches one column in six at 2 kHz and all of them at 100 kHz, where the
+    # stripes are fainter, too.
+    scene = occ.load_preset("phone-136us").replace(edge_time=1e-6, distance=0.6)
+    for frequency, counts in ((2e3, False), (100e3, True)):
+        plan = occ.plan(scene.replace(switching_frequency=frequency), 0.5)
+        assert ("led-edges" in plan) is counts, str(plan)
+
+
+@pytest.mark.parametrize("preset", ["phone-68us", "phone-136us", "tablet-61us", "tablet-122us"])
+def test_the_papers_scenes_call_for_nothing_but_the_sensors_noise(preset: str) -> None:
+    scene = occ.load_preset(preset)
+    assert set(occ.plan(scene, 0.0).included) == {"fixed-pattern", "sensor-noise"}
+    assert occ.plan(scene, 0.5, "profile").included == ()
+
+
+@pytest.mark.parametrize("decoder", DECODERS)
+@pytest.mark.parametrize("exposure", ["phone-68us", "phone-136us"])
+def test_profile_path_and_image_path_decode_alike_on_the_whole_grid(
+    exposure: str, decoder: str
+) -> None:
+    random = np.random.default_rng(1)
+    for frequency in FREQUENCIES:
+        for distance in DISTANCES:
+            scene = point_scene(exposure, frequency, distance)
+            start = float(random.uniform(0.0, 24.0 / frequency))
+            # All rows of a level panel are alike: a few show as much as 4,608 do.
+            scene = scene.replace(start_time=start, **few_rows(scene))
+            plan = occ.plan(scene, 0.0, "profile", COLUMNS_ONLY)
+            assert plan.kinds <= {"column"}
+            by_profile = decode_profile(scene, decoder, plan, random)
+            image = occ.render(scene, tolerance=0.0, force=COLUMNS_ONLY).image
+            by_image = occ.decode(image, scene, decoder)
+            assert by_profile is not None
+            assert by_profile.region == by_image.region
+            assert (by_profile.code, by_profile.failure) == (by_image.code, by_image.failure)
+            np.testing.assert_array_equal(by_profile.bits, by_image.bits)
+
+
+def few_rows(scene: Scene) -> dict[str, float | int]:
+    """Fewer rows, the same pixels of the panel across, and the same share of it upwards."""
+    camera, rows = scene.camera, 288
+    diagonal = np.hypot(camera.rows, camera.columns) / np.hypot(rows, camera.columns)
+    return {
+        "rows": rows,
+        "equivalent_focal_length": float(camera.equivalent_focal_length * diagonal),
+        "panel_height": scene.transmitter.panel_height * rows / camera.rows,
+        "edge_time": 2e-6,
+        "flicker_depth": 0.3,
+    }

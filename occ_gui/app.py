@@ -10,9 +10,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
+from occ_model.checks import check_choice, check_seed
+from occ_model.effects.registry import NAMES
 from occ_model.output import write_whole
 from occ_model.scene import Scene
-from occ_model.settings import add_scene_options, scene_of
+from occ_model.settings import (
+    add_scene_options,
+    add_simulation_options,
+    scene_of,
+    simulation_settings_of,
+)
+from occ_model.simulation_settings import TOLERANCE, SimulationSettings
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
@@ -21,6 +29,9 @@ if TYPE_CHECKING:
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables one of which says where a window can be drawn."""
+
+PANES = ("controls", "decode", "profile", "accuracy")
+"""The docks, by their names in the window."""
 
 _NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
@@ -37,9 +48,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the application; return the process's exit code."""
     options = _parser().parse_args(arguments)
     try:
-        return _run(options, scene_of(options))
+        return _run(options, scene_of(options), _settings_of(options))
     except occ.OccError as error:
         return _refuse(str(error))
+
+
+def _settings_of(options: argparse.Namespace) -> SimulationSettings:
+    """Read how the scene is simulated, and refuse at once what no picture can be made with."""
+    settings = simulation_settings_of(options)
+    TOLERANCE.check(settings.tolerance)
+    check_seed(settings.seed)
+    for effect in settings.force:
+        check_choice("effect", effect, NAMES)
+    return settings
 
 
 def _refuse(sentence: str) -> int:
@@ -53,6 +74,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
+    add_simulation_options(parser)
+    parser.set_defaults(noise="reused")  # keeps up with a slider
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
         "--screenshot", type=Path, metavar="FILE",
@@ -61,6 +84,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--size", type=_size, metavar="WIDTHxHEIGHT", help="the window's size, such as 1280x800"
     )
+    parser.add_argument("--dock", choices=PANES, help="bring this pane to the front")
     return parser
 
 
@@ -74,7 +98,7 @@ def _size(text: str) -> tuple[int, int]:
     return width, height
 
 
-def _run(options: argparse.Namespace, scene: Scene) -> int:
+def _run(options: argparse.Namespace, scene: Scene, settings: SimulationSettings) -> int:
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise occ.OutputError(f"{options.screenshot}: a screenshot is a .png file; name one.")
@@ -82,12 +106,14 @@ def _run(options: argparse.Namespace, scene: Scene) -> int:
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
             occ.load_photo(options.photo)
-    qt, application = start(scene, sys.argv[:1])
+    qt, application = start(scene, sys.argv[:1], settings)
     if options.size:
         application.window.resize(*options.size)
     if options.photo:
         application.open_photo(options.photo)
     application.window.show()
+    if options.dock:
+        application.window.docks[options.dock].raise_()
     if options.screenshot:
         _take_screenshot(application, options.screenshot)
         return 0
@@ -106,7 +132,9 @@ def _close_on_interrupt(application: "Application") -> None:
     turns.start(_TURN_MS)
 
 
-def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Application]":
+def start(
+    scene: Scene, arguments: list[str], settings: SimulationSettings | None = None
+) -> "tuple[QApplication, Application]":
     """Put the application together, its window not yet shown.
 
     Parameters
@@ -115,6 +143,8 @@ def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Applicatio
         The scene to begin with.
     arguments
         What Qt may read from the command line.
+    settings
+        How the scene is simulated at first, by default as suits a slider.
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would find out by itself, but say more about it than helps.
@@ -128,7 +158,7 @@ def start(scene: Scene, arguments: list[str]) -> "tuple[QApplication, Applicatio
     log_qt_messages(_end_without_display)
     qt = QApplication(arguments)
     log_qt_messages()
-    return qt, Application(scene)
+    return qt, Application(scene) if settings is None else Application(scene, settings)
 
 
 def _end_without_display() -> NoReturn:
@@ -152,14 +182,18 @@ def wait_until_shown(application: "Application") -> None:
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
     QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case
-    while not (application.is_idle or deadline.hasExpired()):
+    while not (_is_at_rest(application) or deadline.hasExpired()):
         # Waiting, not spinning: the worker needs the interpreter.
         QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
     QApplication.processEvents()
     if failures:
         raise occ.OccError(failures[0])
-    if not application.is_idle:
+    if not _is_at_rest(application):
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
+
+
+def _is_at_rest(application: "Application") -> bool:
+    return application.is_idle and application.study.is_idle
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:

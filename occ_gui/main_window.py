@@ -4,10 +4,12 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QCloseEvent, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMenu, QWidget
 
+from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
+from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.photo.load import SCAN_AXES
 
 _FIRST_SIZE = QSize(1280, 800)
@@ -18,7 +20,7 @@ class MainWindow(QMainWindow):
 
     Parameters
     ----------
-    controls, image, profile, decode
+    controls, image, profile, decode, accuracy
         The panes.
     undo_stack
         The steps that the edit menu undoes.
@@ -33,6 +35,7 @@ class MainWindow(QMainWindow):
         image: ImageView,
         profile: ProfileView,
         decode: DecodeView,
+        accuracy: AccuracyView,
         undo_stack: QUndoStack,
     ) -> None:
         super().__init__()
@@ -46,8 +49,12 @@ class MainWindow(QMainWindow):
             "controls": self._dock("controls", self.tr("Scene"), controls, left),
             "decode": self._dock("decode", self.tr("Decoding"), decode, right),
             "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
+            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
         }
-        self.resizeDocks([self.docks["profile"]], [270], Qt.Orientation.Vertical)
+        self.tabifyDockWidget(self.docks["profile"], self.docks["accuracy"])
+        self.docks["profile"].raise_()
+        self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
+        self.resizeDocks([self.docks["profile"]], [308], Qt.Orientation.Vertical)
         self.resizeDocks(
             [self.docks["controls"], self.docks["decode"]], [340, 360], Qt.Orientation.Horizontal
         )
@@ -57,7 +64,9 @@ class MainWindow(QMainWindow):
         self._make_view_menu(image)
         self._make_help_menu()
         self._said_until = ""
+        self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._timing = QLabel()
+        self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
         self.statusBar().addPermanentWidget(self._timing)
         self.resize(_FIRST_SIZE)
 
@@ -140,6 +149,10 @@ class MainWindow(QMainWindow):
                 simulation=1e3 * simulation, reading=1e3 * reading
             )
         )
+
+    def show_plan_change(self, sentence: str) -> None:
+        """Tell which effects the plan has just switched, while there is nothing else to say."""
+        self._plan_change.set_full_text(sentence)
 
     def say(self, sentence: str, until: str = "") -> None:
         """Show a sentence in the status line, until the next one or until ``until`` has happened.

@@ -1,4 +1,4 @@
-"""Simulate the store's scene whenever it changes, and hand the results to the views."""
+"""Simulate the store's scene whenever it or the settings change, and hand the results over."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -8,12 +8,15 @@ from typing import Protocol
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
+from occ_gui.state.request import SimulationRequest
 from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.tasks.latest_wins import LatestWins
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import DecodeResult
 from occ_model.scene import Scene
+from occ_model.simulation_settings import SimulationSettings
 from occ_model.transmitter.packet import bits_of
 
 
@@ -24,15 +27,31 @@ class SnapshotView(Protocol):
         """Show these results in place of the last ones."""
 
 
-def simulate(scene: Scene) -> Snapshot:
+def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
     """Make everything that the views show of a scene.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        How it is simulated.
 
     Raises
     ------
+    ParameterError
+        A setting cannot be.
     ProjectionError
         The panel has no picture in this pose.
     """
-    frame = occ.render(scene)
+    frame = occ.render(
+        scene,
+        tolerance=settings.tolerance,
+        seed=settings.seed,
+        observable=settings.observable,
+        force=settings.force,
+        noise=settings.noise,
+    )
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)
     reading_seconds = perf_counter() - start
@@ -71,13 +90,19 @@ def _read_alike(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
             yield replace(result, region=decoded.region, location=decoded.location)
 
 
+def _simulate(request: SimulationRequest) -> Snapshot:
+    return simulate(request.scene, request.settings)
+
+
 class SimulationController(QObject):
-    """Connects the store, the simulation's thread and the views.
+    """Connects the stores, the simulation's thread and the views.
 
     Parameters
     ----------
-    store
+    scenes
         Its scene is simulated, at once and after every change.
+    settings
+        How it is simulated.
     views
         The panes that show the results.
     """
@@ -88,14 +113,22 @@ class SimulationController(QObject):
     failed = Signal(str)
     """Why the scene has no picture; the views keep the last one."""
 
-    def __init__(self, store: SceneStore, views: Sequence[SnapshotView]) -> None:
+    def __init__(
+        self, scenes: SceneStore, settings: SettingsStore, views: Sequence[SnapshotView]
+    ) -> None:
         super().__init__()
+        self._scenes = scenes
+        self._settings = settings
         self._views = views
-        self.runner: LatestWins[Scene, Snapshot] = LatestWins(simulate, "simulation")
+        self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(_simulate, "simulation")
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
-        store.changed.connect(self.runner.submit)
-        self.runner.submit(store.scene)
+        for store in (scenes, settings):
+            store.changed.connect(self._submit)
+        self._submit()
+
+    def _submit(self) -> None:
+        self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:

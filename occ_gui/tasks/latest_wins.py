@@ -1,17 +1,14 @@
 """Work off the window's thread: the newest request wins, and every finished result is shown."""
 
-import logging
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar
 
 from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
 
-from occ_model.errors import OccError
+from occ_gui.tasks.failure import sentence_of
 
 Request = TypeVar("Request")
 Result = TypeVar("Result")
-
-_log = logging.getLogger(__name__)
 
 
 class LatestWins(QObject, Generic[Request, Result]):
@@ -106,10 +103,6 @@ class _Worker(QObject):
         result, failure = None, ""
         try:
             result = self._work(request)
-        except OccError as error:
-            failure = str(error)
         except Exception as error:  # noqa: BLE001 - the window must outlive a mistake of ours
-            _log.exception("%s failed for %r", self._name, request)
-            reason = f"{type(error).__name__}: {error}".rstrip(": .")
-            failure = f"The {self._name} failed: {reason}."
+            failure = sentence_of(error, self._name, request)
         self.done.emit(result, failure)

@@ -1,8 +1,9 @@
 """How plots look: one place for their axes, pens and colours, and for how much is in view."""
 
 import pyqtgraph as pg
+from pyqtgraph.graphicsItems.ScatterPlotItem import renderSymbol
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette, QPen
+from PySide6.QtGui import QColor, QPalette, QPen, QPixmap
 
 from occ_model import colours
 
@@ -11,11 +12,12 @@ BAND = QColor(colours.BAND)
 PHOTO = QColor(colours.PHOTO)
 THRESHOLD = QColor(colours.THRESHOLD)
 REGION = QColor(colours.REGION)
+NOISE = QColor(colours.NOISE)
 
 PACKETS_IN_VIEW = 2
 """Packets that a plot over columns shows at first; the rest can be panned to."""
 
-_LEAST_HEIGHT = 90
+_LEAST_HEIGHT = 86
 
 
 def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
@@ -23,8 +25,19 @@ def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
     return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
+def marker(symbol: str, size: int, fill: QColor | None, outline: QPen | None = None) -> QPixmap:
+    """Draw a point as a plot does."""
+    brush = pg.mkBrush(fill)
+    return QPixmap.fromImage(renderSymbol(symbol, size, outline or pg.mkPen(None), brush))
+
+
 def new_plot(
-    name: str, x: str, y: str, palette: QPalette, left: pg.AxisItem | None = None
+    name: str,
+    x: str,
+    y: str,
+    palette: QPalette,
+    left: pg.AxisItem | None = None,
+    bottom: pg.AxisItem | None = None,
 ) -> pg.PlotWidget:
     """Make an empty plot that ranges itself only when told to.
 
@@ -36,10 +49,11 @@ def new_plot(
         What the axes show.
     palette
         Whose colours it takes.
-    left
-        The axis of what is shown upwards, where a plain one does not suit.
+    left, bottom
+        The axes, where plain ones do not suit.
     """
-    plot = pg.PlotWidget(axisItems={} if left is None else {"left": left})
+    axes = {"left": left, "bottom": bottom}
+    plot = pg.PlotWidget(axisItems={side: axis for side, axis in axes.items() if axis is not None})
     plot.setAccessibleName(name)
     plot.setBackground(palette.color(QPalette.ColorRole.Base))
     for side, label in (("bottom", x), ("left", y)):

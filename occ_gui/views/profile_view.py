@@ -23,6 +23,9 @@ from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import FloatArray
 from occ_model.photo.load import Photo
 
+_LEAST_HEIGHT = 76
+"""Pixels: in a low window all panes have to share them."""
+
 _SHADE = 40
 """How much of the region's colour lies under the curves, of 255."""
 
@@ -41,6 +44,7 @@ class ProfileView(QWidget):
         self.plot = new_plot(
             self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
         )
+        self.plot.setMinimumHeight(_LEAST_HEIGHT)
         # Where several columns share a pixel their extremes are drawn, not one of them by chance.
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)

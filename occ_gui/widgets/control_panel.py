@@ -29,6 +29,8 @@ class ControlPanel(QWidget):
     ----------
     presets
         Names and titles of the presets.
+    effects
+        The parameters that effects are governed by: they have a page of their own.
     parent
         The parent widget.
     """
@@ -42,7 +44,12 @@ class ControlPanel(QWidget):
     preset_chosen = Signal(str)
     """The name of a preset to load."""
 
-    def __init__(self, presets: Sequence[tuple[str, str]], parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        presets: Sequence[tuple[str, str]],
+        effects: Sequence[str] = (),
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
         self.preset = QComboBox()
         self.preset.setAccessibleName(self.tr("Preset"))
@@ -58,11 +65,12 @@ class ControlPanel(QWidget):
             lambda index: self.preset_chosen.emit(self.preset.itemData(index))
         )
         self.code = CodeEntry()
-        others = [n for n in PARAMETERS if n not in MAIN and n != "code"]
+        others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
         model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
         self.panels = {
             self.tr("Main"): ParameterPanel(MAIN),
             self.tr("Panel and camera"): ParameterPanel(n for n in others if n not in model),
+            self.tr("Effects"): ParameterPanel(effects),
             self.tr("Model"): ParameterPanel(model),
         }
         self._lay_out()

@@ -6,10 +6,26 @@ from PySide6.QtWidgets import QLabel, QWidget
 
 
 class ElidedLabel(QLabel):
-    """Shows as much of a text as fits, all of it in the tooltip."""
+    """Shows as much of a text as fits, all of it in the tooltip.
 
-    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
+    Parameters
+    ----------
+    text
+        The text.
+    how
+        Where the dots stand.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self,
+        text: str = "",
+        how: Qt.TextElideMode = Qt.TextElideMode.ElideMiddle,
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
+        self._how = how
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.set_full_text(text)
 
@@ -20,8 +36,7 @@ class ElidedLabel(QLabel):
         self._fit()
 
     def _fit(self) -> None:
-        how = Qt.TextElideMode.ElideMiddle
-        self.setText(self.fontMetrics().elidedText(self._full, how, self.width()))
+        self.setText(self.fontMetrics().elidedText(self._full, self._how, self.width()))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Show as much as fits now."""

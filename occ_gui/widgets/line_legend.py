@@ -18,9 +18,14 @@ class LineLegend(QWidget):
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
         """Add an entry, shown until :meth:`show_line` hides it."""
+        self.add_sample(key, _sample(pen), text)
+
+    def add_sample(self, key: str, picture: QPixmap, text: str, meaning: str = "") -> None:
+        """Add an entry for what is drawn as in a picture; what it means is its tooltip."""
         sample, name = QLabel(), QLabel(text)
-        sample.setPixmap(_sample(pen))
+        sample.setPixmap(picture)
         entry = QWidget()
+        entry.setToolTip(meaning)
         layout = QHBoxLayout(entry)
         layout.setContentsMargins(0, 0, 10, 0)
         layout.addWidget(sample)

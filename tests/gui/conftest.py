@@ -1,5 +1,6 @@
 """A whole application, pictures of widgets, and results to show, for the tests of the window."""
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from occ_gui.state.snapshot import Snapshot
 from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
 from occ_model.photo.load import Photo
 from occ_model.scene import Scene
+from occ_model.simulation_settings import SimulationSettings
 
 Grey = NDArray[np.uint8]
 
@@ -33,6 +35,13 @@ def small_scene() -> Scene:
 def snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
     """Simulate the small scene with some parameters changed."""
     return lambda **changes: simulate(small_scene.replace(**changes))
+
+
+@pytest.fixture
+def bare_snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
+    """Simulate the small scene as above, without any effect."""
+    bare = SimulationSettings(tolerance=math.inf)
+    return lambda **changes: simulate(small_scene.replace(**changes), bare)
 
 
 @pytest.fixture

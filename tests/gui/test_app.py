@@ -18,6 +18,9 @@ DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 REGION = (0xE6, 0x9F, 0x00)
 """The colour of the rectangle round what the decoder read."""
 
+NOISE = (0xCC, 0x79, 0xA7)
+"""The colour of the points that an accuracy study gives last."""
+
 COLD_START = """
 import sys
 from occ_gui.app import main
@@ -51,6 +54,17 @@ def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_fil
         assert image.size == (1920, 1080)
         colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
     assert REGION in colours, "the picture was taken before the simulation was shown"
+
+
+def test_a_screenshot_of_the_accuracy_pane_waits_for_the_study(tmp_path: Path) -> None:
+    small = [f"--set={size}" for size in ("rows=60", "columns=100")]
+    ended = occ_gui(
+        "--screenshot", tmp_path / "w.png", "--dock", "accuracy", "--tolerance", "2", *small
+    )
+    assert (ended.returncode, ended.stderr) == (0, "")
+    with Image.open(tmp_path / "w.png") as image:
+        colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
+    assert NOISE in colours, "the picture was taken before the last points were shown"
 
 
 def test_the_first_picture_is_shown_without_importing_what_is_slow(tmp_path: Path) -> None:
@@ -94,6 +108,10 @@ def test_an_unknown_preset_is_answered_in_a_sentence(tmp_path: Path) -> None:
         (["--set", "shutter=1"], "shutter"),
         (["--set", "distance=-1 m"], "distance"),
         (["--scene", "missing.toml"], "missing.toml"),
+        (["--tolerance", "-1"], "tolerance"),
+        (["--on", "sparkle"], "'sparkle'"),
+        (["--on", "jpeg", "--off", "jpeg"], "'jpeg'"),
+        (["--seed", "-1"], "seed"),
     ],
 )
 def test_a_mistake_in_the_scene_is_answered_before_any_window(
@@ -129,7 +147,8 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
         main(["--help"])
     assert ended.value.code == 0
     told = capsys.readouterr().out
-    for option in ("--preset", "--scene", "--set", "--photo", "--screenshot", "--size"):
+    scene = ("--preset", "--scene", "--set", "--photo", "--tolerance", "--on", "--off")
+    for option in (*scene, "--screenshot", "--size", "--dock"):
         assert option in told
 
 

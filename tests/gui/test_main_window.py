@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.app import PANES
 from occ_gui.application import Application
 
 
@@ -74,7 +75,7 @@ def test_no_two_entries_share_a_shortcut(application: Application) -> None:
 
 def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> None:
     docks = application.window.docks
-    assert set(docks) == {"controls", "decode", "profile"}
+    assert set(docks) == set(PANES)
     for dock in docks.values():
         toggle = dock.toggleViewAction()
         assert dock.isVisible()
@@ -84,6 +85,15 @@ def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> N
         toggle.trigger()
         assert dock.isVisible()
         assert dock.widget().isVisible()
+
+
+def test_the_accuracy_pane_shares_its_place_with_the_profile_which_is_in_front(
+    application: Application,
+) -> None:
+    docks = application.window.docks
+    assert application.window.tabifiedDockWidgets(docks["profile"]) == [docks["accuracy"]]
+    assert not docks["profile"].visibleRegion().isEmpty()
+    assert docks["accuracy"].visibleRegion().isEmpty()
 
 
 def test_docks_have_names_that_a_saved_arrangement_can_refer_to(application: Application) -> None:

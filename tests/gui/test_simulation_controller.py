@@ -13,6 +13,7 @@ import occ_model as occ
 from occ_gui.controllers import simulation
 from occ_gui.controllers.simulation import SimulationController, simulate
 from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.settings_store import SettingsStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene import Scene
@@ -35,8 +36,9 @@ class Bench:
 
     def __init__(self, scene: Scene, qtbot: QtBot) -> None:
         self.store = SceneStore(scene)
+        self.settings = SettingsStore()
         self.views = (RecordingView(), RecordingView())
-        self.controller = SimulationController(self.store, self.views)
+        self.controller = SimulationController(self.store, self.settings, self.views)
         self.failures: list[str] = []
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
@@ -68,6 +70,19 @@ def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None
         bench.rest()
         assert bench.scenes[-1] == bench.store.scene
     assert bench.failures == []
+
+
+def test_every_change_of_the_settings_ends_with_a_picture_made_by_them(bench: Bench) -> None:
+    bench.settings.set_tolerance(50.0)
+    bench.settings.set_observable("profile")
+    bench.settings.force("jpeg", True)
+    bench.rest()
+    frame = bench.views[0].shown[-1].frame
+    assert (frame.plan.tolerance, frame.plan.observable) == (50.0, "profile")
+    assert frame.plan.included == ("jpeg",)
+    bench.settings.force("jpeg", None)
+    bench.rest()
+    assert bench.views[0].shown[-1].frame.plan.included == ()
 
 
 def test_undo_shows_the_scene_before(bench: Bench, small_scene: Scene) -> None:
@@ -121,7 +136,7 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(
 ) -> None:
     snapshot = snapshot_of(code=0b1011001110)
     scene = snapshot.frame.scene
-    assert np.array_equal(snapshot.frame.image, occ.render(scene).image)
+    assert np.array_equal(snapshot.frame.image, occ.render(scene, noise="reused").image)
     assert snapshot.decoded.code == snapshot.frame.scene.transmitter.code
     assert snapshot.sent == (1, 0, 1, 1, 0, 0, 1, 1, 1, 0)
     assert snapshot.band is not None
@@ -138,7 +153,7 @@ def test_simulating_and_reading_are_timed_apart_and_nothing_else_with_them(
     monkeypatch.setattr(simulation, "perf_counter", count().__next__)
     timings = {"transmitter": 2.0, "camera": 3.0}
     frame = replace(occ.render(small_scene), timings=timings)
-    monkeypatch.setattr(occ, "render", lambda scene: frame)
+    monkeypatch.setattr(occ, "render", lambda scene, **settings: frame)
     snapshot = simulate(small_scene)
     assert snapshot.simulation_seconds == 5.0
     assert snapshot.reading_seconds == 1
@@ -157,9 +172,9 @@ def test_the_snapshot_holds_every_decoders_reading_of_the_same_picture(
 
 
 def test_where_no_panel_is_found_every_decoder_says_so(
-    snapshot_of: Callable[..., Snapshot],
+    bare_snapshot_of: Callable[..., Snapshot],
 ) -> None:
-    snapshot = snapshot_of(offset_x=50.0)
+    snapshot = bare_snapshot_of(offset_x=50.0)  # of noise a decoder finds some brightest pixels
     assert snapshot.decoded.signal is None
     failures = {result.failure for result in (snapshot.decoded, *snapshot.others)}
     assert len(failures) == 1

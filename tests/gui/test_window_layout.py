@@ -9,14 +9,15 @@ import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
+    QAbstractScrollArea,
     QAbstractSpinBox,
     QApplication,
     QCheckBox,
     QComboBox,
+    QDockWidget,
     QLabel,
     QLineEdit,
     QPushButton,
-    QScrollArea,
     QSlider,
     QTabWidget,
     QWidget,
@@ -41,13 +42,23 @@ def visible_controls(window: QWidget) -> list[QWidget]:
     return [
         control
         for control in found
-        if control.isVisible() and not isinstance(control.parentWidget(), QAbstractSpinBox)
+        if control.isVisible()
+        and not isinstance(control.parentWidget(), QAbstractSpinBox)
+        and not behind(control)
     ]
+
+
+def behind(control: QWidget) -> bool:
+    """Whether it is in a dock that another one lies in front of."""
+    parent = control.parentWidget()
+    while parent is not None and not isinstance(parent, QDockWidget):
+        parent = parent.parentWidget()
+    return parent is not None and parent.visibleRegion().isEmpty()
 
 
 def scrolled(control: QWidget) -> bool:
     parent = control.parentWidget()
-    while parent is not None and not isinstance(parent, QScrollArea):
+    while parent is not None and not isinstance(parent, QAbstractScrollArea):
         parent = parent.parentWidget()
     return parent is not None
 
@@ -90,7 +101,7 @@ def axis_labels_cut_off(window: QWidget) -> list[str]:
     axes = [
         plot.getAxis(side)
         for plot in window.findChildren(pg.PlotWidget)
-        if plot.isVisible()
+        if plot.isVisible() and not behind(plot)
         for side in ("left", "bottom")
     ]
     return [
@@ -137,6 +148,18 @@ def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
+def test_the_accuracy_pane_is_whole_at_every_size_and_its_plot_can_be_read(
+    qtbot: QtBot, application: Application, user: User, size: QSize
+) -> None:
+    application.window.resize(size)
+    application.window.docks["accuracy"].raise_()
+    application.store.change(**MISREAD, edge_time=5e-6)
+    user.rest()
+    assert_faultless(qtbot, application.window, "accuracy")
+    assert axis_labels_cut_off(application.window) == []
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
 def test_the_window_keeps_the_size_that_the_user_gave_it(
     application: Application, user: User, photo_file: Path, size: QSize
 ) -> None:
@@ -162,6 +185,15 @@ def test_every_axis_label_fits_its_axis(application: Application, user: User, si
         application.decode.decoders.setCurrentIndex(decoder)
         QApplication.processEvents()
         assert axis_labels_cut_off(application.window) == []
+
+
+def test_at_the_size_that_the_window_opens_with_every_effect_is_in_view(
+    application: Application,
+) -> None:
+    application.window.docks["accuracy"].raise_()
+    QApplication.processEvents()
+    table = application.accuracy.table
+    assert table.model().rowCount() * table.rowHeight(0) <= table.viewport().height()
 
 
 def test_the_window_opens_at_1280_by_800(application: Application) -> None:

@@ -1,0 +1,184 @@
+"""The study runs while the scene is at rest and somebody looks, and never beside a simulation."""
+
+import threading
+from collections.abc import Iterator
+from itertools import pairwise
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.controllers import accuracy as module
+from occ_gui.controllers.accuracy import AccuracyController, measure
+from occ_gui.controllers.simulation import SimulationController
+from occ_gui.state.request import SimulationRequest
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_model.results import AccuracyPoint
+from occ_model.scene import Scene
+from occ_model.simulation_settings import SimulationSettings
+
+PATIENCE_S = 10.0
+TOTAL = 3
+
+
+class RecordingPane:
+    """A pane that keeps all that it is told."""
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def show_study_begun(self) -> None:
+        self.told.append("begun")
+
+    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
+        self.told.append(f"{point.name} {number}/{total}")
+
+    def show_study_finished(self) -> None:
+        self.told.append("finished")
+
+    def show_study_outdated(self) -> None:
+        self.told.append("outdated")
+
+    def show_study_failed(self, sentence: str) -> None:
+        self.told.append(sentence)
+
+
+class Bench:
+    """A controller whose study measures a point whenever it is let."""
+
+    def __init__(self, scene: Scene, qtbot: QtBot) -> None:
+        self._qtbot = qtbot
+        self._allowed = threading.Semaphore(0)
+        self.measured: list[SimulationRequest] = []
+        self.scenes, self.settings = SceneStore(scene), SettingsStore()
+        self.simulation = SimulationController(self.scenes, self.settings, [])
+        self.pane = RecordingPane()
+        self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)
+
+    def study(self, scene: Scene, settings: SimulationSettings) -> Iterator[AccuracyPoint]:
+        self.measured.append(SimulationRequest(scene, settings))
+        for number in range(TOTAL):
+            assert self._allowed.acquire(timeout=PATIENCE_S)
+            yield AccuracyPoint("effects", f"point {number}", 1e-3, 0.1)
+
+    def allow(self, points: int) -> None:
+        self._allowed.release(points)
+
+    def wait_for(self, told: str) -> None:
+        self._qtbot.waitUntil(lambda: told in self.pane.told)
+
+    def rest(self) -> None:
+        self._qtbot.waitUntil(lambda: self.simulation.runner.is_idle and self.controller.is_idle)
+
+    def stop(self) -> None:
+        self.allow(100)
+        self.simulation.stop()
+        self.controller.stop()
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+    monkeypatch.setattr(module, "REST_MS", 20)
+    bench = Bench(small_scene, qtbot)
+    monkeypatch.setattr(module, "accuracy", bench.study)
+    monkeypatch.setattr(module, "point_count", lambda scene, settings: TOTAL)
+    yield bench
+    bench.stop()
+
+
+def test_at_rest_and_seen_the_points_come_one_by_one(bench: Bench) -> None:
+    bench.controller.set_seen(True)
+    bench.allow(1)
+    bench.wait_for("point 0 1/3")
+    assert "finished" not in bench.pane.told
+    bench.allow(2)
+    bench.rest()
+    assert bench.pane.told == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
+    assert bench.measured == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
+
+
+def test_nothing_is_measured_while_nobody_looks(bench: Bench, qtbot: QtBot) -> None:
+    bench.scenes.change(iso=200.0)
+    qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+    qtbot.wait(100)
+    assert bench.controller.is_idle
+    assert bench.measured == []
+
+
+@pytest.mark.parametrize("what", ["scene", "settings"])
+def test_a_change_cancels_the_study_at_once_and_the_next_is_of_what_is_now(
+    bench: Bench, what: str
+) -> None:
+    bench.controller.set_seen(True)
+    bench.allow(1)
+    bench.wait_for("point 0 1/3")
+    if what == "scene":
+        bench.scenes.change(iso=200.0)
+    else:
+        bench.settings.set_tolerance(2.0)
+    assert not bench.controller.runner.is_running
+    assert bench.pane.told[-1] == "outdated"
+    bench.allow(1 + TOTAL)
+    bench.rest()
+    after = bench.pane.told[bench.pane.told.index("outdated") + 1 :]
+    assert after == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
+    assert bench.measured[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
+
+
+def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench) -> None:
+    bench.controller.set_seen(True)
+    bench.allow(1)
+    bench.wait_for("point 0 1/3")
+    bench.controller.set_seen(False)
+    assert bench.controller.is_idle
+    assert bench.pane.told[-1] == "outdated"
+    bench.controller.set_seen(True)
+    bench.allow(1 + TOTAL)
+    bench.rest()
+    assert bench.pane.told[-1] == "finished"
+
+
+def test_what_has_been_measured_is_not_measured_again_when_shown_again(bench: Bench) -> None:
+    bench.controller.set_seen(True)
+    bench.allow(TOTAL)
+    bench.wait_for("finished")
+    bench.controller.set_seen(False)
+    bench.controller.set_seen(True)
+    assert bench.controller.is_idle
+    assert bench.pane.told[-1] == "finished"
+
+
+def test_the_study_waits_while_a_picture_is_simulated(
+    bench: Bench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+    runner = bench.simulation.runner
+    with monkeypatch.context() as busy:
+        busy.setattr(type(runner), "is_idle", property(lambda self: False))
+        bench.controller.set_seen(True)
+        qtbot.waitUntil(lambda: bench.controller.is_idle)
+        assert bench.measured == []
+    runner.idle.emit()
+    bench.allow(TOTAL)
+    bench.wait_for("finished")
+
+
+def test_a_study_that_fails_tells_why_and_is_not_tried_again(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(scene: Scene, settings: SimulationSettings) -> Iterator[AccuracyPoint]:
+        raise occ.ProjectionError("The panel is behind the camera.")
+
+    monkeypatch.setattr(module, "accuracy", refuse)
+    bench.controller.set_seen(True)
+    bench.rest()
+    assert bench.pane.told == ["begun", "The panel is behind the camera."]
+
+
+def test_the_models_own_study_has_as_many_points_as_it_says() -> None:
+    scene = occ.load_preset("phone-68us").replace(rows=30, columns=60)
+    points = list(measure(SimulationRequest(scene, FIRST_SETTINGS)))
+    assert {point.total for point in points} == {len(points)}
+    parts = [point.point.part for point in points]
+    assert sum(one != other for one, other in pairwise(parts)) == 3

@@ -1,0 +1,157 @@
+"""Within one move of a slider the user sees which effect came in, and what it costs."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers import accuracy
+from occ_gui.views.effect_table import DECISION, EffectRow
+
+User = Any  # the fixture of that name
+
+
+@pytest.fixture
+def in_front(application: Application, monkeypatch: pytest.MonkeyPatch) -> Application:
+    """Bring the pane to the front, and let no study begin."""
+    monkeypatch.setattr(accuracy, "REST_MS", 3_600_000)
+    application.window.docks["accuracy"].raise_()
+    return application
+
+
+def row(application: Application, effect: str) -> EffectRow:
+    (found,) = [row for row in application.accuracy.table.effects.rows if row.effect == effect]
+    return found
+
+
+def choose(qtbot: QtBot, application: Application, effect: str, key: Qt.Key) -> None:
+    qtbot.keyClick(application.accuracy.table.switches[effect], key)
+
+
+def test_an_effect_that_a_slider_calls_for_is_marked_and_said_with_its_cost(
+    in_front: Application, user: User
+) -> None:
+    assert not row(in_front, "led-edges").included
+    slider = user.row("edge_time").slider
+    slider.setValue(200)
+    user.rest()
+    shown = row(in_front, "led-edges")
+    assert (shown.included, shown.new, shown.texts[DECISION]) == (True, True, "● in, new")
+    assert in_front.accuracy.summary.toolTip().startswith("Switched in: LED rise and fall, +")
+    slider.setValue(205)  # the mark stays while the slider goes on
+    user.rest()
+    assert row(in_front, "led-edges").new
+
+
+def test_the_mark_goes_to_what_is_switched_next(in_front: Application, user: User) -> None:
+    user.enter("edge_time", "5 us")
+    user.enter("vignetting_exponent", "4")
+    assert not row(in_front, "led-edges").new
+    assert row(in_front, "vignetting").new
+    user.enter("edge_time", "0")
+    assert row(in_front, "led-edges").texts[DECISION] == "○ out, new"
+    assert in_front.accuracy.summary.toolTip().startswith("Switched out: LED rise and fall, −")  # noqa: RUF001
+
+
+def test_the_status_line_says_it_also_while_the_pane_is_behind(
+    application: Application, user: User
+) -> None:
+    user.enter("edge_time", "5 us")
+    assert application.accuracy.table.effects.rows == ()  # nothing is drawn that nobody sees
+    tips = [label.toolTip() for label in application.window.statusBar().findChildren(QLabel)]
+    assert any(tip.startswith("Switched in: LED rise and fall, +") for tip in tips)
+    application.window.docks["accuracy"].raise_()
+    assert row(application, "led-edges").new
+
+
+def test_a_higher_tolerance_leaves_effects_out(
+    qtbot: QtBot, in_front: Application, user: User
+) -> None:
+    assert row(in_front, "sensor-noise").included
+    tolerance = in_front.accuracy.tolerance
+    tolerance.slider.setValue(tolerance.slider.maximum())
+    user.rest()
+    assert in_front.settings.settings.tolerance == 100.0
+    assert not row(in_front, "sensor-noise").included
+
+
+def test_a_switch_forces_its_effect_and_the_picture_changes(
+    qtbot: QtBot, in_front: Application, user: User
+) -> None:
+    pictures: list[Any] = []
+    in_front.simulation.shown.connect(lambda shown: pictures.append(shown.frame.image))
+    for _ in range(2):  # auto, on, off
+        choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Down)
+        user.rest()
+    assert in_front.settings.settings.force == {"sensor-noise": False}
+    assert "by hand" in row(in_front, "sensor-noise").texts[-1]
+    choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Home)
+    user.rest()
+    assert in_front.settings.settings.force == {}
+    assert not np.array_equal(pictures[-2], pictures[-1])
+
+
+def test_observable_and_noise_are_chosen(qtbot: QtBot, in_front: Application, user: User) -> None:
+    for control in (in_front.accuracy.observable, in_front.accuracy.noise):
+        qtbot.keyClick(control, Qt.Key.Key_Down)
+    user.rest()
+    settings = in_front.settings.settings
+    assert (settings.observable, settings.noise) == ("profile", "exact")
+
+
+@pytest.mark.parametrize("text", ["-1", "little"])
+def test_a_wrong_tolerance_is_refused_with_a_sentence_and_the_field_shows_what_holds(
+    qtbot: QtBot, in_front: Application, user: User, text: str
+) -> None:
+    field = in_front.accuracy.tolerance.field
+    field.selectAll()
+    qtbot.keyClicks(field, text)
+    qtbot.keyClick(field, Qt.Key.Key_Return)
+    assert user.message.startswith("tolerance is ")
+    assert "allowed: 0 levels to" in user.message
+    assert field.value() == in_front.settings.settings.tolerance == 0.5
+    assert field.lineEdit().text() == "0.5 levels"
+
+
+def test_the_frames_time_and_the_effects_share_are_told(in_front: Application) -> None:
+    assert in_front.accuracy.summary.toolTip().startswith("Frame ")
+    assert "of it effects" in in_front.accuracy.summary.toolTip()
+
+
+def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Application) -> None:
+    pane = in_front.accuracy
+    controls = [pane.tolerance.slider, pane.tolerance.field, pane.observable, pane.noise]
+    assert all(control.accessibleName() and control.toolTip() for control in controls)
+
+
+def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
+    qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(accuracy, "REST_MS", 1)
+    title = application.accuracy.plot.title
+    application.window.docks["accuracy"].raise_()
+    qtbot.waitUntil(lambda: " of " in title.toolTip())
+    application.store.change(iso=200.0)
+    assert title.toolTip().endswith("stopped")
+    assert not application.study.runner.is_running
+    qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"), timeout=20_000)
+    assert application.study.is_idle
+
+
+def test_behind_another_pane_no_study_is_made(
+    qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(accuracy, "REST_MS", 1)
+    application.window.docks["accuracy"].raise_()
+    qtbot.waitUntil(lambda: application.study.runner.is_running)
+    application.window.docks["profile"].raise_()
+    qtbot.waitUntil(lambda: application.study.is_idle)
+    application.store.change(iso=200.0)
+    qtbot.waitUntil(lambda: application.is_idle)
+    qtbot.wait(50)
+    assert application.study.is_idle
+    assert not application.study.runner.is_running

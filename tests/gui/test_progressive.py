@@ -1,0 +1,158 @@
+"""Items come one by one and in order; of a cancelled run nothing comes any more."""
+
+import threading
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.tasks.progressive import Progressive
+
+PATIENCE_S = 10.0
+
+
+class Bench:
+    """Work that yields an item when it is let, and a record of what became of it."""
+
+    def __init__(self, qtbot: QtBot) -> None:
+        self._qtbot = qtbot
+        self._allowed = threading.Semaphore(0)
+        self.at_work = threading.Event()
+        self.threads: set[int] = set()
+        self.made: list[object] = []
+        self.items: list[object] = []
+        self.ends: list[str] = []
+        self.runner: Progressive[str, str] = Progressive(self._work, "test of the runner")
+        self.runner.item.connect(self.items.append)
+        self.runner.finished.connect(lambda: self.ends.append("finished"))
+        self.runner.failed.connect(self.ends.append)
+
+    def _work(self, request: str) -> Iterator[str]:
+        self.threads.add(threading.get_ident())
+        for number in range(3):
+            self.at_work.set()
+            assert self._allowed.acquire(timeout=PATIENCE_S)
+            if request == "refused" and number == 1:
+                raise occ.ProjectionError("The panel is behind the camera.")
+            if request == "mistake" and number == 1:
+                raise RuntimeError("out of luck")
+            self.made.append(f"{request} {number}")
+            yield f"{request} {number}"
+
+    def allow(self, items: int = 1) -> None:
+        self._allowed.release(items)
+
+    def wait_for(self, items: int) -> None:
+        self._qtbot.waitUntil(lambda: len(self.items) == items)
+
+    def wait_for_end(self) -> None:
+        self._qtbot.waitUntil(lambda: bool(self.ends))
+
+
+@pytest.fixture
+def bench(qtbot: QtBot) -> Iterator[Bench]:
+    bench = Bench(qtbot)
+    yield bench
+    bench.allow(100)
+    bench.runner.stop()
+
+
+def test_items_arrive_in_order_each_as_it_comes_and_then_the_end(bench: Bench) -> None:
+    bench.runner.start("a")
+    bench.allow()
+    bench.wait_for(1)
+    assert bench.runner.is_running
+    assert bench.ends == []
+    bench.allow(2)
+    bench.wait_for_end()
+    assert bench.items == ["a 0", "a 1", "a 2"]
+    assert bench.ends == ["finished"]
+    assert not bench.runner.is_running
+
+
+def test_work_runs_on_one_other_thread(bench: Bench) -> None:
+    bench.allow(6)
+    for request in ("a", "b"):
+        bench.ends.clear()
+        bench.runner.start(request)
+        bench.wait_for_end()
+    assert len(bench.threads) == 1
+    assert threading.get_ident() not in bench.threads
+
+
+def test_a_cancelled_run_ends_at_the_item_it_is_at_and_nothing_of_it_arrives(
+    bench: Bench, qtbot: QtBot
+) -> None:
+    bench.runner.start("a")
+    bench.allow()
+    bench.wait_for(1)
+    bench.runner.cancel()
+    assert not bench.runner.is_running
+    bench.allow(5)
+    bench.runner.start("b")
+    bench.wait_for_end()
+    assert bench.items == ["a 0", "b 0", "b 1", "b 2"]
+    assert bench.ends == ["finished"]
+    assert [made for made in bench.made if str(made).startswith("a")] == ["a 0", "a 1"]
+
+
+def test_an_item_that_was_on_its_way_when_cancelled_does_not_arrive(bench: Bench) -> None:
+    bench.allow(3)
+    bench.runner.start("a")
+    while len(bench.made) < 3:  # without letting the window receive anything
+        bench.at_work.wait(PATIENCE_S)
+    bench.runner.cancel()
+    QApplication.processEvents()
+    assert bench.items == bench.ends == []
+
+
+def test_a_newer_start_cancels_the_older(bench: Bench) -> None:
+    bench.runner.start("a")
+    assert bench.at_work.wait(PATIENCE_S)
+    bench.runner.start("b")
+    bench.allow(4)
+    bench.wait_for_end()
+    assert bench.items == ["b 0", "b 1", "b 2"]
+    assert bench.ends == ["finished"]
+
+
+@pytest.mark.parametrize(
+    ("request_", "sentence"),
+    [
+        ("refused", "The panel is behind the camera."),
+        ("mistake", "The test of the runner failed: RuntimeError: out of luck."),
+    ],
+)
+def test_an_error_arrives_as_a_sentence_after_the_items_before_it(
+    bench: Bench, request_: str, sentence: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    bench.allow(2)
+    bench.runner.start(request_)
+    bench.wait_for_end()
+    assert bench.items == [f"{request_} 0"]
+    assert bench.ends == [sentence]
+    assert ("Traceback" in caplog.text) == (request_ == "mistake")
+    assert not bench.runner.is_running
+
+
+def test_an_error_of_a_cancelled_run_does_not_arrive(bench: Bench) -> None:
+    bench.runner.start("mistake")
+    assert bench.at_work.wait(PATIENCE_S)
+    bench.runner.start("b")
+    bench.allow(5)
+    bench.wait_for_end()
+    assert bench.ends == ["finished"]
+
+
+def test_stopping_waits_for_the_item_at_work_and_nothing_arrives_any_more(bench: Bench) -> None:
+    bench.runner.start("a")
+    assert bench.at_work.wait(PATIENCE_S)
+    release = threading.Timer(0.05, bench.allow)
+    release.start()
+    bench.runner.stop()
+    bench.runner.stop()
+    QApplication.processEvents()
+    assert bench.made == ["a 0"]
+    assert bench.items == bench.ends == []

@@ -1,0 +1,64 @@
+"""The settings change in one place, and tell of it only when they do."""
+
+import pytest
+
+from occ_gui.state.settings_store import SettingsStore
+from occ_model.simulation_settings import SimulationSettings
+
+
+class Told:
+    """A store and what it tells."""
+
+    def __init__(self) -> None:
+        self.store = SettingsStore()
+        self.changes: list[SimulationSettings] = []
+        self.refusals: list[str] = []
+        self.store.changed.connect(self.changes.append)
+        self.store.refused.connect(self.refusals.append)
+
+
+@pytest.fixture
+def told() -> Told:
+    return Told()
+
+
+def test_noise_is_reused_at_first_and_the_rest_is_the_models_default(told: Told) -> None:
+    assert told.store.settings == SimulationSettings(noise="reused")
+
+
+def test_each_change_is_told_once_and_leaves_the_rest(told: Told) -> None:
+    told.store.set_tolerance(2.0)
+    told.store.set_observable("profile")
+    told.store.set_noise("exact")
+    told.store.force("jpeg", True)
+    told.store.force("flicker", False)
+    told.store.force("jpeg", None)
+    assert told.store.settings == SimulationSettings(2.0, "profile", {"flicker": False}, "exact")
+    assert told.changes[-1] == told.store.settings
+    assert len(told.changes) == 6
+
+
+def test_what_holds_already_is_not_told(told: Told) -> None:
+    told.store.set_tolerance(told.store.settings.tolerance)
+    told.store.set_observable("image")
+    told.store.set_noise("reused")
+    told.store.force("jpeg", None)
+    assert told.changes == []
+
+
+def test_settings_that_were_told_never_change(told: Told) -> None:
+    told.store.force("jpeg", True)
+    before = told.changes[0]
+    told.store.force("jpeg", False)
+    assert before.force == {"jpeg": True}
+
+
+@pytest.mark.parametrize("tolerance", [-1.0, float("nan")])
+def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
+    told: Told, tolerance: float
+) -> None:
+    told.store.set_tolerance(tolerance)
+    (sentence,) = told.refusals
+    assert sentence.startswith("tolerance is ")
+    assert sentence.endswith(".")
+    assert told.changes == []

@@ -10,8 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
-from occ_model.checks import check_choice, check_seed
-from occ_model.effects.registry import NAMES
 from occ_model.output import write_whole
 from occ_model.scene import Scene
 from occ_model.settings import (
@@ -20,7 +18,7 @@ from occ_model.settings import (
     scene_of,
     simulation_settings_of,
 )
-from occ_model.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
@@ -48,19 +46,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the application; return the process's exit code."""
     options = _parser().parse_args(arguments)
     try:
-        return _run(options, scene_of(options), _settings_of(options))
+        return _run(options, scene_of(options), simulation_settings_of(options))
     except occ.OccError as error:
         return _refuse(str(error))
-
-
-def _settings_of(options: argparse.Namespace) -> SimulationSettings:
-    """Read how the scene is simulated, and refuse at once what no picture can be made with."""
-    settings = simulation_settings_of(options)
-    TOLERANCE.check(settings.tolerance)
-    check_seed(settings.seed)
-    for effect in settings.force:
-        check_choice("effect", effect, NAMES)
-    return settings
 
 
 def _refuse(sentence: str) -> int:

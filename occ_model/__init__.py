@@ -28,7 +28,7 @@ from occ_model.errors import (
 from occ_model.photo.load import Photo, load_photo
 from occ_model.presets import load_preset, presets
 from occ_model.receiver.decode import decode
-from occ_model.results import DecodeResult, Decision, Frame, Plan, Region
+from occ_model.results import Decision, DecodeResult, Frame, Plan, Region
 from occ_model.scene import Scene
 from occ_model.simulation import render
 from occ_model.study.success_rate import success_rate
@@ -37,9 +37,9 @@ from occ_model.version import __version__
 
 __all__ = [
     "BandModelUndefined",
+    "Decision",
     "DecodeInputError",
     "DecodeResult",
-    "Decision",
     "Frame",
     "OccError",
     "OutputError",

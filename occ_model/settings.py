@@ -4,12 +4,14 @@ import argparse
 from collections.abc import Iterable
 from pathlib import Path
 
+from occ_model.checks import check_choice, check_seed
 from occ_model.declarations import ParameterValue
+from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, SceneFileError
 from occ_model.parameters import parameter_named
 from occ_model.presets import load_preset
 from occ_model.scene import Scene
-from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, SimulationSettings
+from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, TOLERANCE, SimulationSettings
 
 DEFAULT_PRESET = "phone-68us"
 """The scene where none is asked for: one that all models and decoders have an answer to."""
@@ -122,8 +124,13 @@ def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
     Raises
     ------
     ParameterError
-        An effect is switched both on and off.
+        There is no such effect, one is switched both on and off, or the tolerance or the seed
+        cannot be.
     """
+    TOLERANCE.check(options.tolerance)
+    check_seed(options.seed)
+    for name in (*options.on, *options.off):
+        check_choice("effect", name, NAMES)
     for name in set(options.on) & set(options.off):
         raise ParameterError(f"effect {name!r} is switched both on and off; allowed: one of them.")
     return SimulationSettings(

@@ -45,6 +45,8 @@ class EffectRow:
         The effect's name.
     texts
         One text a column.
+    reason
+        Why, as a sentence.
     included
         Whether it is simulated.
     absent
@@ -55,6 +57,7 @@ class EffectRow:
 
     effect: str
     texts: tuple[str, ...]
+    reason: str
     included: bool
     absent: bool
     new: bool
@@ -99,10 +102,11 @@ class EffectModel(QAbstractTableModel):
             self.tr("{state}, new").format(state=state) if new else state,
             _levels(decision.bound) if decision.bound else self.tr("none"),
             _milliseconds(timings.get(decision.effect)) if decision.included else "",
-            decision.reason,
+            decision.why,
         )
         absent = not decision.bound and not decision.included
-        return EffectRow(decision.effect, texts, decision.included, absent, new)
+        sentence = f"{decision.label}: {decision.reason}"
+        return EffectRow(decision.effect, texts, sentence, decision.included, absent, new)
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
         """Count the effects."""
@@ -132,7 +136,7 @@ class EffectModel(QAbstractTableModel):
             case Qt.ItemDataRole.DisplayRole:
                 return row.texts[column]
             case Qt.ItemDataRole.ToolTipRole:
-                return f"{row.texts[EFFECT]}: {row.texts[REASON]}"
+                return row.reason
             case Qt.ItemDataRole.TextAlignmentRole:
                 return _alignment(column)
             case Qt.ItemDataRole.BackgroundRole:
@@ -200,7 +204,7 @@ class EffectTable(QTableView):
         self.setWordWrap(False)
         self.setTabKeyNavigation(False)
         self.setSelectionMode(QTableView.SelectionMode.NoSelection)
-        self.setTextElideMode(Qt.TextElideMode.ElideLeft)
+        self.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.setVerticalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         self.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         self.verticalHeader().hide()

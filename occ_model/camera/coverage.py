@@ -13,6 +13,12 @@ _REACH = 4.0
 _FINE = 4.0
 """Standard deviations of the blur, in cells, from which a coarser grid shows as much."""
 
+_SAMPLED = 16
+"""Rows that tell as much of a cell's height as all of them, where the outline is high."""
+
+_EXACT = 4096
+"""Rows of an outline that are all looked at: a blur may be wider than the panel is high."""
+
 
 class Coverage:
     """The share of the light in each pixel that comes from the panel.
@@ -34,8 +40,12 @@ class Coverage:
         self._columns = columns
         self._blur = blur
         self._margin = math.ceil(_REACH * blur)
-        self._crossings = _crossings(outline, -self._margin, rows + self._margin)
-        self._cell = max(1, int(blur / _FINE))
+        seen = range(-self._margin, rows + self._margin)
+        cell = max(1, int(blur / _FINE))
+        # The widest blur takes no more rows than a narrow one.
+        self._stride = max(1, min(cell // _SAMPLED, _height(outline, seen) // _EXACT))
+        self._cell = cell - cell % self._stride
+        self._crossings = _crossings(outline, seen, self._stride)
         self._coarse = self._whole(rows) if self._cell > 1 else None
 
     def rows(self, first: int, last: int) -> Pixels:
@@ -60,8 +70,9 @@ class Coverage:
         column, part = np.divmod(start, cell)
         place = ((row[chosen] - first) // cell, column.astype(np.int64))
         share = part / cell
-        np.add.at(steps, place, sign[chosen] * (1.0 - share) / cell)
-        np.add.at(steps, (place[0], place[1] + 1), sign[chosen] * share / cell)
+        weight = sign[chosen] * (self._stride / cell)
+        np.add.at(steps, place, weight * (1.0 - share))
+        np.add.at(steps, (place[0], place[1] + 1), weight * share)
         np.cumsum(steps, axis=1, out=steps)
         # Round one way the steps go up at the left and down at the right, round the other not.
         return np.abs(steps[:, :-2])
@@ -77,20 +88,35 @@ class Coverage:
         return np.asarray(blurred, dtype=np.float32)
 
     def _enlarged(self, coarse: Pixels, first: int, last: int) -> Pixels:
-        scale = 1.0 / self._cell
-        # A pixel's centre in the grid of cells, whose centres have whole coordinates as well.
-        offset = (self._margin + 0.5) * scale - 0.5
-        step = np.array([[scale, 0.0, offset], [0.0, scale, offset + first * scale]])
-        flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-        size = (self._columns, last - first)
-        enlarged = cv2.warpAffine(coarse, step, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
-        return np.asarray(enlarged, dtype=np.float32)
+        """Draw straight lines between the cells' centres."""
+        # Not by OpenCV, whose coordinates are short integers in many of its versions.
+        column, right = self._between(0, self._columns, coarse.shape[1])
+        row, below = self._between(first, last, coarse.shape[0])
+        part = coarse[row[0] : row[-1] + 2]
+        wide = part[:, column] * (1.0 - right) + part[:, column + 1] * right
+        weight = np.zeros((last - first, len(part)), dtype=np.float32)
+        line = np.arange(last - first)
+        weight[line, row - row[0]] = 1.0 - below
+        weight[line, row - row[0] + 1] = below
+        return np.asarray(weight @ wide, dtype=np.float32)
+
+    def _between(self, first: int, last: int, cells: int) -> tuple[IndexArray, Pixels]:
+        """Say which cell's centre each pixel's lies after, and by which share of a cell."""
+        place = (np.arange(first, last) + (self._margin + 0.5)) / self._cell - 0.5
+        before = np.clip(np.floor(place), 0, cells - 2)
+        return before.astype(np.int64), np.clip(place - before, 0.0, 1.0).astype(np.float32)
+
+
+def _height(outline: FloatArray, seen: range) -> int:
+    """Give how many of the rows seen lie between the outline's first and its last."""
+    low, high = np.clip(outline[:, 1], seen.start, seen.stop).min(), outline[:, 1].max()
+    return int(min(float(high), float(seen.stop)) - low)
 
 
 def _crossings(
-    outline: FloatArray, first: int, last: int
+    outline: FloatArray, seen: range, stride: int
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
-    """Say where the outline crosses the rows from ``first`` to before ``last``.
+    """Say where the outline crosses the rows seen, or the middle one of every ``stride`` of them.
 
     Returns
     -------
@@ -100,10 +126,11 @@ def _crossings(
         Where, and 1 upwards or -1 downwards.
     """
     rows, columns, signs = [], [], []
+    middle = seen.start + stride // 2
     for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
         # Half open, so that a corner on a row is crossed by one of its two edges only.
-        low, high = sorted((y0, y1))
-        row = np.arange(max(math.ceil(max(low, first - 1)), first), min(_ceil(high, last), last))
+        start, stop = (_row_from(y, seen) for y in sorted((y0, y1)))
+        row = np.arange(start + (middle - start) % stride, stop, stride)
         if row.size == 0:
             continue
         along = (row - y0) / (y1 - y0)
@@ -117,5 +144,5 @@ def _crossings(
     return row[order], np.concatenate(columns)[order], np.concatenate(signs)[order]
 
 
-def _ceil(value: float, largest: int) -> int:
-    return math.ceil(min(value, largest))
+def _row_from(y: float, seen: range) -> int:
+    return math.ceil(min(max(y, seen.start), seen.stop))

@@ -54,6 +54,8 @@ def ambient_shares(scene: Scene) -> FloatArray:
 
 
 def _response(scene: Scene) -> float:
-    """Give sinc(F t); whole cycles are taken out before the sine, which then stays exact."""
+    """Give sinc(F t); whole cycles are taken out before the sine, which is nothing there."""
     cycles = Fraction(scene.surroundings.flicker_frequency) * Fraction(scene.camera.exposure_time)
-    return math.sin(math.pi * float(cycles % 2)) / (math.pi * float(cycles))
+    whole = round(cycles)
+    sine = math.sin(math.pi * float(cycles - whole))
+    return (-sine if whole % 2 else sine) / (math.pi * float(cycles))

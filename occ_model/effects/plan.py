@@ -159,12 +159,18 @@ def _decide(
     size = f"at most {bound:.2g} levels" if bound else "none in this scene"
     if bound and file is not None and file is not effect:
         size += f" through {file.label}"
+    verdict = "taken in" if included else "left out"
     if by_hand is not None:
-        reason = f"{size}: switched {'on' if included else 'off'} by hand"
+        why = f"switched {'on' if included else 'off'} by hand"
+        reason = f"{size}: {why}"
     elif not bound:
-        reason = f"{size}: left out"
+        why = size
+        reason = f"{size}: {verdict}"
     else:
-        reason = f"{size}, {_comparison(bound, tolerance, included)}"
+        why = _comparison(bound, tolerance, included)
+        limit = "" if tolerance == math.inf else f", tolerance {tolerance:g}"
+        together = ", " + why if included and bound <= tolerance else ""
+        reason = f"{size}{limit}{together}: {verdict}"
     return Decision(
         effect=effect.name,
         label=effect.label,
@@ -172,15 +178,16 @@ def _decide(
         bound=bound,
         included=included,
         forced=by_hand is not None,
+        why=why,
         reason=reason,
     )
 
 
 def _comparison(bound: float, tolerance: float, included: bool) -> str:
     if tolerance == math.inf:
-        return "no limit: left out"
+        return "no tolerance is set"
     if not included:
-        return f"tolerance {tolerance:g}: left out"
+        return f"within the tolerance of {tolerance:g}"
     if bound > tolerance:
-        return f"tolerance {tolerance:g}: taken in"
-    return f"with what is left out already more than the tolerance {tolerance:g}: taken in"
+        return f"more than the tolerance of {tolerance:g}"
+    return "more than that with what is left out"

@@ -1,5 +1,6 @@
 """The picture is darker towards its corners."""
 
+import math
 from dataclasses import replace
 
 import cv2
@@ -30,11 +31,10 @@ class Vignetting(OpticsEffect):
         exponent = scene.lens.vignetting_exponent
         if exponent == 0.0:
             return 0.0
-        kept: float = off_axis_factor(scene) ** (exponent / scene.camera.gamma)
+        lost = -math.expm1(exponent / scene.camera.gamma * math.log(off_axis_factor(scene)))
         # What lies above saturation loses less that is seen: most is lost from just there.
         brightest = shown_value(reachable_luminances(scene)[1], scene)
-        lost: float = brightest * (1.0 - kept)
-        return lost
+        return brightest * lost
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         """Darken every pixel by its angle."""

@@ -25,8 +25,10 @@ class Decision:
         Whether it is simulated.
     forced
         Whether the user decided so.
+    why
+        Why, in a few words.
     reason
-        Why, in words.
+        Why, as a sentence with the bound and the decision.
     """
 
     effect: str
@@ -35,6 +37,7 @@ class Decision:
     bound: float
     included: bool
     forced: bool
+    why: str
     reason: str
 
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.waveform import Duration, Phases, Waveform
+from occ_model.transmitter.waveform import Duration, Phases, Waveform, Windows
 
 PhasesAt = Callable[[Fraction], Phases]
 """Gives the phases of all windows' starts, each moved by so many chips."""
@@ -30,13 +30,31 @@ class EdgedWaveform:
     """
 
     def __init__(self, chips: ByteArray, edge: Fraction) -> None:
-        self.period = len(chips)
+        self.period = period = len(chips)
         self._sharp = Waveform(chips)
-        self._level: FloatArray = chips.astype(np.float64)
         self._edge = edge
+        self._mean = Fraction(int(chips.sum()), period)
+        # A window that starts in one period may end in the next.
+        self._level: FloatArray = np.concatenate([chips, chips, chips[:1]]).astype(np.float64)
+        self._rise: FloatArray = np.diff(self._level, prepend=self._level[period - 1])
+
+        # The chips less their mean, and the integral of that less its own mean, at each chip's
+        # start, and from the first chip's. Each scaled so as to be whole numbers, below 2^53.
+        swing = period * chips.astype(np.int64) - int(chips.sum())
+        integral = np.cumsum(swing) - swing
+        integral = 2 * period * integral - 2 * int(integral.sum())
+        second = np.cumsum(integral + period * swing) - (integral + period * swing)
+        self._half_slope, self._integral, self._second = (
+            np.concatenate([table, table, table[:1]]).astype(np.float64)
+            for table in (period * swing, integral, second)
+        )
 
     def lit_chips(self, starts: PhasesAt, exposure: Fraction) -> FloatArray:
         """Light within windows, in lit chips.
+
+        Like :meth:`.Waveform.lit_chips` it never takes what a window holds from the difference of
+        two larger numbers: what is left of the error is that of the phases, also in windows far
+        shorter than a chip.
 
         Parameters
         ----------
@@ -49,43 +67,48 @@ class EdgedWaveform:
         -------
         ndarray of float64, shape as the starts
         """
+        duration = Duration.of(exposure, self.period)
+        now = starts(Fraction(0))
         if self._edge < 1:
-            sharp = self._sharp.lit_chips(starts(Fraction(0)), Duration.of(exposure, self.period))
-            kept_back = self._lag(starts(exposure)) - self._lag(starts(Fraction(0)))
-            return np.asarray(sharp - kept_back)
-        mean = float(self._level.mean())
-        gained = self._swing_integral(starts(exposure)) - self._swing_integral(starts(Fraction(0)))
-        before = self._swing_integral(starts(exposure - self._edge))
-        before -= self._swing_integral(starts(-self._edge))
-        return mean * float(exposure) + (gained - before) / float(self._edge)
+            return self._sharp.lit_chips(now, duration) - self._kept_back(now, duration)
+        gained = self._swing_integral(now, duration)
+        gained -= self._swing_integral(starts(-self._edge), duration)
+        gained /= float(2 * self.period**2 * self._edge)
+        gained += float(self._mean * exposure)
+        return gained
 
-    def _lag(self, phases: Phases) -> FloatArray:
-        """Light that the ramps have kept back up to each phase, for edges within one chip.
+    def _kept_back(self, starts: Phases, duration: Duration) -> FloatArray:
+        """Light that the ramps keep back within windows, for edges within one chip.
 
-        All ramps that are over have kept back tau/2 of each rise and given back as much of each
-        fall: tau/2 times the last chip's state. On a ramp of height h it is h (x - x^2 / (2 tau))
-        more. No difference of large numbers is taken, so that it holds down to tau = 0.
+        On a ramp of height h that has gone on for x, h (x - x^2 / (2 tau)) is kept back since its
+        start; when it is over, h tau / 2.
         """
         edge = float(self._edge)
-        before = self._level[phases.chip - 1]
-        rise = self._level[phases.chip] - before
-        along = np.minimum(phases.fraction, edge)
-        return 0.5 * edge * before + rise * along * (1.0 - 0.5 * along / edge)
+        windows = Windows.of(starts, duration)
+        ahead = np.maximum(edge - starts.fraction, 0.0)  # what is left of the first chip's ramp
+        end = np.minimum(windows.end, edge)
+        apart = self._rise[windows.first] * ahead * (0.5 * ahead / edge)
+        apart += 0.5 * edge * (self._level[windows.last - 1] - self._level[windows.first])
+        apart += self._rise[windows.last] * end * (1.0 - 0.5 * end / edge)
+        gone = np.minimum(ahead, duration.fraction)
+        within = self._rise[windows.first] * gone * ((ahead - 0.5 * gone) / edge)
+        return np.where(windows.first == windows.last, within, apart)
 
-    def _swing_integral(self, phases: Phases) -> FloatArray:
-        """Integral, up to each phase, of the running integral of the chips less their mean.
+    def _swing_integral(self, starts: Phases, duration: Duration) -> FloatArray:
+        """Integral over windows of the running integral of the chips less their mean.
 
         Both integrals are of something whose mean is taken out, so that they are periodic and stay
-        small however long the edge is.
+        small however long the edge is. In chips^2, times 2 period^2: within a chip whose tables
+        are I and H it is I x + H x^2.
         """
-        swing = self._level - self._level.mean()
-        at_chip = np.concatenate([[0.0], np.cumsum(swing)[:-1]])
-        # The mean of the first integral over the period: its value at each chip, and half a slope.
-        at_chip -= (at_chip + 0.5 * swing).mean()
-        second = np.concatenate([[0.0], np.cumsum(at_chip + 0.5 * swing)[:-1]])
-        x = phases.fraction
-        chip = phases.chip
-        return np.asarray(second[chip] + x * (at_chip[chip] + 0.5 * x * swing[chip]))
+        windows = Windows.of(starts, duration)
+        first, last, fraction = windows.first, windows.last, starts.fraction
+        integral, slope = self._integral[first], self._half_slope[first]
+        apart = windows.before * (integral + slope * (1.0 + fraction))
+        apart += self._second[last] - self._second[first + 1]
+        apart += windows.end * (self._integral[last] + self._half_slope[last] * windows.end)
+        within = duration.fraction * (integral + slope * (2.0 * fraction + duration.fraction))
+        return np.where(first == last, within, apart)
 
 
 def most_changes(chips: ByteArray, span: float) -> int:

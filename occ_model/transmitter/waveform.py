@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
@@ -40,6 +41,39 @@ class Duration:
         return self.chips + self.fraction + float(self.periods * period)
 
 
+@dataclass(frozen=True, slots=True)
+class Windows:
+    """Windows of one length, by the chips that they start and end in.
+
+    Chips count on into the period after the one that they start in; whole periods are left out.
+
+    Parameters
+    ----------
+    first, last : ndarray of int64
+        The chips.
+    before, end : ndarray of float64
+        How much of the first chip lies after the start, and of the last one before the end. Where
+        a short window crosses a chip's edge, they are as exact as the window is short.
+    crosses : ndarray of bool
+        Whether the start's fraction and the length's make more than a whole chip.
+    """
+
+    first: IndexArray
+    last: IndexArray
+    before: FloatArray
+    end: FloatArray
+    crosses: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, starts: Phases, duration: Duration) -> Self:
+        """Give the windows that start at some phases and all last as long."""
+        before = 1.0 - starts.fraction
+        crosses = duration.fraction >= before
+        last = starts.chip + duration.chips + crosses
+        end = np.where(crosses, duration.fraction - before, starts.fraction + duration.fraction)
+        return cls(starts.chip, last, before, end, crosses)
+
+
 class Waveform:
     """The light of a chip sequence that is sent over and over.
 
@@ -64,8 +98,8 @@ class Waveform:
     def lit_chips(self, starts: Phases, duration: Duration) -> FloatArray:
         """Light within windows, C(end) - C(start), in lit chips.
 
-        The difference is taken term by term, the whole chips first, which are exact: the error
-        stays that of the phases, about 1e-16 chips, however long or short the windows are.
+        The difference is taken term by term, the whole chips by themselves, which are exact: the
+        error stays that of the phases, about 2e-16 chips, however long or short the windows are.
 
         Parameters
         ----------
@@ -78,13 +112,11 @@ class Waveform:
         -------
         ndarray of float64, shape as ``starts``
         """
-        first = starts.chip
-        carry = starts.fraction + duration.fraction >= 1.0
-        last = first + duration.chips + carry
+        windows = Windows.of(starts, duration)
+        first, last, crosses = windows.first, windows.last, windows.crosses
         level_first, level_last = self._level[first], self._level[last]
-        whole: FloatArray = self._lit_before[last] - self._lit_before[first] - level_last * carry
         part: FloatArray = level_last * duration.fraction
-        part += (level_last - level_first) * starts.fraction
-        part += whole
+        part += (level_last - level_first) * np.where(crosses, -windows.before, starts.fraction)
+        part += self._lit_before[last] - self._lit_before[first + crosses]
         part += duration.periods * float(self._lit_before[self.period])
         return part

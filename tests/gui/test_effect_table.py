@@ -49,7 +49,7 @@ def test_a_row_says_bound_decision_time_and_reason(table: EffectTable, frame: Fr
     assert cell(table, "led-edges", BOUND) == f"{decision.bound:.2g}"
     assert cell(table, "led-edges", DECISION) == "● in"
     assert cell(table, "led-edges", TIME) == "0.25"
-    assert cell(table, "led-edges", REASON) == decision.reason
+    assert cell(table, "led-edges", REASON) == decision.why
     assert decision.reason in str(cell(table, "led-edges", DECISION, ROLE.ToolTipRole))
     assert cell(table, "sensor-noise", TIME) == "30.2"
     assert cell(table, "fixed-pattern", TIME) == "0"

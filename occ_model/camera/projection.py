@@ -37,9 +37,10 @@ def panel_corners(scene: Scene) -> FloatArray:
     placed = corners @ rotation_of(pose).T + [pose.offset_x, pose.offset_y, pose.distance]
     nearest = float(placed[:, 2].min())
     if nearest <= pose.distance * _NEAREST_SHARE:
+        place = f"{METRE.format(-nearest)} behind" if nearest < 0.0 else "beside"
         raise ProjectionError(
             f"Turned like this at a distance of {METRE.format(pose.distance)}, part of the panel "
-            f"is {METRE.format(-nearest)} behind the camera; move it away or turn it back."
+            f"is {place} the camera; move it away or turn it back."
         )
     return image_points(placed[:, :2] / placed[:, 2:], camera)
 

@@ -27,6 +27,9 @@ from occ_model.simulation_settings import Observable
 _REACH = 4.0
 """Standard deviations from the rim after which nothing of it is left."""
 
+_WIDEST = 1e12
+"""Pixels of a point spread beyond which it leaves nothing of any panel."""
+
 _SLACK = 1.1
 """What the rim's integrals can be wrong by, being sums."""
 
@@ -76,17 +79,14 @@ class Defocus(OpticsEffect):
 
 
 def blur_of(scene: Scene) -> float:
-    """Give the standard deviation of the point spread in pixels.
-
-    A blur wider than the picture is high and wide together shows no more than that one.
-    """
+    """Give the standard deviation of the point spread in pixels."""
     camera, lens, distance = scene.camera, scene.lens, scene.pose.distance
     spot = 0.0
     if lens.focus_distance:
         focal = camera.focal_length_pixels
         vergence = abs(1.0 / lens.focus_distance - 1.0 / distance)
         spot = focal * focal * scene.sensor.pixel_pitch / camera.f_number * vergence / 4.0
-    return min(math.hypot(lens.point_spread, spot), float(camera.rows + camera.columns))
+    return min(math.hypot(lens.point_spread, spot), _WIDEST)
 
 
 def _near(side: float, size: int, blur: float) -> int:

@@ -22,13 +22,19 @@ from occ_model.scene import Camera, Lens, Scene
 from occ_model.simulation_settings import Observable
 
 _PARTS = 64
-"""Parts that each edge of the panel is bent in: a hundredth of a pixel from the curve."""
+"""Parts that each edge of the panel is bent in at least."""
+
+_MOST_PARTS = 4096
+"""Parts of all edges together at the most, where that leaves each edge its least."""
+
+_NEAR = 0.01
+"""How far from the curve the bent parts may lie, in pixels."""
 
 _DIRECTIONS = 64
 """Directions in which the lens is looked at for a fold."""
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
-"""How far out it is looked at, in multiples of the picture's corner."""
+"""How far out it is looked at, in multiples of the picture's corner and of what is needed."""
 
 
 class Distortion(OpticsEffect):
@@ -120,13 +126,23 @@ def _outlines(scene: Scene) -> tuple[FloatArray, FloatArray]:
     if len(rays) == 0:
         rays = np.full((3, 2), 2.0 * view.radius)  # a panel without area, out of sight
         return image_points(rays, camera), image_points(rays, camera)
-    rays = subdivided(rays, _PARTS)
+    rays = subdivided(rays, _parts(rays, scene))
     bent = distorted(rays, scene.lens)
     # A panel that goes on where the lens folds goes on as far as its light can come from.
     beyond = np.hypot(*rays.T) >= view.radius
     far = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
     bent[beyond] *= far[:, None]
     return image_points(rays, camera), image_points(bent, camera)
+
+
+def _parts(rays: FloatArray, scene: Scene) -> int:
+    """Say in how many parts the edges of a polygon are to be bent."""
+    halves = distorted(subdivided(rays, 2 * _PARTS), scene.lens)
+    starts, middles = halves[::2], halves[1::2]
+    off = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T).max()
+    # The distance from the curve falls with the square of the number of parts.
+    wanted = _PARTS * math.sqrt(off * scene.camera.focal_length_pixels / _NEAR)
+    return max(_PARTS, math.ceil(min(wanted, _MOST_PARTS / len(rays))))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -150,10 +166,11 @@ def _view(lens: Lens, corner: float, needed: float) -> _View:
     """
     angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    rays = (_RADII * needed)[:, None, None] * circle
+    radii = np.union1d(_RADII * corner, _RADII * needed)
+    rays = radii[:, None, None] * circle
     folded = np.asarray((_area_scale(rays, lens) <= 0.0).any(axis=1))
     far = np.hypot(*np.moveaxis(distorted(rays, lens), -1, 0)).min(axis=1)
-    last = int(np.argmax(far >= needed)) if (far >= needed).any() else len(_RADII) - 2
+    last = int(np.argmax(far >= needed)) if (far >= needed).any() else len(radii) - 2
     if folded[: last + 2].any():
         last = int(np.argmax(folded)) - 2
     if last < 0 or far[last] < corner:
@@ -162,7 +179,7 @@ def _view(lens: Lens, corner: float, needed: float) -> _View:
             f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture back "
             "before its corners are reached; bring them nearer to 0."
         )
-    radius = float(_RADII[last]) * needed
+    radius = float(radii[last])
     return _View(radius, circle * radius / math.cos(math.pi / _DIRECTIONS))
 
 

@@ -187,7 +187,7 @@ def _comparison(bound: float, tolerance: float, included: bool) -> str:
     if tolerance == math.inf:
         return "no tolerance is set"
     if not included:
-        return f"within the tolerance of {tolerance:g}"
+        return "within the tolerance"
     if bound > tolerance:
-        return f"more than the tolerance of {tolerance:g}"
-    return "more than that with what is left out"
+        return "above the tolerance"
+    return "above it with what is left out"

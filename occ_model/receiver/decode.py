@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.receiver.locate import locate
@@ -41,7 +42,8 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeRe
     Raises
     ------
     DecodeInputError
-        The array is no grey image or profile, is empty, or holds a value that is not a number.
+        The array is no grey image or profile, is empty or too large, or holds a value that is not
+        a number.
     ParameterError
         There is no such decoder.
     """
@@ -81,6 +83,11 @@ def _check(image: NDArray[Any]) -> None:
         )
     if image.size == 0:
         raise DecodeInputError(f"The image is empty: its shape is {image.shape}.")
+    if image.size > MAX_PIXELS:
+        raise DecodeInputError(
+            f"The image has {image.size / 1e6:.0f} million pixels; "
+            f"allowed: up to {MAX_PIXELS // 1_000_000} million."
+        )
     if image.dtype not in (np.uint8, np.uint16) and not np.issubdtype(image.dtype, np.floating):
         raise DecodeInputError(
             f"The image has pixels of type {image.dtype}; allowed: uint8, uint16, floating point."

@@ -36,8 +36,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     Location or None
         None where all pixels have the same value.
     """
-    counts = cv2.calcHist([image], [0], None, [256], [0, 256]).ravel().astype(np.int64)
-    level = bright_level(counts, bright_fraction)
+    level = bright_level(_histogram(image), bright_fraction)
     if level is None:
         return None
     bright = _above(image, level - 1)
@@ -60,6 +59,17 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     )
     reach = _growth_to_one(cells)
     return Location(_bounds(bright, around), level, _contours(cells), reach * cell)
+
+
+def _histogram(image: ByteArray) -> IndexArray:
+    """Count the pixels of each grey level, shape (256,)."""
+    counts = np.zeros(256, dtype=np.int64)
+    # OpenCV counts in single precision, which holds no whole number above 2^24.
+    rows = max(1, 2**24 // image.shape[1])
+    for first in range(0, len(image), rows):
+        part = cv2.calcHist([image[first : first + rows]], [0], None, [256], [0, 256])
+        counts += part.ravel().astype(np.int64)
+    return counts
 
 
 def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:

@@ -10,6 +10,9 @@ from occ_model.results import Region
 
 _BINS = 256
 
+_WHOLE_ROWS = 2**23
+"""Rows whose sum of bytes an integer of 32 bits holds."""
+
 
 def column_means(image: ByteArray, region: Region) -> FloatArray:
     """Average each column of a region.
@@ -20,8 +23,11 @@ def column_means(image: ByteArray, region: Region) -> FloatArray:
         Grey levels.
     """
     part = image[region.first_row : region.last_row, region.first_column : region.last_column]
-    sums = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)
-    return np.asarray(sums, dtype=np.float64).ravel() / region.rows
+    sums = np.zeros(region.columns)
+    for first in range(0, region.rows, _WHOLE_ROWS):
+        rows = part[first : first + _WHOLE_ROWS]
+        sums += cv2.reduce(rows, 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)[0]
+    return sums / region.rows
 
 
 def why_flat(signal: FloatArray) -> str | None:

@@ -174,7 +174,8 @@ def profile_path_cost() -> Row:
     """Compare simulating and decoding a profile with making and decoding the image."""
     scene = occ.load_preset("phone-136us")
     a, b = side_by_side(
-        lambda: occ.decode(occ.render(scene, tolerance=inf).image, scene), lambda: _read_by_profile(scene)
+        lambda: occ.decode(occ.render(scene, tolerance=inf).image, scene),
+        lambda: _read_by_profile(scene),
     )
     return Row(
         "the same by way of the image, against by way of the profile",

@@ -69,7 +69,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if not np.isfinite(book.energy).any():
         return replace(
             result,
-            failure="All codes look alike: the exposure time is a whole number of packets.",
+            failure="All codes look alike: the exposure time is a whole number of packets, or so "
+            "many that their mean is all it leaves.",
         )
     return _best_code(result, _fold(signal, scene, packet_length(bits)), book, bits)
 

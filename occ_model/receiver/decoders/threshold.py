@@ -12,6 +12,9 @@ from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene import Scene
 
+_SHORTEST_CHIP = 1.0
+"""Columns of a chip below which runs cannot tell how many chips they hold."""
+
 _FEWEST_RUNS = 3
 """Whole runs below which nothing can be said about a chip's length."""
 
@@ -45,6 +48,13 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             result,
             failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
             "come closer or raise the frequency.",
+        )
+    nominal = scene.transmitter.switching_period / scene.camera.readout_time
+    if scene.transmitter.pattern and nominal < _SHORTEST_CHIP:
+        return replace(
+            result,
+            failure=f"A chip lasts {nominal:.2g} columns: runs of columns cannot tell how many "
+            "chips they hold.",
         )
     read = _read_chips(result, runs, whole, scene)
     if scene.transmitter.pattern:

@@ -1,4 +1,4 @@
-"""Prints how many bytes a complete simulation needs at its peak, in bytes of its picture (Linux)."""
+"""Prints the most bytes that a complete simulation needs, in bytes of its picture (on Linux)."""
 
 import sys
 from pathlib import Path

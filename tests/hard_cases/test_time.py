@@ -1,9 +1,272 @@
-"""Time: where a column's exposure starts and ends among the chips."""
+"""Time: where a column's exposure starts and ends among the chips, against rational arithmetic."""
 
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
 from hard_cases.laws import cases, record
+from hard_cases.references import (
+    PATTERNS,
+    STARTS,
+    ExactTimes,
+    decades,
+    signed_decades,
+    some_columns,
+    within,
+)
 from hypothesis import strategies as st
 
+import occ_model as occ
+from occ_model.camera.exposure import column_phases, lit_fraction
+from occ_model.scene import Scene
 
-@cases(x=st.floats(0, 1))
-def test_smoke(x: float) -> None:
-    record("smoke", "0 to 1", x * 0)
+CHIPS = decades(1e-3, 1e6)
+"""Exposures in chips."""
+
+FREQUENCIES = st.one_of(decades(1.0, 1e9), st.integers(0, 29).map(lambda power: 2.0**power))
+READOUTS = decades(1e-9, 10.0)
+
+EDGES_OF_TIME = "t 1e-3 to 1e6 chips, f 1 Hz to 1 GHz, t_0 to 1e9 s"
+
+
+def timed(chips: float, frequency: float, **changes: float | str) -> Scene:
+    """A scene whose exposure lasts about so many chips, as far as one may."""
+    exposure = within("exposure_time", chips / frequency)
+    basic: dict[str, float | str] = {
+        "switching_frequency": frequency,
+        "exposure_time": exposure,
+        "columns": 300,
+    }
+    return Scene().replace(**(basic | changes))
+
+
+def error_of(scene: Scene) -> float:
+    """The worst column's t_on less that of exact arithmetic, relative to t.
+
+    Relative to a thousandth of a chip where t is shorter: where in a chip a column starts is known
+    to 2e-16 chips, whatever t is.
+    """
+    exact, on_time = ExactTimes(scene), occ.on_time(scene)
+    t = Fraction(scene.camera.exposure_time)
+    scale = max(t, Fraction(1, 1000) / exact.frequency)
+    return max(
+        float(abs(Fraction(float(on_time[column])) - exact.share(column) * t) / scale)
+        for column in some_columns(scene)
+    )
+
+
+@cases(chips=CHIPS, frequency=FREQUENCIES, readout=READOUTS, start=STARTS, pattern=PATTERNS)
+def test_on_time_is_that_of_rational_arithmetic(
+    chips: float, frequency: float, readout: float, start: float, pattern: str
+) -> None:
+    scene = timed(chips, frequency, readout_time=readout, start_time=start, pattern=pattern)
+    error = error_of(scene)
+    record("t_on, of t", EDGES_OF_TIME, error)
+    assert error <= 1e-12
+
+
+@cases(
+    whole=st.integers(1, 10**6),
+    unit=st.sampled_from([1, 24]),
+    ulps=st.integers(-1, 1),
+    frequency=FREQUENCIES,
+    start=STARTS,
+)
+def test_on_time_of_whole_chips_and_packets_is_as_exact_an_ulp_either_side(
+    whole: int, unit: int, ulps: int, frequency: float, start: float
+) -> None:
+    scene = timed(whole * unit, frequency, start_time=start)
+    exposure = scene.camera.exposure_time
+    beside = exposure if ulps == 0 else math.nextafter(exposure, ulps * math.inf)
+    error = error_of(scene.replace(exposure_time=within("exposure_time", beside)))
+    record("t_on where t is whole chips or packets, of t", "+- 1 ulp, 1 to 2.4e7 chips", error)
+    assert error <= 1e-14
+
+
+@cases(
+    seconds=decades(1e-9, 10.0), chips=CHIPS, frequency=FREQUENCIES, ulps=st.integers(-1, 1),
+    whole=st.integers(-(10**6), 10**6), column=st.integers(0, 299),
+)  # fmt: skip
+def test_a_packet_may_start_just_where_a_column_does(
+    seconds: float, chips: float, frequency: float, ulps: int, whole: int, column: int
+) -> None:
+    # As near as a start time can bring them together, and one ulp either side.
+    start = float(whole * 24 / Fraction(frequency) - column * Fraction(seconds))
+    start = start if ulps == 0 else math.nextafter(start, ulps * math.inf)
+    start = within("start_time", start)
+    scene = timed(chips, frequency, readout_time=seconds, start_time=start)
+    exact, found = ExactTimes(scene), occ.on_time(scene)[column] / scene.camera.exposure_time
+    error = float(abs(Fraction(float(found)) - exact.share(column)))
+    record("t_on where a packet starts with a column, of t", "+- 1 ulp of t_0", error)
+    assert error <= 1e-12
+
+
+@cases(chips=decades(1e-9, 1e9), frequency=FREQUENCIES, start=STARTS, pattern=PATTERNS)
+def test_on_time_is_never_negative_nor_above_the_exposure(
+    chips: float, frequency: float, start: float, pattern: str
+) -> None:
+    scene = timed(chips, frequency, start_time=start, pattern=pattern)
+    on_time, exposure = occ.on_time(scene), scene.camera.exposure_time
+    beyond = max(-float(on_time.min()), float(on_time.max()) - exposure, 0.0) / exposure
+    record("0 <= t_on <= t, of t", "t 1e-9 to 1e9 chips", beyond)
+    assert beyond == 0.0
+    if "0" not in pattern and pattern:
+        assert (on_time == exposure).all()
+
+
+@cases(chips=decades(1e-9, 1e6), frequency=FREQUENCIES, start=STARTS, pattern=PATTERNS)
+def test_on_and_off_time_are_the_exposure(
+    chips: float, frequency: float, start: float, pattern: str
+) -> None:
+    scene = timed(chips, frequency, start_time=start)
+    scene = scene.replace(pattern=pattern or "".join(map(str, occ.packet(scene))))
+    opposite = scene.replace(pattern=scene.transmitter.pattern.translate({48: "1", 49: "0"}))
+    exposure = scene.camera.exposure_time
+    on_time, off_time = occ.on_time(scene), occ.on_time(opposite)
+    ulps = float(np.abs((on_time - exposure) + off_time).max()) / math.ulp(exposure)
+    record("t_on + t_off = t, in ulps of t", "t 1e-9 to 1e6 chips", ulps)
+    # The sum, the division and the product round each of the two by half an ulp.
+    assert ulps <= 3.0
+    # The camera's own t_off is t less t_on.
+    assert np.abs(on_time + (exposure - on_time) - exposure).max() <= math.ulp(exposure)
+
+
+@cases(
+    packets=st.integers(-(10**9), 10**9), chips=CHIPS, frequency=FREQUENCIES,
+    start=signed_decades(1e-9, 1e3), pattern=PATTERNS,
+)  # fmt: skip
+def test_a_start_whole_packets_later_changes_nothing_beyond_rounding(
+    packets: int, chips: float, frequency: float, start: float, pattern: str
+) -> None:
+    scene = timed(chips, frequency, start_time=start, pattern=pattern)
+    period = len(occ.packet(scene)) / Fraction(frequency)
+    wanted = Fraction(start) + packets * period
+    later = scene.replace(start_time=within("start_time", float(wanted)))
+    moved = abs(Fraction(later.model.start_time) - wanted) % period
+    share = float(min(moved, period - moved)) / scene.camera.exposure_time
+    change = float(np.abs(lit_fraction(later) - lit_fraction(scene)).max())
+    beyond = max(change - share * (1 + 1e-12), 0.0)
+    record("t_on whole packets later, of t beyond t_0's rounding", "to 1e9 packets", beyond)
+    assert beyond <= 1e-12
+
+
+@cases(
+    chips=CHIPS,
+    frequency=FREQUENCIES,
+    readout=READOUTS,
+    start=STARTS,
+    which=st.sampled_from(
+        ["start_time", "exposure_time", "readout_time", "switching_frequency"]
+    ),
+    sign=st.sampled_from([-1, 1]),
+    size=decades(1e-16, 1e-6),
+)  # fmt: skip
+def test_a_small_change_of_any_time_changes_the_on_time_by_no_more_than_its_share(
+    chips: float,
+    frequency: float,
+    readout: float,
+    start: float,
+    which: str,
+    sign: int,
+    size: float,
+) -> None:
+    """The change is relative, 1e-12 among others; its share is exact arithmetic's Lipschitz bound.
+
+    t_on moves by no more than the start moves, or than t grows. Where f changes by the share e,
+    all of time stretches about zero: the window starts e (t_0 + i t_r) later, and is e t longer
+    in chips, which are e shorter.
+    """
+    scene = timed(chips, frequency, readout_time=readout, start_time=start)
+    old = scene.value(which)
+    new = within(which, old * (1 + sign * size))
+    changed = scene.replace(**{which: new})
+    delta, t = abs(Fraction(new) - Fraction(old)), Fraction(scene.camera.exposure_time)
+    exact = ExactTimes(scene)
+    found = [occ.on_time(one) for one in (scene, changed)]
+    for column in some_columns(scene):
+        share = delta
+        if which == "readout_time":
+            share = column * delta
+        elif which == "switching_frequency":
+            stretch = delta / min(Fraction(new), Fraction(old))
+            share = stretch * (abs(exact.start(column)) / exact.frequency + 2 * t)
+        change = abs(Fraction(float(found[0][column])) - Fraction(float(found[1][column])))
+        beyond = float(max(change - share, Fraction(0)) / t)
+        record("t_on's change beyond its share, of t", "any time by 1e-16 to 1e-6", beyond)
+        assert beyond <= 1e-12
+
+
+LONG = "1" * 2048 + "0" * 2048
+
+MANY_COLUMNS = {
+    # No binary fraction of a chip: each step's rounding would add up to 1e-10 chips.
+    "a decimal readout time": {"readout_time": 7.77e-6},
+    # A step of nearly a period, whose product with the column number needs 65 bits.
+    "a step just short of a packet": {"readout_time": 24e-4 * (1 - 1e-9)},
+    # The step's rest, at 24 bits of thousands of chips, adds up to hundreds of chips itself.
+    "thousands of chips a column": {"readout_time": 0.3333333333333333, "pattern": LONG},
+    # 4e-11 packets a column: the last one must still be 4e-5 packets from the first.
+    "a step of next to nothing": {"readout_time": 1e-9, "switching_frequency": 1.0},
+    # Ten million chips between two columns, of which all but a fraction must go exactly.
+    "ten seconds a column at 1 GHz": {"readout_time": 9.999999999, "switching_frequency": 1e9},
+    # Column and packet keep step exactly: every column must show the very same.
+    "exactly a packet a column": {"readout_time": 24 / 8192, "switching_frequency": 8192.0},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MANY_COLUMNS)
+def test_a_million_columns_do_not_drift(name: str) -> None:
+    scene = Scene().replace(columns=1_000_000, start_time=1e9 - 1 / 7, **MANY_COLUMNS[name])
+    exact, period = ExactTimes(scene), len(occ.packet(scene))
+    phases = column_phases(scene, period)
+    for column in (0, 1, 999, 123_456, 524_287, 524_289, 999_998, 999_999):
+        found = int(phases.chip[column]) + Fraction(float(phases.fraction[column]))
+        drift = abs(found - exact.start(column) % period)
+        error = float(min(drift, period - drift))
+        record("a column's start, in chips", "1e6 columns, packets to 4096 chips", error)
+        assert error <= 3e-16
+
+
+NAMED: dict[str, dict[str, float | str]] = {
+    # 2e14 chips since time zero: a double of the start in chips has not one digit after the point.
+    "a million chips, a billion seconds away": {
+        "start_time": 1e9 - 0.1, "exposure_time": 100.0, "switching_frequency": 1e4},
+    # The same backwards: what is negative must not be rounded towards zero.
+    "a billion seconds before": {"start_time": -1e9 + 0.1, "switching_frequency": 1e9},
+    # t_on is a thousandth of a chip, at an edge: nothing is left of it in the difference of sums.
+    "a thousandth of a chip": {"exposure_time": 1e-7, "start_time": 1e9, "pattern": "01"},
+    # t = t_LED but for the rounding of 1/f: the window holds one chip's edge, or just two.
+    "just one chip": {"exposure_time": 1 / 3e4, "switching_frequency": 3e4, "pattern": "10"},
+    # t is three packets exactly, so that every column sees the same, at whatever start.
+    "just three packets": {"exposure_time": 72 / 8192, "switching_frequency": 8192.0},
+    # One ulp more than that: t_on may differ from column to column by that ulp only.
+    "three packets and an ulp": {
+        "exposure_time": math.nextafter(72 / 8192, 1), "switching_frequency": 8192.0},
+    # Columns start on every chip's edge exactly: the edge belongs to one of the two.
+    "one chip a column": {"readout_time": 2.0**-13, "switching_frequency": 8192.0},
+    # All columns are the same instant of the packet.
+    "one packet a column": {"readout_time": 24 / 8192, "switching_frequency": 8192.0},
+    # The shortest time at the highest frequency: one chip a column and an exposure.
+    "nanoseconds": {"readout_time": 1e-9, "exposure_time": 1e-9, "switching_frequency": 1e9},
+    # A nanosecond a column and a chip a second: no column must move at all, nor stand still.
+    "a chip of a billion columns": {"readout_time": 1e-9, "switching_frequency": 1.0},
+    # 1e15 chips in an exposure: the rest beyond whole packets is the 16th digit.
+    "the longest exposure": {"exposure_time": 1e6, "switching_frequency": 1e9},
+    # One lit chip in 4096: t_on is nothing nearly everywhere, and all of t somewhere.
+    "one lit chip": {"pattern": "1" + "0" * 4095, "exposure_time": 1e-6, "readout_time": 1e-4},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_on_time_of_a_hard_scene_is_that_of_rational_arithmetic(name: str) -> None:
+    scene = Scene().replace(**({"columns": 2000} | NAMED[name]))
+    error = error_of(scene)
+    record("t_on of the named scenes, of t", f"{len(NAMED)} scenes", error)
+    assert error <= 1e-12
+
+
+def test_columns_a_packet_apart_and_exposures_of_packets_show_no_stripes_at_all() -> None:
+    for name in ("just three packets", "one packet a column"):
+        scene = Scene().replace(columns=2000, start_time=1e9 / 7, **NAMED[name])
+        assert np.ptp(occ.on_time(scene)) == 0.0

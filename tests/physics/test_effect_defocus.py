@@ -150,7 +150,7 @@ def test_a_sharp_lens_is_nothing(enhancement: str) -> None:
 
 def test_a_blur_far_wider_than_the_picture_is_pictured_at_once() -> None:
     scene = unsharp(1000.0, focus_distance=0.001, distance=1e4)
-    assert blur_of(scene) == ROWS + COLUMNS
+    assert blur_of(scene) > ROWS + COLUMNS
     share = panel_share(scene)
     assert 0.0 < share.max() < 0.01
     assert np.ptp(share) < 0.002

@@ -1,0 +1,110 @@
+"""What the laws are held against: exact rational arithmetic, and strategies that reach far."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+
+PATTERNS = st.one_of(st.just(""), st.text(alphabet="01", min_size=1, max_size=40))
+"""Packets, or raw chips."""
+
+
+def decades(low: float, high: float) -> st.SearchStrategy[float]:
+    """Positive numbers, as many in each decade."""
+    lowest, highest = math.log10(low), math.log10(high)
+    return st.floats(lowest, highest).map(lambda x: min(max(10.0**x, low), high))
+
+
+def signed_decades(low: float, high: float) -> st.SearchStrategy[float]:
+    """Numbers of both signs, as many in each decade."""
+    return st.tuples(st.sampled_from([-1.0, 1.0]), decades(low, high)).map(math.prod)
+
+
+STARTS = st.one_of(
+    st.floats(-1e9, 1e9), signed_decades(1e-12, 1e9), st.integers(-(10**9), 10**9).map(float)
+)
+"""Start times in seconds."""
+
+
+def within(name: str, value: float) -> float:
+    """Give the nearest value that a parameter may have."""
+    declared = PARAMETERS[name]
+    return min(max(value, declared.low), declared.high)
+
+
+@dataclass(frozen=True)
+class ExactTimes:
+    """A scene's times as exact fractions, in chips, and the light within them."""
+
+    scene: Scene
+
+    @cached_property
+    def chips(self) -> list[int]:
+        return [int(chip) for chip in occ.packet(self.scene)]
+
+    @cached_property
+    def frequency(self) -> Fraction:
+        return Fraction(self.scene.transmitter.switching_frequency)
+
+    @cached_property
+    def exposure(self) -> Fraction:
+        return Fraction(self.scene.camera.exposure_time) * self.frequency
+
+    @cached_property
+    def edge(self) -> Fraction:
+        return Fraction(self.scene.transmitter.edge_time) * self.frequency
+
+    @cached_property
+    def _tables(self) -> tuple[list[int], list[Fraction]]:
+        """Lit chips before each chip, and the integral of that; the whole period's last."""
+        lit, twice = [0], [Fraction(0)]
+        for chip in self.chips:
+            twice.append(twice[-1] + lit[-1] + Fraction(chip, 2))
+            lit.append(lit[-1] + chip)
+        return lit, twice
+
+    def start(self, column: int) -> Fraction:
+        camera = self.scene.camera
+        seconds = Fraction(self.scene.model.start_time) + column * Fraction(camera.readout_time)
+        return seconds * self.frequency
+
+    def lit_until(self, x: Fraction) -> Fraction:
+        periods, rest = divmod(x, len(self.chips))
+        lit, _ = self._tables
+        chip = int(rest)
+        return periods * lit[-1] + lit[chip] + (rest - chip) * self.chips[chip % len(self.chips)]
+
+    def lit_until_integrated(self, x: Fraction) -> Fraction:
+        """The integral of :meth:`lit_until` from 0 to ``x``."""
+        length = len(self.chips)
+        periods, rest = divmod(x, length)
+        lit, twice = self._tables
+        chip = int(rest)
+        part = rest - chip
+        whole = periods * twice[-1] + lit[-1] * length * periods * (periods - 1) / 2
+        within = twice[chip] + part * (lit[chip] + part * self.chips[chip] / 2)
+        return whole + lit[-1] * periods * rest + within
+
+    def share(self, column: int) -> Fraction:
+        """The lit share of a column's exposure, the LED's edges sharp."""
+        x = self.start(column)
+        return (self.lit_until(x + self.exposure) - self.lit_until(x)) / self.exposure
+
+    def edged_share(self, column: int) -> Fraction:
+        """The same, the LED taking its time."""
+        x, t, tau = self.start(column), self.exposure, self.edge
+        until = self.lit_until_integrated
+        now, before = until(x + t) - until(x), until(x + t - tau) - until(x - tau)
+        return (now - before) / (tau * t)
+
+
+def some_columns(scene: Scene) -> set[int]:
+    """The first column, the last, and some between."""
+    last = scene.camera.columns - 1
+    return {0, 1 % (last + 1), last // 3, last // 2, last}

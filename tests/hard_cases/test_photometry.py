@@ -1,0 +1,255 @@
+"""Pixel values from no light at all to 1e16 cd/m2, against arithmetic of fifty digits."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hard_cases.laws import cases, record
+from hard_cases.references import decades
+from hypothesis import assume
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.camera.exposure import lit_fraction
+from occ_model.camera.photometry import (
+    WHITE,
+    level_values,
+    luminance_levels,
+    luminance_of,
+    panel_values,
+    pixel_value,
+)
+from occ_model.camera.photometry import ColumnLight as Light
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Camera, Scene
+
+CAMERAS = st.builds(
+    Camera,
+    iso=decades(1.0, 4e6),
+    exposure_time=decades(1e-9, 1e6),
+    f_number=decades(0.5, 128.0),
+    gamma=st.floats(1.0, 4.0) | st.sampled_from([1.0, 2.2, 4.0]),
+    meter_constant=decades(1.0, 100.0),
+)
+LUMINANCES = decades(1e-30, 1e16)
+EVERY_CAMERA = "S 1 to 4e6, t 1 ns to 1e6 s, N 0.5 to 128, gamma 1 to 4"
+RANGES = f"{EVERY_CAMERA}, L 1e-30 to 1e16"
+
+EPS = float(np.finfo(np.float64).eps)
+
+
+def value_of(luminance: mpmath.mpf, camera: Camera) -> mpmath.mpf:
+    """Equations (1) and (2), the parameters being what they are in binary."""
+    gain = mpmath.mpf(camera.iso) * mpmath.mpf(camera.exposure_time)
+    gain /= mpmath.mpf(camera.meter_constant) * mpmath.mpf(camera.f_number) ** 2
+    return 118 * mpmath.power(gain * luminance, 1 / mpmath.mpf(camera.gamma))
+
+
+def one_value(luminance: float, camera: Camera) -> float:
+    return float(pixel_value(np.array([luminance]), camera)[0])
+
+
+def relative(found: float, expected: mpmath.mpf) -> float:
+    return float(abs(mpmath.mpf(found) / expected - 1)) if expected else abs(found)
+
+
+@cases(camera=CAMERAS, luminance=LUMINANCES)
+def test_a_pixel_value_is_that_of_equation_1(camera: Camera, luminance: float) -> None:
+    with mpmath.workdps(50):
+        error = relative(one_value(luminance, camera), value_of(mpmath.mpf(luminance), camera))
+    record("PV of equation (1), relative", RANGES, error)
+    assert error <= 2e-15
+
+
+@cases(camera=CAMERAS, luminance=LUMINANCES)
+def test_the_luminance_of_a_pixel_value_is_the_one_it_came_from(
+    camera: Camera, luminance: float
+) -> None:
+    back = float(luminance_of(np.array([one_value(luminance, camera)]), camera)[0])
+    error = abs(back / luminance - 1.0)
+    record("luminance_of(PV(L)) = L, relative", RANGES, error)
+    assert error <= 1e-14
+
+
+@cases(
+    camera=CAMERAS,
+    luminance=LUMINANCES,
+    name=st.sampled_from(["iso", "exposure_time", "luminance", "f_number"]),
+    factor=st.just(1.0 + EPS) | decades(1.0 + 1e-12, 1e3),
+)
+def test_more_light_is_never_darker_be_it_one_ulp_more(
+    camera: Camera, luminance: float, name: str, factor: float
+) -> None:
+    scene = Scene(camera=camera).replace(
+        pattern="1", columns=1, luminance=luminance, illuminance=0.0, start_time=0.0
+    )
+    before = float(scene.value(name))
+    after = before / factor if name == "f_number" else before * factor
+    declared = PARAMETERS[name]
+    more = scene.replace(**{name: min(max(after, declared.low), declared.high)})
+    lost = float(level_values(scene)[1] - level_values(more)[1]) / float(level_values(scene)[1])
+    record("PV grows with S, t, L and 1/N: what it falls by", f"{RANGES}, from an ulp on", lost)
+    assert lost <= 0.0
+    assert occ.column_profile(more)[0] >= occ.column_profile(scene)[0]
+
+
+@st.composite
+def lit_scenes(draw: st.DrawFn) -> Scene:
+    """A few columns at all ratios of exposure to period, of panels and surroundings of any light."""
+    dark = st.just(0.0)
+    scene = Scene(camera=draw(CAMERAS)).replace(
+        columns=7,
+        luminance=draw(dark | decades(1e-30, 1e16)),
+        illuminance=draw(dark | decades(1e-30, 1e16)),
+        reflectance=draw(dark | decades(1e-6, 1.0)),
+        averaging=draw(st.sampled_from(["pixel-value", "light"])),
+        start_time=draw(st.floats(0.0, 0.01)),
+        readout_time=draw(decades(1e-9, 10.0)),
+    )
+    return scene.replace(switching_frequency=draw(decades(1.0, 1e9)))
+
+
+@cases(scene=lit_scenes())
+def test_a_profile_is_finite_and_between_its_two_levels(scene: Scene) -> None:
+    values = panel_values(scene, Light.of(scene))
+    low, high = level_values(scene)
+    beyond = max(float((values - high).max()), float((low - values).max()), 0.0)
+    error = beyond / float(high) if high else beyond
+    record("PV_min <= PV_sim <= PV_max, beyond by", f"{EVERY_CAMERA}, L and E_v 0 to 1e16", error)
+    assert np.isfinite(values).all()
+    assert error <= 4 * EPS
+    profile = occ.column_profile(scene)
+    assert ((profile >= 0.0) & (profile <= WHITE)).all()
+    # Full is full: exactly the largest value, not next to it.
+    assert (profile[values >= WHITE] == WHITE).all()
+    assert (profile[values < WHITE] < WHITE).all()
+
+
+@cases(scene=lit_scenes())
+def test_a_profile_is_that_of_equations_1_to_3(scene: Scene) -> None:
+    found = panel_values(scene, Light.of(scene))
+    shares = lit_fraction(scene)
+    surroundings = scene.surroundings
+    worst = 0.0
+    with mpmath.workdps(50):
+        dark = mpmath.mpf(surroundings.illuminance) * mpmath.mpf(surroundings.reflectance)
+        dark /= mpmath.pi
+        lit = mpmath.mpf(scene.transmitter.luminance)
+        low, high = value_of(dark, scene.camera), value_of(dark + lit, scene.camera)
+        for value, share in zip(found.tolist(), shares.tolist(), strict=True):
+            part = mpmath.mpf(share)
+            if scene.model.averaging == "light":
+                expected = value_of(dark + lit * part, scene.camera)
+            else:
+                expected = high * part + low * (1 - part)
+            worst = max(worst, relative(value, expected))
+    record("PV_sim of equation (3), relative", f"{EVERY_CAMERA}, L and E_v 0 to 1e16", worst)
+    assert worst <= 4e-15
+
+
+@cases(camera=CAMERAS, by=st.sampled_from([-1e-9, -1e-12, 0.0, 1e-12, 1e-9]))
+def test_a_pixel_is_full_from_where_the_equation_says(camera: Camera, by: float) -> None:
+    luminance = float(luminance_of(np.array([WHITE]), camera)[0]) * (1.0 + by)
+    assume(0.0 < luminance <= PARAMETERS["luminance"].high)
+    scene = Scene(camera=camera).replace(
+        pattern="1", columns=1, luminance=luminance, illuminance=0.0
+    )
+    shown = float(occ.column_profile(scene)[0])
+    error = abs(shown / WHITE - min(1.0, (1.0 + by) ** (1.0 / camera.gamma)))
+    record("255 from where equation (1) says, of 255", EVERY_CAMERA, error)
+    assert error <= 1e-14
+    assert shown == WHITE or by <= 0.0
+    assert shown < WHITE or by >= 0.0
+
+
+BRIGHT = 3600.0 * 1e12
+
+NAMED: dict[str, dict[str, float | str]] = {
+    # 0 to the power of 1/gamma, and back: a logarithm of it is none.
+    "no light at all": {"luminance": 0.0, "illuminance": 0.0},
+    # Nothing to divide by where the swing should be: PV_max and PV_min are one value.
+    "a panel that gives no light": {"luminance": 0.0},
+    # The panel's own light is lost in the last digit of what it reflects.
+    "a panel lost in the sun": {"luminance": 1e-9, "illuminance": 1e9},
+    # Light that has fewer digits than a float has, the smallest number but 0.
+    "the smallest luminance there is": {"luminance": 5e-324, "illuminance": 0.0},
+    # 1e16: nothing but saturation is left, by a factor that overflows a byte and an integer.
+    "light 1e12 times over": {"luminance": BRIGHT, "illuminance": 290e12},
+    # The same in the dark: the profile is 0 or 255 and nothing between.
+    "light 1e12 times over in the dark": {"luminance": BRIGHT, "illuminance": 0.0},
+    # The largest of everything, at gamma 1: 1e31 grey levels, in single precision too.
+    "all that a camera can gather": {
+        "luminance": 1e16, "illuminance": 1e16, "iso": 4e6, "exposure_time": 1e6,
+        "f_number": 0.5, "meter_constant": 1.0, "gamma": 1.0},
+    # The smallest of everything: grey levels below what single precision holds.
+    "all that a camera can lose": {
+        "luminance": 1e-30, "illuminance": 1e-30, "iso": 1.0, "exposure_time": 1e-9,
+        "f_number": 128.0, "meter_constant": 100.0, "gamma": 1.0},
+    # The steepest gamma: next to black one ulp of light is a grey level.
+    "the steepest gamma": {"gamma": 4.0, "luminance": 1e-12, "illuminance": 0.0},
+    # The lowest and the highest ISO speed.
+    "ISO 1": {"iso": 1.0},
+    "ISO 4,000,000": {"iso": 4e6},
+    # No gamma: a power of one must not move a digit.
+    "gamma 1": {"gamma": 1.0},
+}  # fmt: skip
+
+LENS: dict[str, float] = {
+    "vignetting_exponent": 4.0,
+    "radial_k1": 0.1,
+    "point_spread": 2.0,
+    "lambertian_order": 3.0,
+    "flicker_depth": 1.0,
+    "edge_time": 2e-5,
+    "jpeg_quality": 90,
+}
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
+@pytest.mark.parametrize("name", NAMED)
+def test_a_hard_light_gives_a_finite_profile_and_picture(
+    name: str, averaging: str, enhancement: str
+) -> None:
+    scene = Scene().replace(
+        rows=24, columns=40, averaging=averaging, enhancement=enhancement, **NAMED[name]
+    )
+    for lens in ({}, LENS):
+        seen = scene.replace(**lens)
+        # What numpy warns of is an error here.
+        frame = occ.render(seen, tolerance=0)
+        assert np.isfinite(frame.profile).all()
+        assert ((frame.profile >= 0.0) & (frame.profile <= WHITE)).all()
+        assert all(math.isfinite(decision.bound) for decision in frame.plan.decisions)
+
+
+@pytest.mark.parametrize("name", ["no light at all", "a panel that gives no light"])
+def test_equal_levels_make_no_stripes(name: str) -> None:
+    for averaging in ("pixel-value", "light"):
+        scene = Scene().replace(columns=500, averaging=averaging, **NAMED[name])
+        low, high = level_values(scene)
+        assert low == high
+        # Not one ulp of difference may be stretched to stripes.
+        assert np.ptp(occ.column_profile(scene)) == 0.0
+        frame = occ.render(scene.replace(rows=20, enhancement="stretch"), tolerance=math.inf)
+        assert np.ptp(frame.image) == 0
+
+
+def test_no_light_is_exactly_black_and_too_much_exactly_white() -> None:
+    dark = Scene().replace(columns=50, **NAMED["no light at all"])
+    assert (occ.column_profile(dark) == 0.0).all()
+    assert luminance_levels(dark).tolist() == [0.0, 0.0]
+    assert float(luminance_of(np.zeros(1), dark.camera)[0]) == 0.0
+    white = Scene().replace(columns=50, **NAMED["light 1e12 times over"])
+    assert (occ.column_profile(white) == WHITE).all()
+
+
+def test_1e12_times_the_light_in_the_dark_leaves_black_and_white() -> None:
+    scene = Scene().replace(columns=3456, readout_time=1e-6, exposure_time=5e-6)
+    scene = scene.replace(**NAMED["light 1e12 times over in the dark"])
+    lit = lit_fraction(scene)
+    profile = occ.column_profile(scene)
+    np.testing.assert_array_equal(profile[lit == 0.0], 0.0)
+    np.testing.assert_array_equal(profile[lit > 1e-3], WHITE)
+    assert (lit == 0.0).any()

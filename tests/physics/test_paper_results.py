@@ -63,6 +63,20 @@ def test_detection_ceases_one_step_after_the_frequency_that_the_paper_names(
     assert ceases_at(grid(preset)) == paper + 2e3
 
 
+@pytest.mark.parametrize(
+    ("preset", "last"), [("phone-136us-real", 12e3), ("tablet-122us-real", 14e3)]
+)
+def test_a_real_lens_ends_detection_where_the_experiment_ended(preset: str, last: float) -> None:
+    scene = point_scene(preset, last, 1.2)
+    assert occ.success_rate(scene, 1) == 100.0
+    beyond = scene.replace(switching_frequency=last + 2e3)
+    assert occ.success_rate(beyond, 1) == 0.0
+    # It is the fall-off of light across the panel that one threshold cannot follow.
+    level = {"vignetting": False}
+    if preset.startswith("phone"):
+        assert occ.success_rate(beyond, 1, tolerance=0.0, force=level) == 100.0
+
+
 @pytest.mark.parametrize("preset", ["phone-68us", "tablet-61us"])
 def test_detection_goes_on_to_20_khz_at_the_lowest_exposure(preset: str) -> None:
     assert ceases_at(grid(preset)) is None

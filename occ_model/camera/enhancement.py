@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
 
+_SAME = 1e-9
+"""Grey levels within which column values are the same: they are not known any better."""
+
 
 def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
     """Round grey levels to the nearest of 0 to 255."""
@@ -18,7 +21,9 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 class Enhancement:
     """The contrast enhancement that a picture with some column values gets.
 
-    A profile that spans less than one grey level gets rounding only.
+    A profile that spans less than one grey level gets rounding only; one whose values are all the
+    same but for the arithmetic's own rounding gets the same grey level everywhere, also where they
+    lie half-way between two.
 
     Parameters
     ----------
@@ -32,7 +37,8 @@ class Enhancement:
     def __init__(self, profile: FloatArray, method: str) -> None:
         low, high = float(profile.min()), float(profile.max())
         is_flat = high - low < FLAT
-        self._low = low
+        self._low, self._high = low, high
+        self._is_even = 0.0 < high - low < _SAME
         self._scale = WHITE / (high - low) if method == "stretch" and not is_flat else None
         levels = np.arange(256)
         if method == "equalization" and not is_flat:
@@ -51,6 +57,9 @@ class Enhancement:
         """Enhance and round grey levels, those of the profile or others, of any shape."""
         if self._scale is not None:
             return to_bytes((values - self._low) * self._scale)
+        if self._is_even:
+            same = (values >= self._low) & (values <= self._high)
+            values = np.where(same, self._low, values)
         return self._curve[to_bytes(values)]
 
     def of_bytes(self, image: ByteArray) -> ByteArray:

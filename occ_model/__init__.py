@@ -31,6 +31,8 @@ from occ_model.receiver.decode import decode
 from occ_model.results import Decision, DecodeResult, Frame, Plan, Region
 from occ_model.scene import Scene
 from occ_model.simulation import render
+from occ_model.simulation_settings import SimulationSettings
+from occ_model.study.accuracy import accuracy
 from occ_model.study.success_rate import success_rate
 from occ_model.transmitter.packet import packet
 from occ_model.version import __version__
@@ -52,7 +54,9 @@ __all__ = [
     "Region",
     "Scene",
     "SceneFileError",
+    "SimulationSettings",
     "__version__",
+    "accuracy",
     "band_lengths",
     "band_profile",
     "column_profile",

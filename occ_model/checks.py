@@ -1,7 +1,9 @@
 """Checks of arguments that are no parameters of a scene."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from numbers import Integral
+
+import numpy as np
 
 from occ_model.errors import ParameterError
 
@@ -29,6 +31,27 @@ def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
     """
     if not isinstance(value, str) or value not in choices:
         raise ParameterError(f"{name} is {value!r}; allowed: {', '.join(choices)}.")
+
+
+def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
+    """Give what is switched on (True) and off (False) by name, or refuse what is no such thing.
+
+    Raises
+    ------
+    ParameterError
+        It is no mapping, or a name or a value is not allowed.
+    """
+    if switches is None:
+        return {}
+    if not isinstance(switches, Mapping):
+        raise ParameterError(
+            f"force is {switches!r}; allowed: effects by name, True or False each."
+        )
+    for name, on in switches.items():
+        check_choice("effect", name, names)
+        if not isinstance(on, bool | np.bool_):
+            raise ParameterError(f"effect {name!r} is switched {on!r}; allowed: True, False.")
+    return {name: bool(on) for name, on in switches.items()}
 
 
 def check_seed(seed: object) -> None:

@@ -89,6 +89,8 @@ class Quantity(Declaration):
     @property
     def allowed(self) -> str:
         """The allowed range in words."""
+        if self.high == math.inf:
+            return f"from {self.unit.format(self.low)}"
         return f"{self.unit.format(self.low)} to {self.unit.format(self.high)}"
 
     def check(self, value: object) -> float:

@@ -260,3 +260,17 @@ def group_of(name: str) -> str:
     """Say which group of a scene a parameter belongs to."""
     parameter_named(name)
     return _GROUP_OF[name]
+
+
+def check_scene(value: object) -> None:
+    """Refuse what is no scene.
+
+    Raises
+    ------
+    ParameterError
+        Saying where scenes come from.
+    """
+    if not isinstance(value, Scene):
+        raise ParameterError(
+            f"scene is {value!r}; allowed: a Scene, such as load_preset('phone-136us') gives."
+        )

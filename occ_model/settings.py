@@ -84,8 +84,8 @@ def scene_of(options: argparse.Namespace) -> Scene:
     return with_settings(scene, options.settings)
 
 
-def add_simulation_options(parser: argparse.ArgumentParser) -> None:
-    """Let a command line say how a scene is simulated; :func:`simulation_settings_of` reads it."""
+def add_plan_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say which effects are simulated."""
     own = SimulationSettings()
     parser.add_argument(
         "--tolerance",
@@ -107,8 +107,13 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
             action="append",
             default=[],
             metavar="EFFECT",
-            help=f"{meaning} whatever its bound; may be repeated",
+            help=f"{meaning} whatever its bound, one of {', '.join(NAMES)}; may be repeated",
         )
+
+
+def add_noise_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say where noise comes from."""
+    own = SimulationSettings()
     parser.add_argument(
         "--noise",
         choices=NOISE_SOURCES,
@@ -116,6 +121,12 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
         help="exact: drawn for each pixel; reused: many times faster; default: %(default)s",
     )
     parser.add_argument("--seed", type=int, default=own.seed, help="default: %(default)s")
+
+
+def add_simulation_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say how a scene is simulated; :func:`simulation_settings_of` reads it."""
+    add_plan_options(parser)
+    add_noise_options(parser)
 
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:

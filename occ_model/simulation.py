@@ -10,7 +10,7 @@ from occ_model.columns import expose_columns
 from occ_model.effects.plan import plan
 from occ_model.pixels import PixelExposure
 from occ_model.results import Frame, Plan
-from occ_model.scene import Scene
+from occ_model.scene import Scene, check_scene
 from occ_model.simulation_settings import NOISE_SOURCES, TOLERANCE, NoiseSource, Observable
 from occ_model.stage_clock import StageClock
 
@@ -40,7 +40,7 @@ def render(
         :func:`occ_model.plan`.
     noise
         ``"exact"``: drawn for every pixel; ``"reused"``: from a plane of noise at random places,
-        many times faster.
+        many times faster. All noise then shares its numbers: the fixed pattern is not fixed.
 
     Returns
     -------
@@ -55,6 +55,7 @@ def render(
         Part of the panel is behind the camera, the lens folds the picture, or the image would be
         too large.
     """
+    check_scene(scene)
     check_seed(seed)
     check_choice("noise", noise, NOISE_SOURCES)
     clock = StageClock()
@@ -96,6 +97,7 @@ def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "
         ``"image"``: the pixels of the panel's bounding rectangle, shape (rows, columns) of it;
         ``"profile"``: the means of its columns.
     """
+    check_size(scene.camera)
     clock = StageClock()
     columns = expose_columns(scene, chosen, clock)
     exposure = PixelExposure(scene, chosen, columns, clock)

@@ -125,24 +125,21 @@ def _crossings(
     column, sign : ndarray of float64, shape (crossings,)
         Where, and 1 upwards or -1 downwards.
     """
-    rows, columns, signs = [], [], []
-    middle = seen.start + stride // 2
-    for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
-        # Half open, so that a corner on a row is crossed by one of its two edges only.
-        start, stop = (_row_from(y, seen) for y in sorted((y0, y1)))
-        row = np.arange(start + (middle - start) % stride, stop, stride)
-        if row.size == 0:
-            continue
-        along = (row - y0) / (y1 - y0)
-        rows.append(row)
-        columns.append(x0 * (1.0 - along) + x1 * along)
-        signs.append(np.full(row.size, 1.0 if y1 > y0 else -1.0))
-    if not rows:
-        return np.empty(0, np.int64), np.empty(0), np.empty(0)
-    row = np.concatenate(rows).astype(np.int64)
+    (x0, y0), (x1, y1) = outline.T, np.roll(outline, -1, axis=0).T
+    # Half open, so that a corner on a row is crossed by one of its two edges only.
+    start, stop = (_rows_from(y, seen) for y in (np.minimum(y0, y1), np.maximum(y0, y1)))
+    start += (seen.start + stride // 2 - start) % stride
+    counts = np.maximum(-(-(stop - start) // stride), 0)
+    edge = np.repeat(np.arange(len(outline)), counts)
+    before = np.cumsum(counts) - counts
+    row = start[edge] + (np.arange(len(edge)) - before[edge]) * stride
+    x0, y0, x1, y1 = x0[edge], y0[edge], x1[edge], y1[edge]
+    along = (row - y0) / (y1 - y0)
+    # Between its ends, as rounding would not leave all of an upright edge.
+    column = np.clip(x0 * (1.0 - along) + x1 * along, np.minimum(x0, x1), np.maximum(x0, x1))
     order = np.argsort(row, kind="stable")
-    return row[order], np.concatenate(columns)[order], np.concatenate(signs)[order]
+    return row[order], column[order], np.where(y1 > y0, 1.0, -1.0)[order]
 
 
-def _row_from(y: float, seen: range) -> int:
-    return math.ceil(min(max(y, seen.start), seen.stop))
+def _rows_from(y: FloatArray, seen: range) -> IndexArray:
+    return np.ceil(np.clip(y, seen.start, seen.stop)).astype(np.int64)

@@ -21,6 +21,9 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 class Enhancement:
     """The contrast enhancement that a picture with some column values gets.
 
+    The curve is that of the columns; what a lens, noise or a file makes of the pixels afterwards is
+    sent through it as it is.
+
     A profile that spans less than one grey level gets rounding only; one whose values are all the
     same but for the arithmetic's own rounding gets the same grey level everywhere, also where they
     lie half-way between two.

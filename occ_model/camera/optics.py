@@ -103,14 +103,6 @@ class Rows:
         """Which rows of the picture they are."""
         return slice(self.first, self.last)
 
-    def panel_mask(self) -> NDArray[np.bool_]:
-        """Give where the panel is as an array, shape (rows, columns)."""
-        if not isinstance(self.panel, slice):
-            return self.panel
-        mask = np.zeros((self.last - self.first, self.values.shape[1]), dtype=np.bool_)
-        mask[:, self.panel] = True
-        return mask
-
 
 def picture_rows(
     scene: Scene,

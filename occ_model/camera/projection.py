@@ -10,8 +10,11 @@ from occ_model.units import METRE
 MAX_PIXELS = 170_000_000
 """The largest image that is made or read; a larger one is refused, not left to fill the memory."""
 
-_NEAREST_SHARE = 1e-9
-"""Depth, as a share of the distance, below which a corner counts as in the camera's plane."""
+_NEAREST_SHARE = 1e-6
+"""Depth, as a share of the distance, below which a corner counts as in the camera's plane.
+
+A depth is a difference: of a smaller one too few digits are left to say where the corner is.
+"""
 
 
 def panel_corners(scene: Scene) -> FloatArray:
@@ -87,7 +90,8 @@ def rotation_of(pose: Pose) -> FloatArray:
 def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
     """Say which columns of every row lie inside a convex polygon.
 
-    A pixel lies inside when its centre does. Nothing is drawn, so that corners may lie
+    A pixel lies inside when its centre does, or lies on the left or upper rim: so that each pixel
+    belongs to one of two panels that meet in it. Nothing is drawn, so that corners may lie
     any distance outside the image.
 
     Parameters
@@ -108,23 +112,20 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
     for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         if y0 == y1:
             continue
-        crossed = slice(_row_from(min(y0, y1), rows), _row_after(max(y0, y1), rows))
-        # Interpolated from both ends: exact at each of them, however steep the edge.
+        crossed = slice(_row_from(min(y0, y1), rows), _row_from(max(y0, y1), rows))
+        # Interpolated from both ends: exact at each of them, however steep the edge; and all along
+        # an upright one, whose rows must not differ.
         along = (row[crossed] - y0) / (y1 - y0)
-        x = x0 * (1.0 - along) + x1 * along
+        x = np.clip(x0 * (1.0 - along) + x1 * along, min(x0, x1), max(x0, x1))
         np.minimum(left[crossed], x, out=left[crossed])
         np.maximum(right[crossed], x, out=right[crossed])
     first = np.clip(np.ceil(left), 0, columns).astype(np.int64)
-    last = np.clip(np.floor(right) + 1, 0, columns).astype(np.int64)
+    last = np.clip(np.ceil(right), 0, columns).astype(np.int64)
     return first, np.maximum(first, last)
 
 
 def _row_from(y: float, rows: int) -> int:
     return int(min(max(np.ceil(y), 0), rows))
-
-
-def _row_after(y: float, rows: int) -> int:
-    return int(min(max(np.floor(y) + 1, 0), rows))
 
 
 def check_size(camera: Camera) -> None:

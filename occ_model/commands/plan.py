@@ -5,19 +5,21 @@ import argparse
 from occ_model.commands.parser import Commands
 from occ_model.effects.plan import plan
 from occ_model.settings import (
+    add_plan_options,
     add_scene_options,
-    add_simulation_options,
     scene_of,
     simulation_settings_of,
 )
+from occ_model.simulation_settings import SimulationSettings
 
 
 def add_to(commands: Commands) -> None:
     """Add the command."""
     parser = commands.add_parser("plan", help="say which effects a scene calls for, and why")
     add_scene_options(parser)
-    add_simulation_options(parser)
-    parser.set_defaults(command=_run)
+    add_plan_options(parser)
+    own = SimulationSettings()
+    parser.set_defaults(command=_run, noise=own.noise, seed=own.seed)
 
 
 def _run(options: argparse.Namespace) -> int:

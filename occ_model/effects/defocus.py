@@ -38,9 +38,9 @@ class Defocus(OpticsEffect):
     """A Gaussian point spread: the lens's own spot, and the circle of confusion out of focus.
 
     A point at the distance d makes a disc of diameter c = f^2 / N |1/d_f - 1/d| on the sensor of a
-    lens of focal length f that is focused on d_f (E. Hecht, *Optics*, ch. 5, for d and d_f far
-    beyond f). A disc of diameter c has the standard deviation c / 4 along each axis; both spots'
-    variances add.
+    lens of focal length f that is focused on d_f, for d and d_f far beyond f (S. F. Ray, *Applied
+    Photographic Optics*). A disc of diameter c has the standard deviation c / 4 along each axis;
+    both spots' variances add.
     """
 
     name = "defocus"
@@ -54,10 +54,12 @@ class Defocus(OpticsEffect):
             return 0.0
         sight = sight_of(scene)
         region, largest = sight.region, contrast(scene)
+        sides = sight.sides
+        if not sight.is_seen and not _reaches(sight.corners, scene, blur):
+            return 0.0
         if _REACH * blur > min(region.rows, region.columns) / 2.0:
             return largest
-        sides = sight.sides
-        both = sides is None or scene.lens.distorts
+        both = sides is None or scene.lens.distorts or not sight.is_seen
         energy, loss = _rim(scene, both)
         if sides is None:
             length = 2.0 * (region.rows + region.columns)
@@ -87,6 +89,15 @@ def blur_of(scene: Scene) -> float:
         vergence = abs(1.0 / lens.focus_distance - 1.0 / distance)
         spot = focal * focal * scene.sensor.pixel_pitch / camera.f_number * vergence / 4.0
     return min(math.hypot(lens.point_spread, spot), _WIDEST)
+
+
+def _reaches(corners: FloatArray, scene: Scene, blur: float) -> bool:
+    """Say whether light of a panel beside the picture can get into it."""
+    if scene.lens.distorts:
+        return True
+    reach = _REACH * blur + 1.0
+    size = np.array([scene.camera.columns, scene.camera.rows])
+    return bool((corners.max(axis=0) > -reach).all() and (corners.min(axis=0) < size + reach).all())
 
 
 def _near(side: float, size: int, blur: float) -> int:

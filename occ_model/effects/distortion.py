@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.effects.defocus import blur_of
@@ -24,8 +24,8 @@ from occ_model.simulation_settings import Observable
 _PARTS = 64
 """Parts that each edge of the panel is bent in at least."""
 
-_MOST_PARTS = 4096
-"""Parts of all edges together at the most, where that leaves each edge its least."""
+_MOST_PARTS = 1024
+"""Parts at the most."""
 
 _NEAR = 0.01
 """How far from the curve the bent parts may lie, in pixels."""
@@ -57,7 +57,10 @@ class Distortion(OpticsEffect):
         """
         if not scene.lens.distorts:
             return 0.0
-        straight, bent = _outlines(scene)
+        try:
+            straight, bent = _outlines(scene)
+        except ProjectionError:  # refused where it is to be simulated
+            return math.inf
         region = sight_of(scene).region
         reach = 4.0 * blur_of(scene) + 1.0
         seen = _within(straight, scene.camera, reach) | _within(bent, scene.camera, reach)
@@ -135,19 +138,21 @@ def _outlines(scene: Scene) -> tuple[FloatArray, FloatArray]:
     return image_points(rays, camera), image_points(bent, camera)
 
 
-def _parts(rays: FloatArray, scene: Scene) -> int:
-    """Say in how many parts the edges of a polygon are to be bent."""
-    halves = distorted(subdivided(rays, 2 * _PARTS), scene.lens)
+def _parts(rays: FloatArray, scene: Scene) -> IndexArray:
+    """Say in how many parts each edge of a polygon is to be bent."""
+    halves = subdivided(rays, np.full(len(rays), 2 * _PARTS))
+    halves = distorted(halves, scene.lens) * scene.camera.focal_length_pixels
     starts, middles = halves[::2], halves[1::2]
-    off = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T).max()
+    off = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T)
     # The distance from the curve falls with the square of the number of parts.
-    wanted = _PARTS * math.sqrt(off * scene.camera.focal_length_pixels / _NEAR)
-    return max(_PARTS, math.ceil(min(wanted, _MOST_PARTS / len(rays))))
+    wanted = _PARTS * np.sqrt(off.reshape(len(rays), _PARTS).max(axis=1) / _NEAR)
+    parts: IndexArray = np.ceil(np.clip(wanted, _PARTS, _MOST_PARTS)).astype(np.int64)
+    return parts
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _View:
-    """The rays that can reach the picture: a circle of some radius, and a polygon round it."""
+    """The rays that can reach the picture: their radius, and a polygon to cut by."""
 
     radius: float
     rim: FloatArray
@@ -180,7 +185,9 @@ def _view(lens: Lens, corner: float, needed: float) -> _View:
             "before its corners are reached; bring them nearer to 0."
         )
     radius = float(radii[last])
-    return _View(radius, circle * radius / math.cos(math.pi / _DIRECTIONS))
+    # Rays that a lens without distortion pictures count as well: the bound compares with it.
+    kept = max(radius, needed)
+    return _View(radius, circle * kept / math.cos(math.pi / _DIRECTIONS))
 
 
 def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:

@@ -148,7 +148,7 @@ class FileEffect(Effect):
         """Return the picture as it is read back from the file."""
 
     @abstractmethod
-    def passed_on(self, scene: Scene, change: float) -> float:
+    def passed_on(self, scene: Scene, change: float, dithered: bool) -> float:
         """Say how much a change of the picture can change what is read back.
 
         Rounding makes steps of the smallest changes: what comes out can differ more than what went
@@ -160,4 +160,7 @@ class FileEffect(Effect):
             The scene.
         change
             Root mean square of the change in grey levels.
+        dithered
+            Whether noise spreads the pixels over the steps. What comes out is then an expectation,
+            from which a single picture differs by its sampling error; without, it is the most.
         """

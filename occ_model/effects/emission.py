@@ -32,7 +32,10 @@ class Emission(OpticsEffect):
         if order == 1.0:
             return 0.0
         x, y = sight_of(scene).corner_rays.T
-        least = float(_cosine(scene, x, y).min()) ** (order - 1.0)
+        cosines = _cosine(scene, x, y)
+        # Where the panel's plane is seen edge-on between the corners, none of them is the least.
+        is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())
+        least = 0.0 if is_crossed else float(np.abs(cosines).min()) ** (order - 1.0)
         dark, bright = reachable_luminances(scene)
         return _largest_loss(scene, dark, bright - dark, least)
 
@@ -42,16 +45,17 @@ class Emission(OpticsEffect):
 
         def gain(first: int, last: int) -> Pixels:
             x, y = pixel_rays(scene.camera, first, last)
-            return np.asarray(_cosine(scene, x, y) ** np.float32(power), dtype=np.float32)
+            cosines = np.minimum(np.abs(_cosine(scene, x, y)), 1.0)
+            return np.asarray(cosines ** np.float32(power), dtype=np.float32)
 
         return replace(optics, emission=(*optics.emission, Gain(self.name, gain)))
 
 
 def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Give the cosine of the angle between the panel's normal and rays (x, y, 1)."""
+    """Give the cosine of the angle between the panel's normal and rays (x, y, 1), either sign."""
     pose = scene.pose
     normal = rotation_of(pose)[:, 2]
-    along = np.abs(normal[0] * x + normal[1] * y + normal[2])
+    along = normal[0] * x + normal[1] * y + normal[2]
     return np.asarray(along / np.sqrt(1.0 + x * x + y * y))
 
 

@@ -29,7 +29,7 @@ class Flicker(LightEffect):
 
     def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - columns alike
         """Bound the change by that of a dark panel at the trough, where the gamma is steepest."""
-        depth = scene.surroundings.flicker_depth * abs(_response(scene))
+        depth = scene.surroundings.flicker_depth * abs(response(scene))
         if depth == 0.0:
             return 0.0
         dark = float(luminance_levels(scene)[0])
@@ -50,11 +50,14 @@ def ambient_shares(scene: Scene) -> FloatArray:
     surroundings, exposure = scene.surroundings, Fraction(scene.camera.exposure_time)
     cycles = cycle_phases(scene, surroundings.flicker_frequency, exposure / 2)
     swing = np.cos(2.0 * math.pi * cycles + surroundings.flicker_phase)
-    return np.asarray(1.0 + surroundings.flicker_depth * _response(scene) * swing)
+    return np.asarray(1.0 + surroundings.flicker_depth * response(scene) * swing)
 
 
-def _response(scene: Scene) -> float:
-    """Give sinc(F t); whole cycles are taken out before the sine, which is nothing there."""
+def response(scene: Scene) -> float:
+    """Give sinc(F t), the share of the flicker that an exposure leaves.
+
+    Whole cycles are taken out before the sine, so that it is nothing where they leave nothing.
+    """
     cycles = Fraction(scene.surroundings.flicker_frequency) * Fraction(scene.camera.exposure_time)
     whole = round(cycles)
     sine = math.sin(math.pi * float(cycles - whole))

@@ -54,13 +54,15 @@ class Jpeg(FileEffect):
         error = _step(scene.camera.jpeg_quality) / 2.0 * _crowding(sight_of(scene).region)
         return min(error + 2.0 * _ROUNDING, WHITE)
 
-    def passed_on(self, scene: Scene, change: float) -> float:
+    def passed_on(self, scene: Scene, change: float, dithered: bool) -> float:
         """Add the steps that a change makes: as often as it is large against a step.
 
-        Of pixels that change by c, c / 1 round to another level; of coefficients that change by c,
-        c / q round to another step q.
+        Of dithered pixels that change by c, c / 1 round to another level; of coefficients that
+        change by c, c / q round to another step q. Without noise all may do so at once.
         """
         step = _step(scene.camera.jpeg_quality) * _crowding(sight_of(scene).region)
+        if not dithered:
+            return change + 2.0 * _ROUNDING + step
         rounded = math.hypot(change, math.sqrt(change))
         return rounded + math.sqrt(rounded * step)
 

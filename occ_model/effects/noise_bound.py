@@ -12,37 +12,60 @@ from occ_model.effects.sight import off_axis_factor, reachable_luminances, sight
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
+_FAR = 9.0
+"""Standard deviations beyond which nothing of a normal distribution is left."""
 
-def noise_bound(effect: NoiseEffect, scene: Scene, observable: Observable) -> float:
+
+def noise_bound(
+    effect: NoiseEffect,
+    scene: Scene,
+    observable: Observable,
+    others: tuple[NoiseEffect, ...] = (),
+) -> float:
     """Give the root mean square of noise in what is observed, in grey levels.
 
     Noise depends on the light, and so on the other effects. Where they leave the columns as they
     are, it is averaged over the columns there are; where they do not, the largest is taken.
+
+    Parameters
+    ----------
+    effect
+        The noise.
+    scene, observable
+        As for :meth:`Effect.bound`.
+    others
+        The other noise there may be, with which it is cut off sooner at black and white.
     """
     sight = sight_of(scene)
-    as_in_the_paper = sight.sides is not None and not moves_light(scene)
+    as_in_the_paper = sight.is_seen and sight.sides is not None and not moves_light(scene)
     levels = sight.levels if as_in_the_paper else _all_levels(scene)
-    spread = effect.spread(scene, levels)
-    squares = spread**2
+    squares = effect.spread(scene, levels) ** 2
+    seen = squares
     if observable == "profile":
-        squares = squares / sight.region.rows + _cut_off(levels, spread) ** 2
+        rest = sum((other.spread(scene, levels) ** 2 for other in others), np.zeros(len(levels)))
+        alone = _cut_off(levels, np.sqrt(squares))
+        beside = _cut_off(levels, np.sqrt(squares + rest)) - _cut_off(levels, np.sqrt(rest))
+        moved = np.maximum(np.abs(alone), np.abs(beside))
+        seen = squares / sight.region.rows + moved**2
     if not as_in_the_paper:
-        return math.sqrt(float(squares.max()))
-    return math.sqrt(float(np.maximum(squares[1:], squares[:-1]) @ sight.shares))
+        return math.sqrt(float(seen.max()))
+    return math.sqrt(float(np.maximum(seen[1:], seen[:-1]) @ sight.shares))
 
 
 def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
-    """Bound how far the mean of noisy pixels moves as they are cut off at black and white.
+    """Give how far the mean of noisy pixels moves as they are cut off at black and white.
 
     A normal deviation that is cut off u standard deviations from its mean loses
-    phi(u) - u Q(u) of them, at most phi(u) / (1 + u^2) (Mills's ratio).
+    phi(u) - u Q(u) of them.
     """
-    lost = np.zeros(len(levels))
-    some = spread > 0.0
-    for room in (levels[some], WHITE - np.minimum(levels[some], WHITE)):
-        u = room / spread[some]
-        lost[some] += np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) / (1.0 + u * u)
-    return lost * spread
+    moved = np.zeros(len(levels))
+    for sign, room in ((1.0, levels), (-1.0, WHITE - np.minimum(levels, WHITE))):
+        some = room < _FAR * spread
+        u = room[some] / spread[some]
+        beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
+        lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
+        moved[some] += sign * lost * spread[some]
+    return moved
 
 
 def louder(effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observable) -> float:

@@ -5,14 +5,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
-from occ_model.checks import check_choice
+from occ_model.checks import check_choice, check_switches
 from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
-from occ_model.effects.noise_bound import louder
+from occ_model.effects.noise_bound import louder, noise_bound
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sight import sight_of
 from occ_model.results import Decision, Plan
-from occ_model.scene import Scene
+from occ_model.scene import Scene, check_scene
 from occ_model.simulation_settings import OBSERVABLES, TOLERANCE, Observable
+
+_DITHERING = 0.5
+"""Grey levels of noise that spread a pixel evenly over the steps of rounding."""
 
 
 def plan(
@@ -58,9 +61,8 @@ def plan(
     """
     tolerance = TOLERANCE.check(tolerance)
     check_choice("observable", observable, OBSERVABLES)
-    forced = dict(force or {})
-    for name in forced:
-        check_choice("effect", name, NAMES)
+    check_scene(scene)
+    forced = check_switches(force, NAMES)
     stretch = WHITE / sight_of(scene).swing
     bounds = _bounds(scene, observable, stretch)
     if tolerance == math.inf:  # also of what a bound says to be without end
@@ -71,8 +73,10 @@ def plan(
         if file is not None:
             # A file is made of pixels, whatever is observed of it later.
             pixels = bounds if observable == "image" else _bounds(scene, "image", stretch)
-            through = _Through(file, scene, stretch)
-            left_out, spent = _leave_out(pixels, forced, tolerance, through)
+            dithers = _noise_that_dithers(pixels, forced, stretch)
+            through = _Through(file, scene, stretch, bool(dithers))
+            kept = {**forced, **dict.fromkeys(dithers, True)}
+            left_out, spent = _leave_out(pixels, kept, tolerance, through)
             bounds = {
                 name: bound if name == file.name else through(bound)
                 for name, bound in pixels.items()
@@ -86,8 +90,16 @@ def plan(
 
 def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, float]:
     """Give every effect's bound in levels of the stretched profile."""
-    bounds = {effect.name: effect.bound(scene, observable) * stretch for effect in EFFECTS}
-    noise = tuple(e for e in EFFECTS if isinstance(e, NoiseEffect) and bounds[e.name])
+    noise = tuple(effect for effect in EFFECTS if isinstance(effect, NoiseEffect))
+    bounds = {}
+    for effect in EFFECTS:
+        if isinstance(effect, NoiseEffect):
+            rest = tuple(other for other in noise if other is not effect)
+            bound = noise_bound(effect, scene, observable, rest)
+        else:
+            bound = effect.bound(scene, observable)
+        bounds[effect.name] = float(bound) * stretch
+    noise = tuple(effect for effect in noise if bounds[effect.name])
     others = [e.name for e in EFFECTS if not isinstance(e, NoiseEffect) and bounds[e.name]]
     if noise and others:
         more = louder(noise, scene, observable)
@@ -103,11 +115,23 @@ class _Through:
     file: FileEffect
     scene: Scene
     stretch: float
+    dithered: bool
 
     def __call__(self, change: float) -> float:
         if not change:
             return 0.0
-        return self.file.passed_on(self.scene, change / self.stretch) * self.stretch
+        levels = change / self.stretch
+        return self.file.passed_on(self.scene, levels, self.dithered) * self.stretch
+
+
+def _noise_that_dithers(
+    bounds: Mapping[str, float], forced: Mapping[str, bool], stretch: float
+) -> tuple[str, ...]:
+    """Give the noise that spreads pixels over the steps of rounding: it stays in beside a file."""
+    names = (e.name for e in EFFECTS if isinstance(e, NoiseEffect))
+    return tuple(
+        name for name in names if forced.get(name, True) and bounds[name] >= _DITHERING * stretch
+    )
 
 
 def _file_in(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 
 
 def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
@@ -45,9 +45,22 @@ def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
     return np.array(kept, dtype=np.float64).reshape(-1, 2)
 
 
-def subdivided(polygon: FloatArray, parts: int) -> FloatArray:
-    """Cut each edge of a polygon in equal parts, shape (corners * parts, 2)."""
-    share = (np.arange(parts) / parts)[None, :, None]
+def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
+    """Cut the edges of a polygon in equal parts.
+
+    Parameters
+    ----------
+    polygon : ndarray of float64, shape (corners, 2)
+        In order.
+    parts : ndarray of int64, shape (corners,)
+        In how many parts the edge from each corner to the next is cut.
+
+    Returns
+    -------
+    ndarray of float64, shape (sum of ``parts``, 2)
+    """
+    edge = np.repeat(np.arange(len(polygon)), parts)
+    before = np.cumsum(parts) - parts
+    share = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]
     following = np.roll(polygon, -1, axis=0)
-    points = polygon[:, None, :] * (1.0 - share) + following[:, None, :] * share
-    return np.asarray(points.reshape(-1, 2))
+    return np.asarray(polygon[edge] * (1.0 - share) + following[edge] * share)

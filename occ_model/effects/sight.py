@@ -40,6 +40,8 @@ class Sight:
     sides
         Left, top, right and bottom of a panel that is pictured level and so fills its bounding
         rectangle, None of any other.
+    is_seen
+        Whether any of the panel is in the image.
     region
         The panel's bounding rectangle in the image; the whole image where no panel is seen.
     corner_rays : ndarray of float64, shape (4, 2)
@@ -54,6 +56,7 @@ class Sight:
 
     corners: FloatArray
     sides: tuple[float, float, float, float] | None
+    is_seen: bool
     region: Region
     corner_rays: FloatArray
     swing: float
@@ -81,7 +84,8 @@ def sight_of(scene: Scene) -> Sight:
     corners = panel_corners(scene)
     values = panel_values(scene, ColumnLight.of(scene))
     seen = saturate(values)
-    region = region_of(corners, scene.camera.rows, scene.camera.columns)
+    seen_region = region_of(corners, scene.camera.rows, scene.camera.columns)
+    region = seen_region or Region(0, scene.camera.rows, 0, scene.camera.columns)
     inside = values[region.first_column : region.last_column]
     low, high = float(inside.min()), float(inside.max())
     # A little beyond both ends, so that no rounding puts a column outside.
@@ -91,6 +95,7 @@ def sight_of(scene: Scene) -> Sight:
     return Sight(
         corners=corners,
         sides=_sides(corners),
+        is_seen=seen_region is not None,
         region=region,
         corner_rays=_corner_rays(region, scene.camera),
         swing=max(float(seen.max() - seen.min()), FLAT),
@@ -106,8 +111,8 @@ def _corner_rays(region: Region, camera: Camera) -> FloatArray:
     return image_rays(points, camera)
 
 
-def region_of(corners: FloatArray, rows: int, columns: int) -> Region:
-    """Give the panel's bounding rectangle in the image, the whole image where there is none.
+def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
+    """Give the panel's bounding rectangle in the image, None where there is none.
 
     Parameters
     ----------
@@ -117,11 +122,9 @@ def region_of(corners: FloatArray, rows: int, columns: int) -> Region:
         Size of the image.
     """
     left, top = np.clip(np.ceil(corners.min(axis=0)), 0, (columns, rows)).astype(int).tolist()
-    right, bottom = (
-        np.clip(np.floor(corners.max(axis=0)) + 1, 0, (columns, rows)).astype(int).tolist()
-    )
+    right, bottom = np.clip(np.ceil(corners.max(axis=0)), 0, (columns, rows)).astype(int).tolist()
     if left >= right or top >= bottom:
-        return Region(0, rows, 0, columns)
+        return None
     return Region(top, bottom, left, right)
 
 

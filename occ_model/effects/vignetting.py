@@ -18,8 +18,9 @@ from occ_model.simulation_settings import Observable
 class Vignetting(OpticsEffect):
     """The light at a pixel falls as cos^n of its angle off the optical axis.
 
-    n = 4 is the natural fall-off of a thin lens that keeps straight lines straight (E. Hecht,
-    *Optics*, ch. 5); lenses that are made against it have less. On the axis nothing is lost.
+    n = 4 is the natural fall-off of a thin lens that keeps straight lines straight (W. J. Smith,
+    *Modern Optical Engineering*); lenses that are made against it have less. On the axis nothing
+    is lost. The angle is that of a lens without distortion.
     """
 
     name = "vignetting"

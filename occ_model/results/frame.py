@@ -21,9 +21,9 @@ class Frame:
     plan
         Which effects were simulated.
     profile : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding.
-        With column effects only it is the column's value itself, PV_sim; also in columns that do
-        not show the panel.
+        Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding;
+        of a picture that is kept in a file, as it is read back. With column effects only it is the
+        column's value itself, PV_sim; also in columns that do not show the panel.
     enhanced : ndarray of uint8, shape (columns,)
         The column values after enhancement; as they stand in the image where that has column
         effects only.

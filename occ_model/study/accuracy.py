@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
+from occ_model.camera.projection import check_size
 from occ_model.checks import check_seed
 from occ_model.columns import expose_columns
 from occ_model.effects.effect import NoiseEffect, pixel_spread
@@ -26,6 +27,7 @@ from occ_model.results import AccuracyPoint, Plan
 from occ_model.scene import Scene
 from occ_model.simulation import observe, render
 from occ_model.simulation_settings import NOISE_SOURCES, SimulationSettings
+from occ_model.study.observation import panel_span
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
 SAMPLES = tuple(2**power for power in range(13))
@@ -59,6 +61,7 @@ def accuracy(scene: Scene, settings: SimulationSettings | None = None) -> Iterat
     """
     settings = settings or SimulationSettings()
     check_seed(settings.seed)
+    check_size(scene.camera)
     chosen = plan(scene, settings.tolerance, settings.observable, settings.force)
     return _points(scene, settings, chosen)
 
@@ -68,7 +71,8 @@ def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int
     settings = settings or SimulationSettings()
     complete = plan(scene, 0.0, settings.observable)
     noise = 2 if planned(complete, NoiseEffect) else 0
-    return len(SAMPLES) + 1 + len(complete.included) + 2 + 2 + noise
+    paths = 1 if panel_span(scene) is None else 2
+    return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + noise
 
 
 def _points(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
@@ -146,8 +150,9 @@ def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
     seconds, columns = timed(partial(expose_columns, scene, chosen))
     error = rms(columns.profile[seen] - truth) * chosen.stretch
-    alone = "image" not in chosen.kinds
-    yield AccuracyPoint("path", "profile path", seconds, error, alone)
+    alone = "image" not in chosen.kinds and panel_span(scene) is not None
+    if panel_span(scene) is not None:
+        yield AccuracyPoint("path", "profile path", seconds, error, alone)
     by_image = plan(scene, np.inf, "profile", dict.fromkeys(chosen.included, True))
     difference = _observed(scene, by_image, settings) - truth
     seconds, _ = timed(partial(_rendered, scene, frozenset(chosen.included), settings))

@@ -1,5 +1,6 @@
 """The success rate, as the paper defines it."""
 
+import math
 from collections.abc import Mapping
 from typing import Literal
 
@@ -11,7 +12,7 @@ from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.results import DecodeResult, Plan
-from occ_model.scene import Scene
+from occ_model.scene import Scene, check_scene
 from occ_model.simulation import render
 from occ_model.simulation_settings import TOLERANCE
 from occ_model.study.observation import decode_profile
@@ -43,7 +44,7 @@ def success_rate(
     Parameters
     ----------
     scene
-        The scene; its start time is not used.
+        The scene; its start time and its flicker's phase are not used.
     images
         How many.
     decoder
@@ -79,6 +80,8 @@ def success_rate(
     for _ in range(images):
         (stream,) = root.spawn(1)
         at = scene.replace(start_time=float(stream.uniform(0.0, duration)))
+        if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
+            at = at.replace(flicker_phase=float(stream.uniform(-math.pi, math.pi)))
         chosen = plan(at, tolerance, "profile", force)
         seen = _decode(at, decoder, chosen, path, stream)
         if seen.bits.size == sent.size:
@@ -103,6 +106,7 @@ def _decode(
 
 
 def _check(scene: Scene, images: int, decoder: str, seed: int, path: Way) -> None:
+    check_scene(scene)
     check_count("images", images, 1)
     check_seed(seed)
     check_choice("path", path, _WAYS)

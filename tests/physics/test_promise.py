@@ -91,7 +91,7 @@ def scenes() -> tuple[Scene, ...]:
     while len(found) < SCENES:
         scene = random_scene(random)
         try:
-            occ.plan(scene)
+            observe(scene, occ.plan(scene, 0.0))
         except occ.ProjectionError:
             refused += 1
             continue

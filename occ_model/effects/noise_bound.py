@@ -12,8 +12,7 @@ from occ_model.effects.sight import off_axis_factor, reachable_luminances, sight
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
-_FAR = 9.0
-"""Standard deviations beyond which nothing of a normal distribution is left."""
+_TINY = float(np.finfo(np.float64).tiny)
 
 
 def noise_bound(
@@ -39,10 +38,12 @@ def noise_bound(
     sight = sight_of(scene)
     as_in_the_paper = sight.is_seen and sight.sides is not None and not moves_light(scene)
     levels = sight.levels if as_in_the_paper else _all_levels(scene)
-    squares = effect.spread(scene, levels) ** 2
+    squares = _variance(effect, scene, as_in_the_paper)
     seen = squares
     if observable == "profile":
-        rest = sum((other.spread(scene, levels) ** 2 for other in others), np.zeros(len(levels)))
+        rest = np.zeros(len(levels))
+        for other in others:
+            rest += _variance(other, scene, as_in_the_paper)
         alone = _cut_off(levels, np.sqrt(squares))
         beside = _cut_off(levels, np.sqrt(squares + rest)) - _cut_off(levels, np.sqrt(rest))
         moved = np.maximum(np.abs(alone), np.abs(beside))
@@ -58,14 +59,22 @@ def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
     A normal deviation that is cut off u standard deviations from its mean loses
     phi(u) - u Q(u) of them.
     """
+    deviations, lost = _lost()
     moved = np.zeros(len(levels))
     for sign, room in ((1.0, levels), (-1.0, WHITE - np.minimum(levels, WHITE))):
-        some = room < _FAR * spread
-        u = room[some] / spread[some]
-        beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
-        lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
-        moved[some] += sign * lost * spread[some]
+        u = room / np.maximum(spread, _TINY)
+        moved += sign * spread * np.interp(u, deviations, lost)
     return moved
+
+
+@lru_cache(maxsize=1)
+def _lost() -> tuple[FloatArray, FloatArray]:
+    """Tabulate phi(u) - u Q(u) over u, to where nothing is left of a normal distribution."""
+    u = np.linspace(0.0, 9.0, 2305)
+    beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
+    lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
+    lost[-1] = 0.0
+    return u, lost
 
 
 def louder(effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observable) -> float:
@@ -76,7 +85,7 @@ def louder(effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observabl
     off at black and white, and k over the root of their number.
     """
     levels = _all_levels(scene)
-    spread = np.sqrt(sum(effect.spread(scene, levels) ** 2 for effect in effects))
+    spread = np.sqrt(sum(_variance(effect, scene, False) for effect in effects))
     slope = float(np.abs(np.diff(spread) / np.diff(levels)).max())
     if observable == "image":
         return math.hypot(1.0, slope)
@@ -96,6 +105,13 @@ def moves_light(scene: Scene) -> bool:
         or lens.point_spread
         or lens.focus_distance
     )
+
+
+@lru_cache(maxsize=32)
+def _variance(effect: NoiseEffect, scene: Scene, as_in_the_paper: bool) -> FloatArray:
+    """Give the noise's variance at the levels of the columns, or at all that there can be."""
+    levels = sight_of(scene).levels if as_in_the_paper else _all_levels(scene)
+    return np.asarray(effect.spread(scene, levels) ** 2)
 
 
 @lru_cache(maxsize=16)

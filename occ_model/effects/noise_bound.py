@@ -12,7 +12,8 @@ from occ_model.effects.sight import off_axis_factor, reachable_luminances, sight
 from occ_model.scene import Scene
 from occ_model.simulation_settings import Observable
 
-_TINY = float(np.finfo(np.float64).tiny)
+_FAR = 9.0
+"""Standard deviations beyond which nothing of a normal distribution is left."""
 
 
 def noise_bound(
@@ -62,7 +63,8 @@ def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
     deviations, lost = _lost()
     moved = np.zeros(len(levels))
     for sign, room in ((1.0, levels), (-1.0, WHITE - np.minimum(levels, WHITE))):
-        u = room / np.maximum(spread, _TINY)
+        u = np.full(len(levels), _FAR)
+        np.divide(room, spread, out=u, where=room < _FAR * spread)
         moved += sign * spread * np.interp(u, deviations, lost)
     return moved
 
@@ -70,7 +72,7 @@ def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
 @lru_cache(maxsize=1)
 def _lost() -> tuple[FloatArray, FloatArray]:
     """Tabulate phi(u) - u Q(u) over u, to where nothing is left of a normal distribution."""
-    u = np.linspace(0.0, 9.0, 2305)
+    u = np.linspace(0.0, _FAR, 2305)
     beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
     lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
     lost[-1] = 0.0

@@ -1,6 +1,7 @@
 """Prints, after the tests, how wrong each law was found at worst."""
 
 import pytest
+
 from hard_cases import laws
 
 

@@ -61,13 +61,13 @@ class ExactTimes:
         return Fraction(self.scene.transmitter.edge_time) * self.frequency
 
     @cached_property
-    def _tables(self) -> tuple[list[int], list[Fraction]]:
-        """Lit chips before each chip, and the integral of that; the whole period's last."""
-        lit, twice = [0], [Fraction(0)]
+    def _tables(self) -> tuple[list[int], list[int]]:
+        """Lit chips before each chip, and twice the integral of that; the whole period's last."""
+        lit, doubled = [0], [0]
         for chip in self.chips:
-            twice.append(twice[-1] + lit[-1] + Fraction(chip, 2))
+            doubled.append(doubled[-1] + 2 * lit[-1] + chip)
             lit.append(lit[-1] + chip)
-        return lit, twice
+        return lit, doubled
 
     def start(self, column: int) -> Fraction:
         camera = self.scene.camera
@@ -84,12 +84,12 @@ class ExactTimes:
         """The integral of :meth:`lit_until` from 0 to ``x``."""
         length = len(self.chips)
         periods, rest = divmod(x, length)
-        lit, twice = self._tables
+        lit, doubled = self._tables
         chip = int(rest)
         part = rest - chip
-        whole = periods * twice[-1] + lit[-1] * length * periods * (periods - 1) / 2
-        within = twice[chip] + part * (lit[chip] + part * self.chips[chip] / 2)
-        return whole + lit[-1] * periods * rest + within
+        whole = periods * doubled[-1] + lit[-1] * length * periods * (periods - 1)
+        within = doubled[chip] + part * (2 * lit[chip] + part * self.chips[chip])
+        return (whole + within) / 2 + lit[-1] * periods * rest
 
     def share(self, column: int) -> Fraction:
         """The lit share of a column's exposure, the LED's edges sharp."""

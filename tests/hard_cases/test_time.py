@@ -5,6 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import strategies as st
+
+import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import (
     PATTERNS,
@@ -15,9 +18,6 @@ from hard_cases.references import (
     some_columns,
     within,
 )
-from hypothesis import strategies as st
-
-import occ_model as occ
 from occ_model.camera.exposure import column_phases, lit_fraction
 from occ_model.scene import Scene
 
@@ -27,7 +27,8 @@ CHIPS = decades(1e-3, 1e6)
 FREQUENCIES = st.one_of(decades(1.0, 1e9), st.integers(0, 29).map(lambda power: 2.0**power))
 READOUTS = decades(1e-9, 10.0)
 
-EDGES_OF_TIME = "t 1e-3 to 1e6 chips, f 1 Hz to 1 GHz, t_0 to 1e9 s"
+COINCIDENCE = "t_on where edges coincide, of t"
+WIDE = "t 1e-3 to 1e6 chips, f 1 Hz to 1 GHz, t_0 to 1e9 s"
 
 
 def timed(chips: float, frequency: float, **changes: float | str) -> Scene:
@@ -62,7 +63,7 @@ def test_on_time_is_that_of_rational_arithmetic(
 ) -> None:
     scene = timed(chips, frequency, readout_time=readout, start_time=start, pattern=pattern)
     error = error_of(scene)
-    record("t_on, of t", EDGES_OF_TIME, error)
+    record("t_on, of t", WIDE, error)
     assert error <= 1e-12
 
 
@@ -80,7 +81,7 @@ def test_on_time_of_whole_chips_and_packets_is_as_exact_an_ulp_either_side(
     exposure = scene.camera.exposure_time
     beside = exposure if ulps == 0 else math.nextafter(exposure, ulps * math.inf)
     error = error_of(scene.replace(exposure_time=within("exposure_time", beside)))
-    record("t_on where t is whole chips or packets, of t", "+- 1 ulp, 1 to 2.4e7 chips", error)
+    record(COINCIDENCE, "t of whole chips, packets at a column's start, +- 1 ulp", error)
     assert error <= 1e-14
 
 
@@ -98,7 +99,7 @@ def test_a_packet_may_start_just_where_a_column_does(
     scene = timed(chips, frequency, readout_time=seconds, start_time=start)
     exact, found = ExactTimes(scene), occ.on_time(scene)[column] / scene.camera.exposure_time
     error = float(abs(Fraction(float(found)) - exact.share(column)))
-    record("t_on where a packet starts with a column, of t", "+- 1 ulp of t_0", error)
+    record(COINCIDENCE, "t of whole chips, packets at a column's start, +- 1 ulp", error)
     assert error <= 1e-12
 
 
@@ -262,7 +263,7 @@ NAMED: dict[str, dict[str, float | str]] = {
 def test_on_time_of_a_hard_scene_is_that_of_rational_arithmetic(name: str) -> None:
     scene = Scene().replace(**({"columns": 2000} | NAMED[name]))
     error = error_of(scene)
-    record("t_on of the named scenes, of t", f"{len(NAMED)} scenes", error)
+    record("t_on, of t", WIDE, error)
     assert error <= 1e-12
 
 

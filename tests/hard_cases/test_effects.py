@@ -1,0 +1,371 @@
+"""Effects, where their closed forms cancel, against rational arithmetic and 50 digits."""
+
+import math
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+from hard_cases.laws import cases, record
+from hard_cases.references import (
+    PATTERNS,
+    STARTS,
+    ExactTimes,
+    decades,
+    signed_decades,
+    some_columns,
+    within,
+)
+from occ_model.camera.exposure import lit_fraction
+from occ_model.camera.optics import Gain, Optics
+from occ_model.camera.photometry import ColumnLight, luminance_levels, panel_values, saturate
+from occ_model.camera.projection import rotation_of
+from occ_model.camera.sensor import saturation_value
+from occ_model.effects.effect import NoiseEffect, OpticsEffect
+from occ_model.effects.emission import Emission
+from occ_model.effects.fixed_pattern import FixedPattern
+from occ_model.effects.flicker import Flicker, ambient_shares, response
+from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
+from occ_model.effects.sensor_noise import SensorNoise
+from occ_model.effects.vignetting import Vignetting
+from occ_model.scene import Scene
+
+mpmath.mp.dps = 50
+
+LONG = ["1" * 2048 + "0" * 2048, "10" * 2048, "1" + "0" * 4095, ("1" * 63 + "0") * 64]
+"""Patterns of the most chips: slow, fast, hardly ever lit, hardly ever dark."""
+
+FREQUENCY = 1e6
+
+EDGED = "lit share with LED edges"
+WIDE = "edges 1e-12 to 1e6 chips, t 1e-3 to 1e6, packets to 4096 chips"
+
+
+def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
+    """A scene with times in chips."""
+    basic: dict[str, float | str] = {
+        "edge_time": within("edge_time", edge / FREQUENCY),
+        "exposure_time": within("exposure_time", exposure / FREQUENCY),
+        "switching_frequency": FREQUENCY,
+        "readout_time": 0.737e-6,
+        "columns": 300,
+    }
+    return Scene().replace(**(basic | changes))
+
+
+def edge_error(scene: Scene) -> float:
+    """The worst column's lit share less that of rational arithmetic."""
+    exact, found = ExactTimes(scene), edged_lit_fraction(scene)
+    columns = some_columns(scene)
+    return max(
+        float(abs(Fraction(float(found[column])) - exact.edged_share(column))) for column in columns
+    )
+
+
+@cases(
+    edge=st.one_of(decades(1e-12, 1e6), st.integers(1, 4800).map(float)),
+    exposure=decades(1e-3, 1e6), start=STARTS, readout=decades(1e-9, 10.0), pattern=PATTERNS,
+)  # fmt: skip
+def test_edged_light_is_that_of_rational_arithmetic(
+    edge: float, exposure: float, start: float, readout: float, pattern: str
+) -> None:
+    scene = edged(edge, exposure, start_time=start, readout_time=readout, pattern=pattern)
+    error = edge_error(scene)
+    record(EDGED, WIDE, error)
+    assert error <= 1e-12
+
+
+@cases(
+    edge=st.one_of(decades(1.0, 1e6), st.sampled_from([4095.0, 4096.0, 4097.0, 8192.0])),
+    exposure=decades(1e-3, 1e5), start=STARTS, pattern=st.sampled_from(LONG),
+)  # fmt: skip
+def test_the_longest_patterns_lose_no_digits_to_long_edges(
+    edge: float, exposure: float, start: float, pattern: str
+) -> None:
+    scene = edged(edge, exposure, start_time=start, pattern=pattern, readout_time=13.7e-6)
+    error = edge_error(scene)
+    record(EDGED, WIDE, error)
+    assert error <= 1e-12
+
+
+@cases(edge=decades(1e-300, 1e-3), exposure=decades(1e-3, 1e3), start=STARTS, pattern=PATTERNS)
+def test_an_edge_towards_nothing_moves_no_more_light_than_it_keeps_back(
+    edge: float, exposure: float, start: float, pattern: str
+) -> None:
+    scene = edged(edge, exposure, start_time=start, pattern=pattern)
+    tau = scene.transmitter.edge_time * FREQUENCY
+    moved = float(np.abs(edged_lit_fraction(scene) - lit_fraction(scene)).max())
+    # Half of it at each end of the exposure; or all of a window shorter than the edge.
+    beyond = max(moved - min(tau / (scene.camera.exposure_time * FREQUENCY), 1.0), 0.0)
+    record("light moved by LED edges beyond their share", "edges 1e-300 to 1e-3 chips", beyond)
+    assert beyond <= 1e-15
+
+
+EDGES: dict[str, dict[str, float | str]] = {
+    # Windows 1/1000 of a chip, on sums that swing by a million chips^2 to and fro.
+    "a slow pattern of 4096 chips": {"edge_time": 5.5e-6, "exposure_time": 1e-9,
+                                     "pattern": LONG[0]},
+    # Light goes up and down a thousand times within the edge: what is left is 1 part in 1000.
+    "a fast pattern of 4096 chips": {"edge_time": 999.5e-6, "exposure_time": 1e-9,
+                                     "pattern": LONG[1]},
+    # An edge of whole packets leaves exactly no stripes: two equal windows cancel.
+    "whole packets": {"switching_frequency": 2.0**20, "edge_time": 24 * 2.0**-20},
+    # One ulp more than that: the windows differ by an ulp only.
+    "whole packets and an ulp": {
+        "switching_frequency": 2.0**20, "edge_time": math.nextafter(24 * 2.0**-20, 1)},
+    # Just at one chip the closed form changes.
+    "one chip": {"switching_frequency": 2.0**20, "edge_time": 2.0**-20},
+    # Just below one chip, where the ramps nearly meet.
+    "one chip less an ulp": {
+        "switching_frequency": 2.0**20, "edge_time": math.nextafter(2.0**-20, 0)},
+    # A billion chips in one edge, a billion seconds from time zero.
+    "a second at 1 GHz": {
+        "switching_frequency": 1e9, "edge_time": 1.0, "exposure_time": 1e-9, "start_time": 1e9},
+    # The edge and the exposure are the same average twice: a triangle.
+    "an edge as long as the exposure": {"edge_time": 7.3e-6, "exposure_time": 7.3e-6},
+    # So short that its square is nothing.
+    "the smallest number there is": {"edge_time": 5e-324},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("start", [0.0, 1e9 - 1 / 7])
+@pytest.mark.parametrize("name", EDGES)
+def test_edged_light_of_a_hard_scene_is_that_of_rational_arithmetic(
+    name: str, start: float
+) -> None:
+    scene = edged(0.0, 1.7, **({"start_time": start} | EDGES[name]))
+    error = edge_error(scene)
+    record(EDGED, WIDE, error)
+    assert error <= 1e-12
+
+
+@cases(
+    frequency=decades(0.01, 1e9), depth=st.floats(0.0, 1.0), phase=st.floats(-math.pi, math.pi),
+    cycles=st.one_of(decades(1e-11, 1e9), st.integers(1, 10**6).map(float)),
+    ulps=st.integers(-1, 1), start=STARTS,
+)  # fmt: skip
+def test_flicker_is_that_of_its_integral_in_fifty_digits(
+    frequency: float, depth: float, phase: float, cycles: float, ulps: int, start: float
+) -> None:
+    exposure = within("exposure_time", cycles / frequency)
+    if ulps:
+        exposure = within("exposure_time", math.nextafter(exposure, ulps * math.inf))
+    scene = Scene().replace(
+        flicker_frequency=frequency, flicker_depth=depth, flicker_phase=phase,
+        exposure_time=exposure, start_time=start, columns=300,
+    )  # fmt: skip
+    # Exact but for what is left of a cycle: no digits are lost in it.
+    length = Fraction(frequency) * Fraction(exposure)
+    turn = mpmath.mpf(length.numerator) / length.denominator
+    exact = mpmath.sinpi(turn) / (mpmath.pi * turn)
+    found = response(scene)
+    relative = float(abs(found - exact) / abs(exact)) if exact else abs(found)
+    record("flicker's share in an exposure, relative", "F t 1e-11 to 1e9, +- 1 ulp", relative)
+    assert relative <= 1e-15
+    worst = 0.0
+    for column in some_columns(scene):
+        when = Fraction(start) + column * Fraction(scene.camera.readout_time)
+        middle = ((when + Fraction(exposure) / 2) * Fraction(frequency)) % 1
+        angle = 2 * mpmath.pi * mpmath.mpf(middle.numerator) / middle.denominator + phase
+        share = 1 + depth * exact * mpmath.cos(angle)
+        worst = max(worst, abs(float(ambient_shares(scene)[column] - share)))
+    record("flickering light, of its mean", "F 0.01 Hz to 1 GHz, t_0 to 1e9 s", worst)
+    assert worst <= 1e-14
+
+
+@pytest.mark.parametrize(
+    ("frequency", "exposure"),
+    [
+        (0.01, 1e-9),  # F t = 1e-11: the sine is its angle, to the last digit
+        (1.0, 1e-9),  # F t = 1e-9
+        (100.0, 0.01),  # F t is whole but for the rounding of 0.01
+        (128.0, 1 / 128),  # F t is 1 exactly: pi has no last digit, but nothing is left
+        (2.0**20, 1e6),  # 1e12 cycles exactly
+        (120.0, math.nextafter(1 / 120, 1)),  # one ulp beyond a whole cycle
+    ],
+)
+def test_whole_cycles_leave_nothing_and_short_exposures_all(
+    frequency: float, exposure: float
+) -> None:
+    scene = Scene().replace(flicker_frequency=frequency, exposure_time=exposure, flicker_depth=1.0)
+    turn = Fraction(frequency) * Fraction(exposure)
+    found = response(scene)
+    if turn.denominator == 1:
+        assert found == 0.0
+        assert Flicker().bound(scene, "profile") == 0.0
+    else:
+        exact = mpmath.sinpi(mpmath.mpf(turn.numerator) / turn.denominator)
+        exact /= mpmath.pi * mpmath.mpf(turn.numerator) / turn.denominator
+        assert found == pytest.approx(float(exact), rel=1e-15, abs=0)
+
+
+def gain_of(effect: OpticsEffect, scene: Scene) -> np.ndarray:
+    """What an effect multiplies each pixel's light by."""
+    optics = effect.apply(scene, Optics(np.zeros((4, 2))))
+    (gain,) = (*optics.emission, *optics.transmission)
+    assert isinstance(gain, Gain)
+    return gain.rows(0, scene.camera.rows).astype(np.float64)
+
+
+def corner_rays(scene: Scene) -> list[tuple[int, int, mpmath.matrix]]:
+    """The picture's corners and its middle, and their rays (x, y, 1)."""
+    camera = scene.camera
+    rows, columns = camera.rows, camera.columns
+    focal = mpmath.mpf(camera.equivalent_focal_length) / mpmath.mpf(0.04327)
+    focal *= mpmath.sqrt(rows**2 + columns**2)
+    places = [(0, 0), (rows - 1, columns - 1), (0, columns - 1), (rows // 2, columns // 2)]
+    return [
+        (r, c, mpmath.matrix([(c - mpmath.mpf(columns - 1) / 2) / focal,
+                              (r - mpmath.mpf(rows - 1) / 2) / focal, 1]))
+        for r, c in places
+    ]  # fmt: skip
+
+
+@cases(
+    focal=decades(1e-3, 2.0), exponent=st.one_of(decades(1e-18, 20.0), st.just(20.0)),
+    rows=st.integers(1, 24), columns=st.integers(1, 48),
+)  # fmt: skip
+def test_vignetting_is_that_of_fifty_digits_at_the_corner_of_a_fisheye(
+    focal: float, exponent: float, rows: int, columns: int
+) -> None:
+    scene = Scene().replace(
+        equivalent_focal_length=focal, vignetting_exponent=exponent, rows=rows, columns=columns
+    )
+    gain = gain_of(Vignetting(), scene)
+    worst = 0.0
+    for row, column, ray in corner_rays(scene):
+        exact = mpmath.norm(ray) ** -exponent
+        worst = max(worst, float(abs(gain[row, column] - exact) / exact))
+    record("vignetting's gain, relative", "focal length from 1 mm, cos^0 to cos^20", worst)
+    assert worst <= 2e-5  # single precision, to the tenth power
+    assert gain.min() > 0.0
+    assert gain.max() <= 1.0
+
+
+@cases(
+    exponent=decades(1e-18, 20.0), gamma=st.floats(1.0, 4.0), focal=decades(1e-3, 2.0),
+)  # fmt: skip
+def test_vignettings_bound_is_that_of_fifty_digits(
+    exponent: float, gamma: float, focal: float
+) -> None:
+    scene = Scene().replace(
+        vignetting_exponent=exponent, gamma=gamma, equivalent_focal_length=focal, distance=0.1,
+        iso=1e6, rows=20, columns=40,
+    )  # fmt: skip
+    # White loses most, of a panel that fills the picture.
+    scene = scene.replace(panel_width=100.0, panel_height=100.0)
+    ray = corner_rays(scene)[0][2]
+    exact = 255 * -mpmath.expm1(-mpmath.log(mpmath.norm(ray)) * exponent / gamma)
+    error = float(abs(Vignetting().bound(scene, "image") - exact) / exact)
+    record("vignetting's bound, relative", "cos^1e-18 to cos^20", error)
+    assert error <= 1e-9  # the cosine's own rounding, at the longest focal length
+
+
+@cases(
+    yaw=st.one_of(st.floats(-1.5706, 1.5706), signed_decades(1.57, 1.5706)),
+    pitch=st.one_of(st.just(0.0), st.floats(-1.5706, 1.5706)), roll=st.floats(-math.pi, math.pi),
+    focal=decades(1e-3, 2.0), order=st.one_of(st.floats(1.0, 100.0), st.just(1.0 + 1e-15)),
+)  # fmt: skip
+def test_emission_is_that_of_fifty_digits_at_grazing_angles(
+    yaw: float, pitch: float, roll: float, focal: float, order: float
+) -> None:
+    scene = Scene().replace(
+        yaw=yaw, pitch=pitch, roll=roll, equivalent_focal_length=focal, lambertian_order=order,
+        rows=24, columns=48,
+    )  # fmt: skip
+    gain, normal = gain_of(Emission(), scene), rotation_of(scene.pose)[:, 2].tolist()
+    worst = 0.0
+    for row, column, ray in corner_rays(scene):
+        along = sum(mpmath.mpf(n) * ray[i] for i, n in enumerate(normal))
+        exact = (abs(along) / mpmath.norm(ray)) ** (mpmath.mpf(order) - 1)
+        worst = max(worst, abs(float(gain[row, column] - exact)))
+    record("emission's gain, of the light on the axis", "turned to 89.99 deg, cos^0 to 99", worst)
+    assert worst <= 2e-5  # rays of single precision, to the 99th power
+    assert gain.min() >= 0.0
+    assert gain.max() <= 1.0
+
+
+def exact_spread(effect: NoiseEffect, scene: Scene, value: float) -> mpmath.mpf:
+    """A pixel's deviation in grey levels, by its definition."""
+    camera, sensor = scene.camera, scene.sensor
+    exact = mpmath.mpf
+    gamma = exact(camera.gamma)
+    gain = exact(camera.iso) * camera.exposure_time
+    gain /= exact(camera.meter_constant) * exact(camera.f_number) ** 2
+    each = exact(0.65) * camera.exposure_time / exact(camera.f_number) ** 2 * exact(8.8e15)
+    each *= exact(sensor.pixel_pitch) ** 2 * sensor.quantum_efficiency
+
+    def electrons(level: float) -> mpmath.mpf:
+        return (exact(level) / 118) ** gamma / gain * each
+
+    n = electrons(value)
+    if isinstance(effect, SensorNoise):
+        step = min(electrons(255.0), exact(sensor.full_well)) / exact(2) ** sensor.adc_bits
+        variance = n + exact(sensor.read_noise) ** 2 + step**2 / 12
+    else:
+        variance = (exact(sensor.gain_variation) * n) ** 2
+    there = mpmath.sqrt(n**2 + variance)
+    if not there:
+        return exact(0)
+    slope = 118 * (gain * there / each) ** (1 / gamma) / (gamma * there)
+    return slope * mpmath.sqrt(variance)
+
+
+@cases(
+    light=st.one_of(st.just(0.0), decades(1e-12, 1.0), st.just(1e12)), iso=decades(1.0, 4e6),
+    exposure=decades(1e-9, 1e6), gamma=st.floats(1.0, 4.0), read_noise=st.floats(0.0, 1e4),
+    gain=st.one_of(st.just(0.0), decades(1e-12, 0.5)), well=decades(10.0, 1e9),
+    bits=st.integers(4, 24), effect=st.sampled_from([SensorNoise(), FixedPattern()]),
+)  # fmt: skip
+def test_noise_spreads_as_in_fifty_digits_from_no_light_to_a_trillion_times_too_much(
+    light: float, iso: float, exposure: float, gamma: float, read_noise: float, gain: float,
+    well: float, bits: int, effect: NoiseEffect,
+) -> None:  # fmt: skip
+    scene = Scene().replace(
+        iso=iso, exposure_time=exposure, gamma=gamma, read_noise=read_noise, gain_variation=gain,
+        full_well=well, adc_bits=bits,
+    )  # fmt: skip
+    values = np.array([255.0 * light ** (1 / gamma)])
+    with np.errstate(all="raise", under="ignore"):
+        (found,) = effect.spread(scene, values).tolist()
+    exact = exact_spread(effect, scene, float(values[0]))
+    assert math.isfinite(found)
+    # Near saturation, and beyond it, noise may be cut off: then it is less.
+    room = max(min(saturation_value(scene), 255.0) - float(values[0]), 0.0)
+    least, most = min(exact, mpmath.mpf(room)), exact
+    beyond = max(found - most, least - found, mpmath.mpf(0))
+    error = float(beyond / exact) if exact else abs(found)
+    record("noise's deviation, relative", "light 0 to 1e12 times white", error)
+    assert error <= 1e-13
+
+
+@cases(
+    edge=st.one_of(st.just(0.0), decades(1e-12, 1.0)), exposure=decades(1e-9, 1e3),
+    frequency=decades(1.0, 1e9), readout=decades(1e-9, 10.0), start=STARTS, pattern=PATTERNS,
+    depth=st.floats(0.0, 1.0), mains=decades(0.01, 1e9), illuminance=decades(1e-9, 1e12),
+    luminance=decades(1e-9, 1e12), iso=decades(1.0, 4e6),
+    averaging=st.sampled_from(["light", "pixel-value"]),
+)  # fmt: skip
+def test_light_effects_left_out_change_no_more_than_their_bounds_at_any_scale(
+    edge: float, exposure: float, depth: float, mains: float, frequency: float,
+    readout: float, start: float, pattern: str, illuminance: float, luminance: float,
+    iso: float, averaging: str,
+) -> None:  # fmt: skip
+    scene = Scene().replace(
+        edge_time=edge, exposure_time=exposure, switching_frequency=frequency,
+        readout_time=readout, start_time=start, pattern=pattern, flicker_depth=depth,
+        flicker_frequency=mains, illuminance=illuminance, luminance=luminance, iso=iso,
+        averaging=averaging, columns=200, rows=4, distance=0.01,
+    )  # fmt: skip
+    sharp = ColumnLight.of(scene)
+    for effect, others in ((LedEdges(), Flicker()), (Flicker(), LedEdges())):
+        for light in (sharp, others.apply(scene, sharp)):
+            without = saturate(panel_values(scene, light))
+            change = saturate(panel_values(scene, effect.apply(scene, light))) - without
+            found = float(np.sqrt(np.mean(change**2)))
+            beyond = max(found - effect.bound(scene, "profile") * (1 + 1e-9), 0.0) / 255
+            record("light effects beyond their bounds, of full scale", "any light", beyond)
+            assert beyond <= 1e-12
+    assert luminance_levels(scene).min() >= 0.0

@@ -1,0 +1,427 @@
+"""Signals and images that are hardly any, and histograms full of ties."""
+
+import math
+from collections.abc import Iterable
+from fractions import Fraction
+from itertools import accumulate
+
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+import occ_model as occ
+from hard_cases.laws import cases, record
+from hard_cases.references import decades
+from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.locate import locate
+from occ_model.receiver.otsu import otsu_split
+from occ_model.receiver.signal import otsu_threshold
+from occ_model.results import DecodeResult, Region
+from occ_model.scene import Scene
+
+BOTH = sorted(DECODERS)
+COUNTS = st.one_of(st.just(0), st.integers(0, 3), decades(1, 1e12).map(int))
+
+
+def variances(counts: list[int], splits: Iterable[int]) -> dict[int, Fraction]:
+    """The variance between the classes of those splits that leave neither empty, exactly."""
+    weights = list(accumulate(counts))
+    moments = list(accumulate(place * count for place, count in enumerate(counts)))
+    total, moment = weights[-1], moments[-1]
+    return {
+        split: Fraction((moment * w - total * m) ** 2, total**2 * w * (total - w))
+        for split, w, m in ((split, weights[split], moments[split]) for split in splits)
+        if 0 < w < total
+    }
+
+
+def shortfall(counts: list[int], split: int | None) -> float:
+    """By which share of the largest variance the split's falls short of it."""
+    filled = {place for place, count in enumerate(counts) if count}
+    exact = variances(counts, filled if split is None else {*filled, split})
+    if not exact:
+        return 0.0 if split is None else math.inf
+    if split not in exact:
+        return math.inf
+    return float(1 - exact[split] / max(exact.values()))
+
+
+@st.composite
+def histograms(draw: st.DrawFn) -> list[int]:
+    """Filled bins with gaps between them; the same forwards and backwards every other time."""
+    filled = draw(st.lists(st.tuples(COUNTS, st.integers(0, 40)), min_size=1, max_size=12))
+    counts = [number for count, gap in filled for number in (count, *[0] * gap)]
+    return counts + counts[::-1] if draw(st.booleans()) else counts
+
+
+@cases(counts=histograms())
+def test_otsus_split_is_the_best_of_all_in_rational_arithmetic(counts: list[int]) -> None:
+    split = otsu_split(np.array(counts))
+    error = shortfall(counts, split)
+    record("Otsu: variance lost by the split, of the largest", "counts 0 to 1e12, ties", error)
+    assert error <= 1e-12
+    exact = variances(counts, range(len(counts)))
+    if exact:
+        largest = max(exact.values())
+        best = [place for place, variance in exact.items() if variance == largest]
+        close = [place for place, variance in exact.items() if variance > largest * (1 - 1e-9)]
+        # Where none is all but as good, the middle one of those that are the best.
+        assert close != best or split == best[len(best) // 2]
+
+
+HISTOGRAMS: dict[str, tuple[list[int], int | None]] = {
+    # Nothing to split.
+    "no bin": ([0, 0, 0], None),
+    "a single bin": ([0, 7, 0], None),
+    "a histogram of one bin": ([5], None),
+    # Every split between the two is as good: 0 to 9, of which the middle one is the 5.
+    "two bins far apart": ([1, *[0] * 9, 1], 5),
+    # One against a trillion: the variance is 1e-12 of what the counts would allow.
+    "one against a trillion": ([10**12, *[0] * 9, 1], 5),
+    # Two splits are exactly as good, and mirror each other.
+    "three equal bins": ([1, 1, 1], 1),
+    # Four are: of each pair of neighbours between equal bins, the outer ones are worse.
+    "two pairs": ([1, 1, 0, 0, 0, 1, 1], 3),
+    # All moments are multiples of 1e12 but the last: single precision would hold none of them.
+    "a trillion each": ([10**12] * 4, 1),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HISTOGRAMS)
+def test_otsus_split_of_a_hard_histogram(name: str) -> None:
+    counts, expected = HISTOGRAMS[name]
+    assert otsu_split(np.array(counts)) == expected
+    assert shortfall(counts, expected) == 0.0
+
+
+def test_otsus_split_of_run_lengths_to_100000_columns_loses_nothing() -> None:
+    # The longest run is as long as the signal, the others are a few columns: 1e5 bins, ten filled.
+    random = np.random.default_rng(3)
+    for _ in range(20):
+        counts = np.zeros(100_000, dtype=np.int64)
+        counts[random.integers(1, 40, 8)] = random.integers(1, 3000, 8)
+        counts[random.integers(40, 100_000, 2)] = 1
+        error = shortfall(counts.tolist(), otsu_split(counts))
+        record("Otsu of run lengths: variance lost, of the largest", "1e5 columns", error)
+        assert error <= 1e-12
+
+
+@st.composite
+def two_tones(draw: st.DrawFn) -> tuple[np.ndarray, float, float]:
+    """A signal of two values with runs of any length, and the values."""
+    low = draw(st.floats(-1e4, 1e4))
+    high = low + draw(decades(1.001, 1e4))
+    lengths = draw(st.lists(decades(1, 1e3).map(int), min_size=2, max_size=30))
+    values = np.resize([low, high], len(lengths))
+    return np.repeat(values, lengths), low, high
+
+
+@cases(signal=two_tones())
+def test_the_threshold_of_two_values_lies_halfway(signal: tuple[np.ndarray, float, float]) -> None:
+    values, low, high = signal
+    threshold = otsu_threshold(values)
+    # 255 steps have no middle: it is half a step off at the most.
+    error = abs(threshold - (low + high) / 2) / (high - low)
+    record("threshold between two values, off the middle, of the swing", "one run on", error)
+    assert error <= 0.5 / 255 + 1e-9
+    assert low < threshold < high
+
+
+@st.composite
+def receivers(draw: st.DrawFn) -> Scene:
+    """Whatever a receiver can be told."""
+    return Scene().replace(
+        code=0,
+        bits=draw(st.integers(2, 7)),
+        pattern=draw(st.sampled_from(["", "", "01", "0010111", "1"])),
+        switching_frequency=draw(st.just(1e4) | decades(1.0, 1e9)),
+        exposure_time=draw(st.just(136e-6) | decades(1e-9, 1e6)),
+        readout_time=draw(st.just(8e-6) | decades(1e-9, 10.0)),
+        bright_fraction=draw(decades(1e-4, 0.5)),
+        start_time=draw(st.floats(-1e9, 1e9)),
+    )
+
+
+def check(result: DecodeResult, columns: int) -> None:
+    """What holds for whatever was read."""
+    assert (result.code is None) == (result.failure is not None)
+    if result.failure is not None:
+        assert result.failure.endswith((".", "header's."))
+        assert "nan" not in result.failure
+        assert "inf" not in result.failure.split()
+    assert result.region is not None or "No panel" in str(result.failure)
+    # A chip of a third of a column is the shortest that is ever tried, and refined from there.
+    assert len(result.chips) <= 8 * columns
+    for number in (result.threshold, result.chip_length, result.correlation, result.confidence):
+        assert number is None or math.isfinite(number)
+    for array in (result.signal, result.chip_starts, result.folded, result.model):
+        assert array is None or np.isfinite(array).all()
+
+
+def tried(image: object, scene: Scene, decoder: str, columns: int) -> float:
+    """0 where an array was read or refused with a sentence, 1 where anything else happened."""
+    try:
+        check(occ.decode(image, scene, decoder), columns)  # type: ignore[arg-type]
+    except occ.DecodeInputError as refusal:
+        return 0.0 if str(refusal).endswith(".") else 1.0
+    return 0.0
+
+
+@st.composite
+def garbage_profiles(draw: st.DrawFn) -> np.ndarray:
+    """Runs of any length between a column and thousands, of a few values or of all."""
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    runs = draw(st.integers(1, 60))
+    # Heavy tails: most runs are short, some are as long as all the others.
+    lengths = np.ceil(draw(decades(1.0, 30.0)) * random.pareto(draw(st.floats(0.6, 5.0)), runs))
+    lengths = np.clip(lengths, 1, 5000).astype(np.int64)
+    size = draw(decades(0.1, 9e4))
+    values = random.choice([random.normal(0, size, runs), np.resize([0, size], runs)])
+    signal = np.clip(np.repeat(values, lengths), -1e5, 1e5)
+    noise = draw(st.sampled_from([0.0, 0.0, 0.3]))
+    return np.clip(signal + random.normal(0, noise * size, len(signal)), -1e5, 1e5)
+
+
+@cases(profile=garbage_profiles(), scene=receivers(), decoder=st.sampled_from(BOTH))
+def test_any_profile_is_read_or_refused_with_a_sentence(
+    profile: np.ndarray, scene: Scene, decoder: str
+) -> None:
+    error = tried(profile, scene, decoder, len(profile))
+    record("any profile: read, or a sentence", "1 to 1e5 columns, any receiver", error)
+    assert error == 0.0
+
+
+@st.composite
+def garbage_images(draw: st.DrawFn) -> np.ndarray:
+    """Noise, specks, stripes and constants of every type, with numbers that are none."""
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    rows = draw(st.integers(1, 40) | st.just(1))
+    columns = draw(st.integers(1, 600) | st.just(1))
+    kind = draw(st.sampled_from(["noise", "specks", "stripes", "constant"]))
+    if kind == "noise":
+        image = random.normal(128, draw(decades(0.1, 1e3)), (rows, columns))
+    elif kind == "specks":
+        image = np.where(random.random((rows, columns)) < 0.01, 255.0, 3.0)
+    elif kind == "stripes":
+        period = draw(st.integers(1, 40))
+        image = np.tile(255.0 * (np.arange(columns) // period % 2), (rows, 1))
+    else:
+        image = np.full((rows, columns), float(random.integers(-5, 300)))
+    image = image[:: draw(st.sampled_from([1, -1, 2])), :: draw(st.sampled_from([1, -1, 3]))]
+    types = [np.uint8, np.uint16, np.float16, np.float32, np.float64, np.longdouble, np.int32, bool]
+    kind_of = draw(st.sampled_from(types))
+    if not np.issubdtype(kind_of, np.floating):
+        return np.clip(image, 0, 255).astype(kind_of)
+    none = draw(st.sampled_from([0.0, 0.0, 0.0, np.nan, np.inf, -np.inf, 1e30]))
+    if none != 0.0:
+        image = image.copy()
+        image[0, -1] = none
+    with np.errstate(over="ignore"):
+        return image.astype(kind_of)
+
+
+@cases(image=garbage_images(), scene=receivers(), decoder=st.sampled_from(BOTH))
+def test_any_image_is_read_or_refused_with_a_sentence(
+    image: np.ndarray, scene: Scene, decoder: str
+) -> None:
+    error = tried(image, scene, decoder, image.shape[1])
+    record("any image: read, or a sentence", "any type, shape, stride; NaN and infinity", error)
+    assert error == 0.0
+
+
+@cases(
+    code=st.integers(0, 1023),
+    start=st.floats(0.0, 0.01),
+    size=decades(0.02, 100.0),
+    shift=st.floats(-1e3, 1e3),
+    decoder=st.sampled_from(BOTH),
+)
+def test_a_code_is_read_whatever_its_grey_levels_are_multiplied_by(
+    code: int, start: float, size: float, shift: float, decoder: str
+) -> None:
+    scene = Scene().replace(
+        code=code, start_time=start, exposure_time=68e-6, columns=1000, enhancement="none"
+    )
+    profile = occ.column_profile(scene)
+    read = occ.decode(profile * size + shift, scene, decoder).code
+    record("codes read off scaled profiles: wrong", "gain 0.02 to 100", float(read != code))
+    assert read == code
+
+
+def profile_of(columns: int, **changes: float | int | str) -> np.ndarray:
+    return occ.column_profile(Scene().replace(columns=columns, **changes))
+
+
+SIGNALS: dict[str, np.ndarray] = {
+    # No swing to divide by.
+    "constant": np.full(500, 117.0),
+    "constant, but for rounding": 117.0 + 1e-13 * (np.arange(500) % 2),
+    # One column: no run, no histogram, no lag.
+    "one column": np.array([200.0]),
+    # Two: each is a run that the rim cuts off.
+    "two columns": np.array([0.0, 255.0]),
+    # A single step: no whole run at all.
+    "one step": np.repeat([10.0, 200.0], 300),
+    # One whole run, of one kind only: the histogram of the other is empty.
+    "one whole run": np.repeat([0.0, 255.0, 0.0], [50, 10, 50]),
+    # Two whole runs, one of each kind: one short of what tells a chip's length.
+    "two whole runs": np.repeat([0.0, 255.0, 0.0, 255.0], [50, 10, 7, 50]),
+    # Every run is one column: no run is longer than another, and no split has two classes.
+    "alternating columns": np.resize([0.0, 255.0], 2000),
+    # The same at the swing that just counts as stripes.
+    "one grey level of swing": np.resize([100.0, 101.0], 2000),
+    # All runs alike, in 100,000 columns.
+    "a hundred thousand columns, two values": np.resize(np.repeat([0.0, 255.0], 14), 100_000),
+    # A run of 99,900 columns beside runs of one: the histogram has as many bins, all but two empty.
+    "one run of nearly all columns": np.concatenate(
+        [np.resize([0.0, 255.0], 51), np.zeros(99_900), np.resize([255.0, 0.0], 49)]),
+    # Values next to the largest that is taken for a grey level, and 0 with a sign.
+    "the largest values": np.resize([1e5, -1e5, -0.0, 0.0], 400),
+    # The swing is one ulp in the histogram's last bin.
+    "a ramp": np.linspace(0.0, 255.0, 100_000),
+    # A chirp: each run is a column longer than the one before, and none fits whole chips.
+    "runs of all lengths": np.repeat(np.resize([0.0, 255.0], 200), np.arange(1, 201)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("decoder", BOTH)
+@pytest.mark.parametrize("name", SIGNALS)
+def test_a_hard_signal_is_read_or_said_to_be_unreadable(name: str, decoder: str) -> None:
+    signal = SIGNALS[name]
+    for changes in ({}, {"pattern": "01"}, {"bits": 2, "code": 0}, {"readout_time": 10.0}):
+        result = occ.decode(signal, Scene().replace(**changes), decoder)
+        check(result, len(signal))
+        # Of the four codes of two bits one may well look like anything.
+        assert result.failure is not None or "bits" in changes
+
+
+@pytest.mark.parametrize("decoder", BOTH)
+def test_a_hundred_thousand_columns_are_read(decoder: str) -> None:
+    # 333 packets: a phase that drifts by a thousandth of a chip a packet would blur the last ones.
+    scene = Scene().replace(code=0b1011001110, exposure_time=68e-6)
+    profile = profile_of(100_000, code=0b1011001110, exposure_time=68e-6)
+    result = occ.decode(profile, scene, decoder)
+    assert result.code == 0b1011001110
+    check(result, 100_000)
+
+
+@pytest.mark.parametrize("decoder", BOTH)
+def test_codes_of_sixteen_bits_in_a_hundred_thousand_columns_are_read(decoder: str) -> None:
+    # 65,536 codes at 288 phases: a table of them all would fill 150 GB with the columns.
+    scene = Scene().replace(bits=16, code=0xBEEF, exposure_time=68e-6)
+    profile = occ.column_profile(scene.replace(columns=100_000))
+    assert occ.decode(profile, scene, decoder).code == 0xBEEF
+
+
+@pytest.mark.parametrize("decoder", BOTH)
+def test_images_of_all_types_give_the_same_code(decoder: str) -> None:
+    scene = Scene().replace(rows=40, columns=2000, distance=0.1, exposure_time=68e-6)
+    image = occ.render(scene).image
+    images = {
+        "uint8": image,
+        # 255 becomes 65535: what is above a byte must be scaled, not cut off.
+        "uint16": image.astype(np.uint16) * 257,
+        # Eleven bits hold a byte exactly.
+        "float16": image.astype(np.float16),
+        "float32": image.astype(np.float32),
+        "float64": image.astype(np.float64),
+        # A type that OpenCV does not know.
+        "longdouble": image.astype(np.longdouble),
+        # Memory that OpenCV cannot walk through: columns first, backwards, every other pixel.
+        "columns first": np.asfortranarray(image),
+        "from the end": image[::-1, ::-1].copy()[::-1, ::-1],
+        "every other": np.repeat(np.repeat(image, 2, axis=0), 2, axis=1)[::2, ::2],
+    }
+    for name, pixels in images.items():
+        pixels.flags.writeable = False
+        assert occ.decode(pixels, scene, decoder).code == scene.transmitter.code, name
+
+
+def test_sixteen_bits_tell_more_than_eight() -> None:
+    # A profile of 16 bits whose stripes are a third of a grey level in 8: too flat, but not cut.
+    stripes = np.resize(np.repeat([1000, 1090], 20), 3000).astype(np.uint16)
+    failure = occ.decode(stripes, Scene()).failure
+    assert failure is not None
+    assert "0.35 grey levels" in failure
+
+
+NOT_IMAGES: dict[str, tuple[object, str]] = {
+    # A NaN is neither below a threshold nor above it, and spreads through every sum.
+    "NaN": (np.array([[1.0, np.nan], [2.0, 3.0]]), "not numbers"),
+    "NaN in a profile": (np.r_[np.zeros(99_999), np.nan], "not numbers"),
+    "infinity": (np.array([[1.0, np.inf]]), "not numbers"),
+    "minus infinity": (np.array([-np.inf, 1.0]), "not numbers"),
+    # Half precision has an infinity of its own, from 65520 on.
+    "infinity of half precision": (np.array([1.0, np.inf], np.float16), "not numbers"),
+    # Finite, but its square is not.
+    "the largest float": (np.array([0.0, np.finfo(float).max]), "1.8e+308"),
+    "a little too large": (np.array([0.0, -100_001.0]), "1e+05"),
+    "no pixels": (np.empty((0, 7)), "empty"),
+    "no columns": (np.empty((7, 0), np.uint8), "empty"),
+    "nothing": (np.empty(0), "empty"),
+    "a colour image": (np.zeros((4, 5, 3), np.uint8), "shape"),
+    "a number": (3.0, "shape"),
+    "None": (None, "shape"),
+    "text": ("0101", "shape"),
+    "signed bytes": (np.zeros((4, 5), np.int8), "int8"),
+    "truth values": (np.zeros((4, 5), bool), "bool"),
+    "complex numbers": (np.zeros((4, 5), complex), "complex"),
+    "objects": (np.array([[1, None]], dtype=object), "object"),
+    "numbers of any length": ([[10**400, 1]], "object"),
+    "dates": (np.zeros(5, "datetime64[s]"), "datetime64"),
+    "rows of different lengths": ([[1, 2], [3]], "different lengths"),
+    # A view of one byte as a terabyte: to copy it would be the end.
+    "a terabyte in a byte": (np.broadcast_to(np.uint8(3), (2**20, 2**20)), "million pixels"),
+    "a profile of a terabyte": (np.broadcast_to(np.float64(3), (2**37,)), "million pixels"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("decoder", BOTH)
+@pytest.mark.parametrize("name", NOT_IMAGES)
+def test_what_is_no_image_is_refused_with_a_sentence(name: str, decoder: str) -> None:
+    image, word = NOT_IMAGES[name]
+    with pytest.raises(occ.DecodeInputError) as refusal:
+        occ.decode(image, Scene(), decoder)  # type: ignore[arg-type]
+    assert word in str(refusal.value)
+    assert str(refusal.value).endswith(".")
+
+
+@pytest.mark.parametrize("frequency", [1e6, 1e7, 1e9])
+def test_chips_shorter_than_a_column_are_not_counted(frequency: float) -> None:
+    # Runs of 2 columns would hold 1e10 chips each, and the chips of them all 15 terabytes.
+    scene = Scene().replace(pattern="01", switching_frequency=frequency, readout_time=1e-3)
+    result = occ.decode(np.resize([0.0, 0.0, 255.0, 255.0], 200), scene)
+    assert result.failure is not None
+    assert result.failure.startswith("A chip lasts ")
+    assert len(result.chips) == 0
+
+
+@pytest.mark.parametrize("exposure", [24 / 8192, 1e3 + 1e-5, 1e6])
+def test_an_exposure_that_leaves_only_the_mean_is_said_to(exposure: float) -> None:
+    # Exactly a packet, or so many that the rest is lost in the last digits: all codes look alike.
+    scene = Scene().replace(exposure_time=exposure, switching_frequency=8192.0)
+    failure = occ.decode(SIGNALS["runs of all lengths"], scene, "matched").failure
+    assert failure is not None
+    assert failure.startswith("All codes look alike")
+
+
+LOCATED: dict[str, tuple[np.ndarray, Region]] = {
+    # The share of the brightest pixels is less than one pixel.
+    "one pixel of a million": (np.zeros((1000, 1000), np.uint8), Region(999, 1000, 0, 1)),
+    # Less than a cell of the grid that contours are grown on, at the far end of it.
+    "the last of 100,000 columns": (
+        np.zeros((1, 100_000), np.uint8), Region(0, 1, 99_999, 100_000)),
+    "the last of 100,000 rows": (np.zeros((100_000, 1), np.uint8), Region(99_999, 100_000, 0, 1)),
+    # One level brighter is all there is.
+    "a single grey level": (np.full((50, 60), 254, np.uint8), Region(20, 30, 10, 40)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LOCATED)
+def test_a_panel_that_hardly_shows_is_found_to_the_pixel(name: str) -> None:
+    image, region = LOCATED[name]
+    image = image.copy()
+    image[region.first_row : region.last_row, region.first_column : region.last_column] = 255
+    found = locate(image, 0.05)
+    assert found is not None
+    assert found.region == region

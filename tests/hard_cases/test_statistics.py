@@ -1,0 +1,219 @@
+"""Sums over millions of pixels, and rates of millions of trials, without the loss of a digit."""
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+import occ_model as occ
+from hard_cases.laws import cases, record
+from hard_cases.references import decades
+from occ_model.camera.enhancement import Enhancement
+from occ_model.columns import expose_columns
+from occ_model.effects.noise import ReusedNoise
+from occ_model.effects.registry import EFFECTS
+from occ_model.pixels import ExposedRows, PixelExposure, _ColumnTally
+from occ_model.receiver.locate import locate
+from occ_model.receiver.signal import column_means
+from occ_model.results import Region
+from occ_model.scene import Scene
+from occ_model.stage_clock import StageClock
+from occ_model.study.confidence import wilson_interval
+
+
+def whole(image: np.ndarray) -> Region:
+    return Region(0, image.shape[0], 0, image.shape[1])
+
+
+@st.composite
+def byte_images(draw: st.DrawFn) -> tuple[np.ndarray, Region]:
+    """Tall, wide and small images, of all levels or the largest only, and a part of each."""
+    rows, columns = draw(
+        st.sampled_from([(1, 3000), (3000, 1), (70, 60), (2, 2), (1, 1), (20_000, 3)])
+    )
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    image = random.integers(draw(st.sampled_from([0, 250, 255])), 256, (rows, columns), np.uint8)
+    top, left = draw(st.integers(0, rows - 1)), draw(st.integers(0, columns - 1))
+    bottom, right = draw(st.integers(top + 1, rows)), draw(st.integers(left + 1, columns))
+    return image, Region(top, bottom, left, right)
+
+
+@cases(image=byte_images())
+def test_column_means_are_integer_sums_over_integers(image: tuple[np.ndarray, Region]) -> None:
+    pixels, region = image
+    part = pixels[region.first_row : region.last_row, region.first_column : region.last_column]
+    exact = part.sum(axis=0, dtype=np.int64) / region.rows
+    error = float(np.abs(column_means(pixels, region) - exact).max())
+    record("column means of bytes, grey levels", "1 to 20,000 rows", error)
+    assert error == 0.0
+
+
+SIXTEEN_MILLION: dict[str, tuple[tuple[int, int], int]] = {
+    # The shape of a camera's picture.
+    "a picture": ((4608, 3472), 0),
+    # All white: each column's sum is the largest for its rows.
+    "a white picture": ((4608, 3472), 255),
+    # One column: its sum, 4e9, is beyond what an integer of 32 bits holds.
+    "a single column": ((16_000_000, 1), 255),
+    # Two columns whose sums lie next to that limit, one below and one above.
+    "two columns at the limit": ((8_421_505, 2), 254),
+    # One row: sixteen million sums of one.
+    "a single row": ((1, 16_000_000), 0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SIXTEEN_MILLION)
+def test_column_means_of_sixteen_million_pixels_lose_nothing(name: str) -> None:
+    shape, least = SIXTEEN_MILLION[name]
+    image = np.random.default_rng(1).integers(least, 256, shape, dtype=np.uint8)
+    exact = image.sum(axis=0, dtype=np.int64) / shape[0]
+    error = float(np.abs(column_means(image, whole(image)) - exact).max())
+    record("column means of 16 MP, grey levels", "1 to 16e6 rows", error)
+    assert error == 0.0
+
+
+def test_half_of_thirty_million_pixels_is_counted_to_the_pixel() -> None:
+    # OpenCV counts in single precision, in which 2^24 + 1 is 2^24: one short of the half.
+    half = 2**24 + 1
+    image = np.zeros(2 * half, dtype=np.uint8)
+    image[:half] = 200
+    image[half : half + 5] = 190
+    found = locate(image.reshape(-1, 673), 0.5)
+    assert found is not None
+    assert found.bright_level == 200
+
+
+@st.composite
+def panels_of_rows(draw: st.DrawFn) -> list[tuple[np.ndarray, np.ndarray | slice]]:
+    """Pixel values block by block, with the panel's place in each."""
+    columns = draw(st.integers(1, 40))
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    size = draw(decades(1e-30, 1e30))
+    blocks: list[tuple[np.ndarray, np.ndarray | slice]] = []
+    for _ in range(draw(st.integers(1, 12))):
+        shape = (draw(st.integers(1, 64)), columns)
+        # Of all sizes: in a sum of single precision the small ones would leave no trace.
+        values = (size * 10.0 ** random.uniform(-6, 0, shape)).astype(np.float32)
+        ends = sorted(draw(st.tuples(st.integers(0, columns), st.integers(0, columns))))
+        mask = random.random(shape) < draw(st.floats(0, 1))
+        blocks.append((values, draw(st.sampled_from([slice(*ends), mask]))))
+    return blocks
+
+
+@cases(blocks=panels_of_rows())
+def test_profile_means_are_those_of_exact_sums(
+    blocks: list[tuple[np.ndarray, np.ndarray | slice]],
+) -> None:
+    columns = blocks[0][0].shape[1]
+    tally = _ColumnTally(columns)
+    seen: list[list[float]] = [[] for _ in range(columns)]
+    for values, panel in blocks:
+        tally.add(panel, values)
+        mask = np.zeros(values.shape, dtype=bool)
+        mask[(slice(None), panel) if isinstance(panel, slice) else panel] = True
+        for column, kept in enumerate(seen):
+            kept.extend(values[mask[:, column], column].tolist())
+    means = tally.means(np.full(columns, -1.0))
+    worst = 0.0
+    for kept, mean in zip(seen, means.tolist(), strict=True):
+        exact = math.fsum(kept) / len(kept) if kept else -1.0
+        worst = max(worst, abs(mean / exact - 1.0))
+    record("means of the panel's pixels, relative", "values 1e-36 to 1e30", worst)
+    assert worst <= 1e-13
+
+
+PIXELS = Scene().replace(
+    rows=4608, columns=3472, distance=0.1, enhancement="none", read_noise=30.0, iso=800.0
+)
+"""Sixteen million pixels of panel with noise in them."""
+
+
+def exposed() -> tuple[PixelExposure, Enhancement]:
+    plan = occ.plan(PIXELS, 0.0)
+    columns = expose_columns(PIXELS, plan)
+    return PixelExposure(PIXELS, plan, columns, StageClock()), Enhancement(columns.profile, "none")
+
+
+def blocks_of(exposure: PixelExposure) -> Iterator[ExposedRows]:
+    return exposure.rows(7, "reused")
+
+
+def test_profile_and_noise_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
+    exposure, enhancement = exposed()
+    chosen = np.array([0, 1, 1000, 1735, 3470, 3471])
+    kept, total = [], 0.0
+    for rows in blocks_of(exposure):
+        assert isinstance(rows.panel, slice)
+        assert rows.panel == slice(0, 3472)
+        kept.append(rows.values[:, chosen])
+        total += float(rows.values.sum(dtype=np.float64))
+    pixels = np.concatenate(kept).astype(np.float64)
+    assert pixels.shape == (4608, 6)
+    _, profile = exposure.picture(enhancement, 7, "reused")
+    exact = np.array([math.fsum(column) / 4608 for column in pixels.T.tolist()])
+    error = float(np.abs(profile[chosen] - exact).max())
+    record("profile means of 16 MP, grey levels", "noise of 30 electrons", error)
+    assert error <= 1e-9
+    # What the noise moves the mean by: it is not lost among the pixels, and no larger than due.
+    bare = expose_columns(PIXELS, occ.plan(PIXELS, math.inf)).profile
+    noise = pixels - bare[chosen]
+    for column, place in enumerate(chosen.tolist()):
+        mean = math.fsum(noise[:, column].tolist()) / 4608
+        error = abs(float(profile[place] - bare[place]) - mean)
+        record("noise means of 16 MP, grey levels", "noise of 30 electrons", error)
+        assert error <= 1e-9
+        assert abs(mean) < 6 * noise.std() / math.sqrt(4608) + 0.01
+    assert float(profile.sum()) * 4608 == pytest.approx(total, rel=1e-12)
+
+
+def test_noise_that_is_used_again_has_no_mean_of_its_own() -> None:
+    # Two million numbers in single precision, whose own sum would be off in the fifth digit.
+    scene = Scene().replace(columns=1, rows=4)
+    noise = ReusedNoise([e for e in EFFECTS if e.name == "sensor-noise"], scene, 1, lambda _: None)
+    numbers = noise._places[:, 0]
+    mean = math.fsum(numbers.tolist()) / len(numbers)
+    square = math.fsum((numbers.astype(np.float64) ** 2).tolist()) / len(numbers)
+    record("mean of the noise's plane, standard deviations", "2e6 numbers", abs(mean))
+    assert abs(mean) <= 1e-7
+    assert square == pytest.approx(1.0, abs=1e-5)
+
+
+@st.composite
+def counts(draw: st.DrawFn) -> tuple[int, int]:
+    trials = draw(decades(1, 2**53).map(int))
+    few = st.integers(0, min(trials, 9))
+    return draw(few | few.map(lambda lost: trials - lost) | st.integers(0, trials)), trials
+
+
+@cases(count=counts(), tail=decades(1e-15, 0.9))
+def test_wilsons_interval_is_that_of_fifty_digits(count: tuple[int, int], tail: float) -> None:
+    successes, trials = count
+    level = 1.0 - tail
+    low, high = wilson_interval(successes, trials, level)
+    with mpmath.workdps(50):
+        z = mpmath.sqrt(2) * mpmath.erfinv(mpmath.mpf(level))
+        s, n = mpmath.mpf(successes), mpmath.mpf(trials)
+        root = z * mpmath.sqrt(z**2 + 4 * s * (n - s) / n)
+        ends = ((2 * s + z**2 + sign * root) / (2 * (n + z**2)) for sign in (-1, 1))
+        exact = [float(end) for end in ends]
+    errors = [
+        abs(found - end) / end if end > 1e-40 else found
+        for found, end in zip((low, high), exact, strict=True)
+    ]
+    record("Wilson's interval, relative", "1 to 9e15 trials, tails 1e-15 to 0.9", max(errors))
+    assert max(errors) <= 1e-11
+    assert (low == 0.0) == (successes == 0)
+    assert high == 1.0 or successes < trials
+
+
+def test_intervals_grow_narrower_with_every_tenfold_of_trials_to_the_last() -> None:
+    # A rate of a half: the width falls by the square root of ten, down to 1e-8.
+    widths = [
+        high - low for low, high in (wilson_interval(10**n // 2, 10**n) for n in range(1, 16))
+    ]
+    for wide, narrow in list(pairwise(widths))[4:]:
+        assert wide / narrow == pytest.approx(math.sqrt(10), rel=1e-4)

@@ -1,0 +1,136 @@
+"""Any scene that the declarations allow, with any effects: a picture, or a sentence why not."""
+
+import math
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+import occ_model as occ
+from hard_cases.laws import cases, record
+from hard_cases.references import PATTERNS, decades, signed_decades, within
+from occ_model.declarations import ChipPattern, Choice, Count
+from occ_model.effects.registry import NAMES
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable
+
+Made = TypeVar("Made")
+
+
+def quantities(name: str) -> st.SearchStrategy[float | int | str]:
+    """All values that a parameter may have, its limits and every decade among them."""
+    declared = PARAMETERS[name]
+    if isinstance(declared, Choice):
+        return st.sampled_from(declared.choices)
+    if isinstance(declared, ChipPattern):
+        return PATTERNS
+    if isinstance(declared, Count):
+        return st.integers(declared.low, declared.high)
+    low, high, default = declared.low, declared.high, declared.default
+    some = [st.sampled_from([low, high, default]), st.floats(low, high)]
+    if low > 0.0:
+        some.append(decades(low, high))
+    else:
+        tiny = decades(1e-300, high) if low == 0.0 else signed_decades(1e-300, high)
+        some.append(tiny.map(lambda value: within(name, value)))
+    return st.one_of(some)
+
+
+SIZES = {
+    "rows": st.integers(1, 24),
+    "columns": st.integers(1, 48),
+    "bits": st.integers(2, 16),
+    "code": st.integers(0, 3),
+}
+CHANGES = st.fixed_dictionaries(
+    SIZES, optional={name: quantities(name) for name in PARAMETERS if name not in SIZES}
+)
+"""Any parameters of any scene, in small pictures: the others have their defaults."""
+
+
+def given_or_refused(make: Callable[[], Made]) -> Made | str:
+    """Give what is made of a scene, or the sentence that says why it cannot be."""
+    try:
+        return make()
+    except occ.OccError as error:
+        return str(error)
+
+
+@cases(changes=CHANGES, observable=st.sampled_from(OBSERVABLES), tolerance=decades(1e-6, 1e6))
+def test_every_bound_of_any_scene_is_a_number_and_none_is_negative(
+    changes: dict[str, float | int | str], observable: Observable, tolerance: float
+) -> None:
+    scene = Scene().replace(**changes)
+    plan = given_or_refused(lambda: occ.plan(scene, tolerance, observable))
+    if isinstance(plan, str):
+        assert plan.endswith(".")
+        return
+    wrong = 0
+    for decision in plan.decisions:
+        # A lens that folds the picture changes it without end: simulating it is refused.
+        folds = decision.effect == "distortion" and decision.bound == math.inf
+        wrong += not (folds or (math.isfinite(decision.bound) and decision.bound >= 0.0))
+        if folds:
+            assert isinstance(given_or_refused(lambda: occ.render(scene, tolerance=0)), str)
+    record("bounds that are no number or negative", "all parameters, all allowed", float(wrong))
+    assert wrong == 0
+
+
+@cases(
+    changes=CHANGES, tolerance=st.sampled_from([0.0, 0.5, math.inf]),
+    force=st.sampled_from([True, None]), noise=st.sampled_from(NOISE_SOURCES),
+)  # fmt: skip
+def test_a_picture_of_any_scene_has_pixels_and_a_profile_of_numbers(
+    changes: dict[str, float | int | str], tolerance: float, force: bool | None, noise: NoiseSource
+) -> None:
+    scene = Scene().replace(**changes)
+    by_hand = dict.fromkeys(NAMES, force) if force else None
+    frame = given_or_refused(
+        lambda: occ.render(scene, tolerance=tolerance, force=by_hand, noise=noise)
+    )
+    if isinstance(frame, str):
+        assert frame.endswith(".")
+        return
+    assert frame.image.dtype == np.uint8
+    assert frame.image.shape == (scene.camera.rows, scene.camera.columns)
+    assert frame.profile.shape == (scene.camera.columns,)
+    assert np.isfinite(frame.corners).all()
+    beyond = max(0.0, -float(frame.profile.min()), float(frame.profile.max()) - 255.0)
+    record("profiles beyond 0 to 255, levels", "all parameters, all allowed", beyond)
+    assert beyond == 0.0
+
+
+SCENES: dict[str, dict[str, float | int | str]] = {
+    # The noise of a gain that hardly varies: its square, and that of 255 over it, are no numbers.
+    "noise of next to nothing": {"gain_variation": 1e-157, "lambertian_order": 2.0},
+    # No light at all: every pixel value is 0, and so is what is divided by.
+    "no light": {"luminance": 0.0, "illuminance": 0.0, "gain_variation": 0.5, "edge_time": 1.0},
+    # All light there can be: 1e29 times white, in single precision where the lens vignettes.
+    "all light": {"luminance": 1e16, "illuminance": 1e16, "reflectance": 1.0, "iso": 4e6,
+                  "exposure_time": 1e6, "f_number": 0.5, "gamma": 1.0, "vignetting_exponent": 1.0},
+    # Hardly any: 1e-31 times white, of which single precision leaves nothing.
+    "hardly any light": {"luminance": 1e-16, "illuminance": 1e-16, "iso": 1.0, "gamma": 1.0,
+                         "exposure_time": 1e-9, "f_number": 128.0, "vignetting_exponent": 20.0},
+    # The corner sees 1e-27 of the light on the axis.
+    "the corner of a fisheye": {"equivalent_focal_length": 1e-3, "vignetting_exponent": 20.0,
+                                "distance": 1e-3, "panel_width": 100.0, "panel_height": 100.0},
+    # A panel all but edge-on, whose light is in a beam: cos^99 of nearly a right angle.
+    "a beam from the side": {"yaw": math.radians(89.99), "lambertian_order": 100.0,
+                             "panel_width": 1e-4, "point_spread": 3.0},
+    # A picture of one pixel: no two columns to compare, no interval between them.
+    "one pixel": {"rows": 1, "columns": 1, "point_spread": 2.0, "jpeg_quality": 1},
+    # A blur a hundred times as wide as the picture.
+    "a blur wider than the picture": {"point_spread": 1000.0, "focus_distance": 1e-300},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("observable", OBSERVABLES)
+@pytest.mark.parametrize("name", SCENES)
+def test_a_hard_scene_is_planned_and_pictured(name: str, observable: Observable) -> None:
+    scene = Scene().replace(**({"rows": 24, "columns": 48} | SCENES[name]))
+    frame = occ.render(scene, tolerance=0, observable=observable, force=dict.fromkeys(NAMES, True))
+    assert all(0.0 <= one.bound < math.inf for one in frame.plan.decisions)
+    assert 0.0 <= frame.profile.min() <= frame.profile.max() <= 255.0

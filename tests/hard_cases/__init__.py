@@ -1,1 +1,1 @@
-"""Cases that are hard on numbers: far beyond the sliders, against references of higher precision."""
+"""Cases that are hard on numbers, far beyond the sliders, against references of more digits."""

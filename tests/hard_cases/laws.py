@@ -52,7 +52,7 @@ def cases(
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Try a test on generated cases, always the same ones."""
 
-    def decorate(test: Callable[..., None]) -> Callable[..., None]:
+    def decorate(test: Test) -> Test:
         chosen = settings(
             max_examples=_EACH,
             deadline=None,

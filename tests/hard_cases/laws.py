@@ -47,9 +47,10 @@ def record(law: str, ranges: str, error: float) -> None:
     found.worst = max(found.worst, error if error == error else float("inf"))
 
 
-def cases(
-    **strategies: SearchStrategy[Any],
-) -> Callable[[Callable[..., None]], Callable[..., None]]:
+Test = Callable[..., None]
+
+
+def cases(**strategies: SearchStrategy[Any]) -> Callable[[Test], Test]:
     """Try a test on generated cases, always the same ones."""
 
     def decorate(test: Test) -> Test:

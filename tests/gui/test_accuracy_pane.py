@@ -112,7 +112,7 @@ def test_a_wrong_tolerance_is_refused_with_a_sentence_and_the_field_shows_what_h
     qtbot.keyClicks(field, text)
     qtbot.keyClick(field, Qt.Key.Key_Return)
     assert user.message.startswith("tolerance is ")
-    assert "allowed: 0 levels to" in user.message
+    assert "allowed: from 0 levels" in user.message
     assert field.value() == in_front.settings.settings.tolerance == 0.5
     assert field.lineEdit().text() == "0.5 levels"
 

@@ -33,6 +33,7 @@ from occ_model.scene import Scene
 from occ_model.simulation import render
 from occ_model.simulation_settings import SimulationSettings
 from occ_model.study.accuracy import accuracy
+from occ_model.study.confidence import wilson_interval
 from occ_model.study.success_rate import success_rate
 from occ_model.transmitter.packet import packet
 from occ_model.version import __version__
@@ -70,4 +71,5 @@ __all__ = [
     "presets",
     "render",
     "success_rate",
+    "wilson_interval",
 ]

@@ -22,6 +22,7 @@ from occ_model.presets import load_preset
 from occ_model.results import Frame
 from occ_model.scene import Scene
 from occ_model.simulation import render
+from occ_model.study.confidence import wilson_interval
 from occ_model.study.paper_grid import DEVICES, DISTANCES, FREQUENCIES, GridPoint
 from occ_model.transmitter.packet import packet
 from occ_model.units import HERTZ, METRE
@@ -161,12 +162,15 @@ def write_rate_figure(
     save_figure(figure, folder, f"figure-{number}", provenance)
     header = (
         "preset", "decoder", "switching frequency (Hz)", "distance (m)", "images", "seed",
-        "success rate (%)",
+        "success rate (%)", "95 % from (%)", "95 % to (%)",
     )  # fmt: skip
     rows = [
-        (p.preset, p.decoder, p.switching_frequency, p.distance, p.images, p.seed, p.rate)
+        (
+            p.preset, p.decoder, p.switching_frequency, p.distance, p.images, p.seed, p.rate,
+            *(100.0 * end for end in wilson_interval(p.right_bits, p.sent_bits)),
+        )
         for p in points
-    ]
+    ]  # fmt: skip
     write_table(folder / f"figure-{number}.csv", header, rows, provenance)
 
 

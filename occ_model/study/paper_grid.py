@@ -52,6 +52,16 @@ class GridPoint:
     seed: int
     rate: float
 
+    @property
+    def sent_bits(self) -> int:
+        """Bits sent in all images."""
+        return self.images * load_preset(self.preset).transmitter.bits
+
+    @property
+    def right_bits(self) -> int:
+        """Bits of them that were read rightly."""
+        return round(self.rate / 100.0 * self.sent_bits)
+
 
 def point_scene(preset: str, switching_frequency: float, distance: float) -> Scene:
     """Give the scene of a point."""

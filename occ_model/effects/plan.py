@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
 from occ_model.checks import check_choice, check_switches
-from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
+from occ_model.effects.effect import Effect, FileEffect
 from occ_model.effects.noise_bound import louder, noise_bound
-from occ_model.effects.registry import EFFECTS, NAMES
+from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS
 from occ_model.effects.sight import sight_of
 from occ_model.results import Decision, Plan
 from occ_model.scene import Scene, check_scene
@@ -90,17 +90,12 @@ def plan(
 
 def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, float]:
     """Give every effect's bound in levels of the stretched profile."""
-    noise = tuple(effect for effect in EFFECTS if isinstance(effect, NoiseEffect))
-    bounds = {}
-    for effect in EFFECTS:
-        if isinstance(effect, NoiseEffect):
-            rest = tuple(other for other in noise if other is not effect)
-            bound = noise_bound(effect, scene, observable, rest)
-        else:
-            bound = effect.bound(scene, observable)
-        bounds[effect.name] = float(bound) * stretch
-    noise = tuple(effect for effect in noise if bounds[effect.name])
-    others = [e.name for e in EFFECTS if not isinstance(e, NoiseEffect) and bounds[e.name]]
+    bounds = {e.name: float(e.bound(scene, observable)) * stretch for e in OTHERS}
+    for effect in NOISES:
+        rest = tuple(other for other in NOISES if other is not effect)
+        bounds[effect.name] = noise_bound(effect, scene, observable, rest) * stretch
+    noise = tuple(effect for effect in NOISES if bounds[effect.name])
+    others = [effect.name for effect in OTHERS if bounds[effect.name]]
     if noise and others:
         more = louder(noise, scene, observable)
         for name in others:
@@ -128,7 +123,7 @@ def _noise_that_dithers(
     bounds: Mapping[str, float], forced: Mapping[str, bool], stretch: float
 ) -> tuple[str, ...]:
     """Give the noise that spreads pixels over the steps of rounding: it stays in beside a file."""
-    names = (e.name for e in EFFECTS if isinstance(e, NoiseEffect))
+    names = (effect.name for effect in NOISES)
     return tuple(
         name for name in names if forced.get(name, True) and bounds[name] >= _DITHERING * stretch
     )
@@ -138,9 +133,9 @@ def _file_in(
     left_out: set[str], bounds: Mapping[str, float], forced: Mapping[str, bool]
 ) -> FileEffect | None:
     """Give the file that the picture is kept in, None where it is left out or none."""
-    for effect in EFFECTS:
+    for effect in FILES:
         name = effect.name
-        if isinstance(effect, FileEffect) and bounds[name] and name not in left_out:
+        if bounds[name] and name not in left_out:
             return effect if forced.get(name, True) else None
     return None
 

@@ -4,7 +4,7 @@ from typing import TypeVar
 
 from occ_model.effects.defocus import Defocus
 from occ_model.effects.distortion import Distortion
-from occ_model.effects.effect import Effect
+from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.emission import Emission
 from occ_model.effects.fixed_pattern import FixedPattern
 from occ_model.effects.flicker import Flicker
@@ -27,6 +27,10 @@ EFFECTS: tuple[Effect, ...] = (
     SensorNoise(),
     Jpeg(),
 )
+
+NOISES = tuple(effect for effect in EFFECTS if isinstance(effect, NoiseEffect))
+FILES = tuple(effect for effect in EFFECTS if isinstance(effect, FileEffect))
+OTHERS = tuple(effect for effect in EFFECTS if effect not in NOISES)
 
 NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
 

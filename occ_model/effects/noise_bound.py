@@ -45,9 +45,9 @@ def noise_bound(
         rest = np.zeros(len(levels))
         for other in others:
             rest += _variance(other, scene, as_in_the_paper)
-        alone = _cut_off(levels, np.sqrt(squares))
-        beside = _cut_off(levels, np.sqrt(squares + rest)) - _cut_off(levels, np.sqrt(rest))
-        moved = np.maximum(np.abs(alone), np.abs(beside))
+        spreads = np.sqrt(np.stack([squares, squares + rest, rest]))
+        alone, together, without = _cut_off(levels, spreads)
+        moved = np.maximum(np.abs(alone), np.abs(together - without))
         seen = squares / sight.region.rows + moved**2
     if not as_in_the_paper:
         return math.sqrt(float(seen.max()))
@@ -61,9 +61,9 @@ def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
     phi(u) - u Q(u) of them.
     """
     deviations, lost = _lost()
-    moved = np.zeros(len(levels))
+    moved = np.zeros(spread.shape)
     for sign, room in ((1.0, levels), (-1.0, WHITE - np.minimum(levels, WHITE))):
-        u = np.full(len(levels), _FAR)
+        u = np.full(spread.shape, _FAR)
         np.divide(room, spread, out=u, where=room < _FAR * spread)
         moved += sign * spread * np.interp(u, deviations, lost)
     return moved

@@ -2,8 +2,8 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal, TypeAlias
 
 from occ_model.declarations import Quantity
 from occ_model.units import LEVEL
@@ -51,3 +51,7 @@ class SimulationSettings:
     force: Mapping[str, bool] = field(default_factory=dict)
     noise: NoiseSource = "exact"
     seed: int = 1
+
+    def arguments(self) -> dict[str, Any]:
+        """Give them as the keyword arguments of :func:`occ_model.render`."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}

@@ -44,14 +44,7 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
     ProjectionError
         The panel has no picture in this pose.
     """
-    frame = occ.render(
-        scene,
-        tolerance=settings.tolerance,
-        seed=settings.seed,
-        observable=settings.observable,
-        force=settings.force,
-        noise=settings.noise,
-    )
+    frame = occ.render(scene, **settings.arguments())
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)
     reading_seconds = perf_counter() - start

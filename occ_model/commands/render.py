@@ -27,14 +27,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     settings = simulation_settings_of(options)
-    frame = render(
-        scene,
-        tolerance=settings.tolerance,
-        seed=settings.seed,
-        observable=settings.observable,
-        force=settings.force,
-        noise=settings.noise,
-    )
+    frame = render(scene, **settings.arguments())
     write_image(options.out, frame.image)
     if options.save_scene:
         write_whole(options.save_scene, scene.to_toml().encode("utf-8"))

@@ -1,11 +1,13 @@
 """What accuracy costs in time, drawn: error over time, both on a logarithmic scale."""
 
 from collections.abc import Sequence
+from math import isclose
 from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterMathtext
 
 from occ_model import colours
 from occ_model.export.drawing import house_style, save_figure
@@ -16,8 +18,6 @@ from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
 
 _NAME = "accuracy"
-
-_SMALL: dict[str, Any] = {"fontsize": 6, "ha": "center", "va": "bottom", "color": "grey"}
 
 _MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "D"), strict=True))
 _COLOURS = dict(
@@ -74,7 +74,10 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
     ax.margins(0.08)
     ax.set_ylim(bottom=LEAST_ERROR / 1.6)
     ax.axhline(LEAST_ERROR, color="grey", linewidth=0.5, linestyle="--")
-    ax.text(0.4, LEAST_ERROR, "this or less", transform=ax.get_yaxis_transform(), **_SMALL)
+    power = LogFormatterMathtext()
+    ax.yaxis.set_major_formatter(
+        lambda error, _: (r"$\leq$ " if isclose(error, LEAST_ERROR) else "") + power(error)
+    )
     ax.grid(linewidth=0.3)
     ax.set_xlabel("time (ms)")
     ax.set_ylabel("root mean square error\n(levels of the stretched profile)")

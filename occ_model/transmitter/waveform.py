@@ -90,11 +90,6 @@ class Waveform:
         self._level: FloatArray = twice.astype(np.float64)
         self._lit_before: FloatArray = np.concatenate([[0.0], np.cumsum(self._level)])
 
-    def running_integral(self, phases: Phases) -> FloatArray:
-        """Light from the period's start up to each phase, C(x), in lit chips."""
-        whole: FloatArray = self._lit_before[phases.chip]
-        return whole + self._level[phases.chip] * phases.fraction
-
     def lit_chips(self, starts: Phases, duration: Duration) -> FloatArray:
         """Light within windows, C(end) - C(start), in lit chips.
 

@@ -37,5 +37,9 @@ class PhotoError(OccError):
     """A photo cannot be read."""
 
 
+class MatchError(OccError):
+    """A photo's stripes cannot be found, or no scene explains them."""
+
+
 class OutputError(OccError):
     """A result cannot be written where it was asked for."""

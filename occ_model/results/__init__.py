@@ -3,6 +3,7 @@
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.frame import Frame
+from occ_model.results.match import Comparison, Match, Stripes
 from occ_model.results.plan import Decision, Plan
 
 __all__ = [
@@ -10,12 +11,15 @@ __all__ = [
     "CHAINED_PARTS",
     "LEAST_ERROR",
     "AccuracyPoint",
+    "Comparison",
     "Decision",
     "DecodeResult",
     "Frame",
     "Location",
+    "Match",
     "Plan",
     "Region",
     "RunHistogram",
     "Runs",
+    "Stripes",
 ]

@@ -1,0 +1,56 @@
+"""A photo's profile laid over a simulated one."""
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.errors import MatchError
+from occ_model.results import Comparison
+
+_FLAT = 1e-9
+"""A standard deviation that is nothing but rounding."""
+
+
+def compare(
+    evened: FloatArray, simulated: FloatArray, first_column: float = 0.0, scale: float = 1.0
+) -> Comparison:
+    """Lay a photo's profile over a simulated one, and measure how alike they are.
+
+    The photo's levels become the simulation's by the straight line that fits best: how bright a
+    photo is says nothing about its stripes.
+
+    Parameters
+    ----------
+    evened : ndarray of float64, shape (columns of the photo,)
+        The photo's profile without its uneven light; any levels.
+    simulated : ndarray of float64, shape (columns,)
+        The simulated profile in grey levels.
+    first_column
+        The column of the simulation on which the photo's first one lies.
+    scale
+        Columns of the simulation to one of the photo.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    MatchError
+        Fewer than two of the simulation's columns are under the photo.
+    """
+    first = max(0, int(np.ceil(first_column)))
+    last = min(len(simulated) - 1, int(np.floor(first_column + (len(evened) - 1) * scale)))
+    if last <= first:
+        raise MatchError("The photo lies beside the simulated picture; move it over the panel.")
+    place = (np.arange(first, last + 1) - first_column) / scale
+    seen = np.interp(place, np.arange(len(evened)), evened)
+    under = simulated[first : last + 1]
+    about_mean = seen - seen.mean()
+    power, swing = float(about_mean @ about_mean), under - under.mean()
+    if np.sqrt(power / len(seen)) < _FLAT or under.std() < _FLAT:
+        return Comparison(first, np.full(len(under), under.mean()), under, 0.0)
+    slope = float(about_mean @ swing) / power
+    correlation = slope * np.sqrt(power) / float(np.linalg.norm(swing))
+    # A photo that runs against the simulation is not turned round to make it fit.
+    slope = max(slope, 0.0)
+    return Comparison(first, under.mean() + slope * about_mean, under, float(correlation))

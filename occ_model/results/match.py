@@ -1,0 +1,132 @@
+"""What a photo shows, and the scene that explains it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.results.decoding import Region
+from occ_model.scene import Scene
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Stripes:
+    """The stripes in a photo.
+
+    Parameters
+    ----------
+    region
+        The rectangle of the photo that shows them.
+    profile : ndarray of float64, shape (columns of the region,)
+        Mean of each column of the region, in grey levels.
+    low, high : ndarray of float64, shape as ``profile``
+        The slowly varying levels that the stripes swing between.
+    period
+        Columns after which the stripes repeat; None where they do not within the region.
+    period_uncertainty
+        Its standard deviation in columns.
+    saturated
+        Share of the region's pixels that are white.
+    """
+
+    region: Region
+    profile: FloatArray
+    low: FloatArray
+    high: FloatArray
+    period: float | None
+    period_uncertainty: float | None
+    saturated: float
+
+    @property
+    def evened(self) -> FloatArray:
+        """The profile without the uneven light, from 0 (dark) to 1 (bright), shape (columns,)."""
+        return (self.profile - self.low) / (self.high - self.low)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Match:
+    """The scene that explains a photo's stripes.
+
+    Parameters
+    ----------
+    scene
+        The scene that was given, with what was found in the photo: its picture is the photo's.
+    stripes
+        The stripes that were matched; their levels are now those of the fit.
+    readout_time, switching_frequency, exposure_time, start_time, gamma
+        The scene's, in SI units; ``start_time`` is that of the photo's first column.
+    uncertainties
+        Standard deviations of those that were estimated, in SI units, by name.
+    pattern
+        The chips that were sent, from the start of a period.
+    pattern_was_read
+        Whether it was read from the photo.
+    profile : ndarray of float64, shape (columns of the region,)
+        The aligned profile: what the fitted scene shows in the photo's light, in grey levels.
+    correlation
+        Of that profile with the photo's, both without the uneven light.
+    other_exposures
+        Other exposure times in seconds that explain the stripes as well, from the shortest.
+    """
+
+    scene: Scene
+    stripes: Stripes
+    readout_time: float
+    switching_frequency: float
+    exposure_time: float
+    start_time: float
+    gamma: float
+    uncertainties: Mapping[str, float]
+    pattern: str
+    pattern_was_read: bool
+    profile: FloatArray
+    correlation: float
+    other_exposures: tuple[float, ...] = ()
+
+    @property
+    def region(self) -> Region:
+        """The rectangle of the photo that was matched."""
+        return self.stripes.region
+
+    @property
+    def residual(self) -> FloatArray:
+        """The photo's profile less the aligned one, in grey levels, shape (columns,)."""
+        return self.stripes.profile - self.profile
+
+    @property
+    def rmse(self) -> float:
+        """Root mean square of the residual, in grey levels."""
+        return float(np.sqrt(np.mean(self.residual**2)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Comparison:
+    """A photo's profile beside a simulated one, column by column of the simulation.
+
+    Parameters
+    ----------
+    first_column
+        The first column of the simulation that the photo lies on.
+    photo : ndarray of float64, shape (columns,)
+        The photo's profile without its uneven light, in the simulation's grey levels.
+    simulated : ndarray of float64, shape (columns,)
+        The simulation's columns there.
+    correlation
+        Of the two; 0 where one of them is flat.
+    """
+
+    first_column: int
+    photo: FloatArray
+    simulated: FloatArray
+    correlation: float
+
+    @property
+    def residual(self) -> FloatArray:
+        """The photo's profile less the simulated one, in grey levels, shape (columns,)."""
+        return self.photo - self.simulated
+
+    @property
+    def rmse(self) -> float:
+        """Root mean square of the residual, in grey levels."""
+        return float(np.sqrt(np.mean(self.residual**2)))

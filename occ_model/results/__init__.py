@@ -5,6 +5,8 @@ from occ_model.results.decoding import DecodeResult, Location, Region, RunHistog
 from occ_model.results.frame import Frame
 from occ_model.results.match import Comparison, Match, Stripes
 from occ_model.results.plan import Decision, Plan
+from occ_model.results.sweep import SweepRow, SweepTable
+from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest, Way
 
 __all__ = [
     "ACCURACY_PARTS",
@@ -18,8 +20,14 @@ __all__ = [
     "Location",
     "Match",
     "Plan",
+    "RateSettings",
     "Region",
     "RunHistogram",
     "Runs",
     "Stripes",
+    "SweepPoint",
+    "SweepRequest",
+    "SweepRow",
+    "SweepTable",
+    "Way",
 ]

@@ -1,0 +1,52 @@
+"""The slowly varying levels that stripes swing between, under uneven light."""
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray
+
+
+def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
+    """Give the low and the high level round each column.
+
+    A grey-scale opening takes bright stripes away, a closing dark ones; both are smoothed.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
+    width
+        Columns within which the stripes reach both levels.
+
+    Returns
+    -------
+    low, high : ndarray of float64, shape (columns,)
+    """
+    width = max(3, min(width, 2 * len(profile) - 1)) | 1
+    # One row, given as such: a one-dimensional array means different shapes to OpenCV 4 and 5.
+    line = profile[None, :]
+    kernel = np.ones((1, width), dtype=np.uint8)
+    levels = []
+    for operation in (cv2.MORPH_OPEN, cv2.MORPH_CLOSE):
+        rough = cv2.morphologyEx(line, operation, kernel, borderType=cv2.BORDER_REPLICATE)
+        levels.append(cv2.blur(rough, (width, 1), borderType=cv2.BORDER_REFLECT)[0])
+    low, high = levels
+    return np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
+
+
+def smooth_shapes(count: int, freedom: int) -> FloatArray:
+    """Give polynomials that slowly varying levels are made of: Chebyshev's, which stay apart.
+
+    Parameters
+    ----------
+    count
+        Columns.
+    freedom
+        How many.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns, freedom)
+    """
+    place = np.linspace(-1.0, 1.0, count)
+    return np.asarray(np.polynomial.chebyshev.chebvander(place, freedom - 1))

@@ -1,0 +1,180 @@
+"""Open an image file of any kind, or say in one sentence why it cannot be read."""
+
+import os
+import re
+import stat
+import threading
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, TypeAlias
+
+from occ_model.errors import PhotoError
+
+if TYPE_CHECKING:
+    from PIL.ImageFile import ImageFile
+
+    Opener: TypeAlias = Callable[[], ImageFile]
+
+_FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "QOI", "JPEG2000", "AVIF")
+"""What photos come in. Pillow reads more, and starts other programs for some of it."""
+
+_HEIC_BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
+_ANY_HEIF_BRANDS = (b"mif1", b"msf1")
+
+_BYTES_A_PIXEL, _BYTES_OF_NOTES = 8, 16_000_000
+"""Four channels of 16 bits, and what else an honest file of so many pixels may hold."""
+
+_pillow_lock = threading.Lock()
+
+
+@contextmanager
+def open_picture(path: Path, max_pixels: int) -> "Iterator[Opener]":
+    """Open an image file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    max_pixels
+        What a picture may have at most, by its header.
+
+    Yields
+    ------
+    callable
+        Gives the file's first picture, not yet decoded, at each call.
+
+    Raises
+    ------
+    PhotoError
+        There is no such file, it may not be read, it is no image or a damaged one, or too large.
+        Also in place of whatever is raised on decoding inside the ``with`` block.
+    """
+    # Pillow is slow to import, and only needed when a photo is really opened.
+    from PIL import Image
+
+    try:
+        _check_file(path, max_pixels)
+        with _pillow_ready(max_pixels), path.open("rb") as file:
+            yield lambda: _first_picture(path, file, max_pixels)
+    except PhotoError:
+        raise
+    except Image.DecompressionBombError:  # of a format that looks at the size on opening
+        raise PhotoError(f"{path} has more than {_allowed(max_pixels)}") from None
+    except MemoryError:
+        raise PhotoError(f"{path} cannot be read: there is too little memory for it.") from None
+    except OSError as error:
+        reason = error.strerror or _damaged(error)
+        raise PhotoError(f"{path} cannot be read: {reason}.") from None
+    except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
+        raise PhotoError(f"{path} cannot be read: {_damaged(error)}.") from None
+
+
+@contextmanager
+def _pillow_ready(max_pixels: int) -> Iterator[None]:
+    """Have our limit in place of Pillow's, and no warnings of oddities in a readable file.
+
+    Both are global, to Pillow and to Python: one photo at a time may change them, and all is as it
+    was when it has been read.
+    """
+    from PIL import Image
+
+    with _pillow_lock, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        pillows = Image.MAX_IMAGE_PIXELS
+        # Pillow refuses a picture of more than twice this many, and so hardly less than we do.
+        Image.MAX_IMAGE_PIXELS = (max_pixels + 1) // 2
+        try:
+            yield
+        finally:
+            Image.MAX_IMAGE_PIXELS = pillows
+
+
+def _check_file(path: Path, max_pixels: int) -> None:
+    """Refuse what is no file with something in it: opening a pipe could wait for ever."""
+    status = path.stat()
+    if stat.S_ISDIR(status.st_mode):
+        raise PhotoError(f"{path} is a folder, not a photo.")
+    if not stat.S_ISREG(status.st_mode):
+        raise PhotoError(f"{path} is a device, pipe or socket, not a photo.")
+    if status.st_size == 0:
+        raise PhotoError(f"{path} is an empty file, not a photo.")
+    # Some decoders take a file into memory as a whole.
+    largest = _BYTES_A_PIXEL * max_pixels + _BYTES_OF_NOTES
+    if status.st_size > largest:
+        raise PhotoError(
+            f"{path} has {status.st_size:,} bytes; allowed for a photo of at most "
+            f"{_count(max_pixels)} pixels: up to {largest:,}."
+        )
+
+
+def _first_picture(path: Path, file: IO[bytes], max_pixels: int) -> "ImageFile":
+    """Open the file's first picture, and check its size before anything of it is decoded."""
+    factory = _factory(path, file)
+    file.seek(0, os.SEEK_SET)
+    try:
+        picture = factory(file)
+    except SyntaxError as error:  # Pillow's word for a header that makes no sense
+        raise PhotoError(f"{path} cannot be read: {_damaged(error)}.") from None
+    width, height = picture.size
+    if width * height > max_pixels:
+        raise PhotoError(
+            f"{path} has {width:,} x {height:,} pixels, {_count(width * height)}; "
+            f"allowed: at most {_allowed(max_pixels)}"
+        )
+    return picture
+
+
+def _factory(path: Path, file: IO[bytes]) -> "Callable[[IO[bytes]], ImageFile]":
+    """Find what opens a file that begins like this one."""
+    from PIL import Image
+    from PIL.JpegImagePlugin import JpegImageFile
+
+    file.seek(0, os.SEEK_SET)
+    start = file.read(64)
+    if _is_heic(start):
+        return _heic_factory(path)
+    Image.init()
+    for name in _FORMATS:
+        factory, accepts = Image.OPEN.get(name, (None, None))
+        if factory is not None and accepts is not None and accepts(start[:16]) is True:
+            # Not Pillow's own for JPEG: it fails where the list of further pictures is damaged.
+            chosen = JpegImageFile if name == "JPEG" else factory
+            return lambda opened: chosen(opened, "")
+    raise PhotoError(f"{path} is not an image that can be read.")
+
+
+def _is_heic(start: bytes) -> bool:
+    if start[4:8] != b"ftyp":
+        return False
+    brand, others = start[8:12], start[12:]
+    return brand in _HEIC_BRANDS or (brand in _ANY_HEIF_BRANDS and b"avif" not in others)
+
+
+def _heic_factory(path: Path) -> "Callable[[IO[bytes]], ImageFile]":
+    """Find what opens a HEIC photo, without entering it into Pillow's global list."""
+    try:
+        from pillow_heif import HeifImageFile
+    except ImportError:
+        raise PhotoError(
+            f"{path} is a HEIC photo; to read it: pip install occ-explorer[heic]."
+        ) from None
+    factory: Callable[[IO[bytes]], ImageFile] = HeifImageFile
+    return factory
+
+
+def _damaged(error: Exception) -> str:
+    """Write what a decoder says, which may quote the file's bytes, as part of a sentence."""
+    words = re.sub(r"\s+", " ", "".join(c if c.isprintable() else " " for c in str(error)))
+    words = words.strip().rstrip(".")[:120]
+    return f"the file is damaged ({words})" if words else "the file is damaged"
+
+
+def _allowed(max_pixels: int) -> str:
+    return f"{_count(max_pixels)}; raise max_pixels to read it."
+
+
+def _count(pixels: int) -> str:
+    """Write a number of pixels: in millions where it has some, and to the last one if need be."""
+    return f"{pixels / 1e6:,.6g} million" if pixels >= 1_000_000 else f"{pixels:,}"

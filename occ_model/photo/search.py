@@ -1,0 +1,110 @@
+"""Where to begin a fit: the timings with which known chips explain a profile best.
+
+The chips' profile has a line spectrum: harmonics of the period. So for every step from column to
+column the profile's spectrum is read where those harmonics would lie, and one short inverse Fourier
+transform gives the correlation with the chips at every phase.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.photo.stripe_fit import Timing
+
+EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
+"""Exposures in chips that a search tries; a fit goes on from the nearest."""
+
+_ROUGHLY = (0.3, 1.4, 2.4, 3.5, 5.4)
+"""Those that every step is tried with."""
+
+_FASTEST = 0.95
+"""Chips a column: beyond it a chip has no column of its own."""
+
+_PADDING = 4
+_PHASES_A_CHIP = 8
+
+_STEPS_A_TURN = 4.0
+"""Steps tried while the profile's last chip moves by one."""
+
+_BEST_STEPS = 24
+_AT_ONCE = 2048
+"""Steps tried at once, so that long profiles need no gigabytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A timing to begin with, and the correlation it reaches."""
+
+    timing: Timing
+    correlation: float
+
+
+class Search:
+    """Compares a profile with chips at any timing.
+
+    Parameters
+    ----------
+    evened : ndarray of float64, shape (columns,)
+        The profile without uneven light.
+    chips : ndarray of uint8, shape (chips,)
+        One period of what is sent.
+    """
+
+    def __init__(self, evened: FloatArray, chips: ByteArray) -> None:
+        about = evened - evened.mean()
+        self._columns, self._period = len(evened), len(chips)
+        self._spectrum = np.fft.fft(about, _PADDING * self._columns)
+        self._power = float(about @ about)
+        self._harmonics = np.arange(1, 2 * self._period + 1)
+        lines = np.fft.fft(chips)[self._harmonics % self._period] / self._period
+        # A chip is a box of length one: the spectrum of the impulses times its own.
+        self._lines = lines * np.sinc(self._harmonics / self._period)
+
+    def steps(self) -> FloatArray:
+        """Give all steps that are worth a try, in chips a column."""
+        slowest = max(1.5, 0.75 * self._period) / self._columns
+        count = int(np.ceil((_FASTEST - slowest) * self._columns * _STEPS_A_TURN))
+        return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_A_TURN)
+
+    def candidates(self, steps: FloatArray, gamma: float) -> list[Candidate]:
+        """Find the best timing for each exposure, over some steps, best first."""
+        rough = np.zeros(len(steps))
+        for first in range(0, len(steps), _AT_ONCE):
+            part = slice(first, first + _AT_ONCE)
+            for exposure in _ROUGHLY:
+                rough[part] = np.maximum(rough[part], self._scores(steps[part], exposure)[0])
+        best = steps[np.argsort(rough)[-_BEST_STEPS:]]
+        found = []
+        for exposure in EXPOSURES:
+            scores, phases = self._scores(best, exposure)
+            top = int(scores.argmax())
+            timing = Timing(float(best[top]), exposure, float(phases[top]), gamma)
+            found.append(Candidate(timing, float(scores[top])))
+        return sorted(found, key=lambda candidate: -candidate.correlation)
+
+    def _scores(self, steps: FloatArray, exposure: float) -> tuple[FloatArray, FloatArray]:
+        """Give the best correlation over all phases, and the middle phase that gives it."""
+        # An exposure is a box too; its middle is where its phase is counted from.
+        lines = self._lines * np.sinc(self._harmonics * (exposure / self._period))
+        energy = 2.0 * float((np.abs(lines) ** 2).sum()) * self._columns
+        seen = self._read(np.outer(steps, self._harmonics / self._period))
+        phases = _PHASES_A_CHIP * self._period
+        products = np.zeros((len(steps), phases // 2 + 1), dtype=np.complex128)
+        products[:, self._harmonics] = np.conj(seen) * lines
+        sums = np.fft.irfft(products, phases, axis=1) * phases
+        best = sums.argmax(axis=1)
+        scores = sums[np.arange(len(steps)), best] / np.sqrt(max(energy * self._power, 1e-300))
+        # The middle of a chip's box is half a chip after its start.
+        return scores, best / _PHASES_A_CHIP + 0.5
+
+    def _read(self, frequencies: FloatArray) -> NDArray[np.complex128]:
+        """Read the profile's spectrum at frequencies in cycles a column, about its middle."""
+        size = len(self._spectrum)
+        place = frequencies * size
+        nearest = np.rint(place)
+        middle = 0.5 * (self._columns - 1)
+        index: IndexArray = nearest.astype(np.int64) % size
+        turn = np.exp(2j * np.pi * middle * nearest / size)
+        return np.asarray(self._spectrum[index] * turn)

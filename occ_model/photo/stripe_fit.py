@@ -1,0 +1,207 @@
+"""The exposure model fitted to a profile of stripes, by least squares.
+
+A profile is low(i) + swing(i) x tone(lit(i)): the lit fraction of the exact exposure integral,
+through the camera's tone, between two levels that vary slowly along the columns. For given times
+the levels are a linear fit, so that only the times are searched (variable projection: Golub and
+Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE
+from occ_model.photo.envelope import smooth_shapes
+from occ_model.photo.uncertainty import correlated_columns
+from occ_model.transmitter.waveform import Duration, Phases, Waveform
+
+Tone = Callable[[FloatArray, float], FloatArray]
+"""From lit fractions and a gamma to pixel values between any two levels."""
+
+_FULL = WHITE - 0.5
+_LEAST_KEPT = 0.4
+"""Share of the columns that must not be full for the full ones to be left out of the levels."""
+
+_CHIPS_A_FREEDOM = 6
+_MOST_FREEDOM = 8
+
+_SHORTEST = 1e-4
+"""Chips: a shorter exposure looks like none."""
+
+_GAMMAS = (1.0, 4.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """How the exposures of the columns run over the chips.
+
+    Parameters
+    ----------
+    step
+        Chips from one column's start to the next one's: t_r / t_LED.
+    exposure
+        Chips that an exposure lasts: t / t_LED.
+    middle
+        Where in the period of the chips the middle of the middle column's exposure is. Unlike the
+        first column's start it hardly depends on the other two.
+    gamma
+        The exponent of the tone.
+    """
+
+    step: float
+    exposure: float
+    middle: float
+    gamma: float
+
+    def start(self, columns: int) -> float:
+        """Say where in the chips the first column's exposure starts."""
+        return self.middle - 0.5 * self.step * (columns - 1) - 0.5 * self.exposure
+
+    def lit_fraction(self, waveform: Waveform, columns: int) -> FloatArray:
+        """Give the share of each column's exposure in which the LED is on, shape (columns,)."""
+        place = self.start(columns) + self.step * np.arange(columns)
+        chip = np.floor(place)
+        phases = Phases((chip % waveform.period).astype(np.int64), place - chip)
+        exposure = Duration.of(Fraction(self.exposure), waveform.period)
+        lit = waveform.lit_chips(phases, exposure) / exposure.in_chips(waveform.period)
+        return np.clip(lit, 0.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StripeFit:
+    """What a fit found.
+
+    Parameters
+    ----------
+    timing
+        The times.
+    deviations : ndarray of float64, shape (4,)
+        Standard deviations of the timing's fields in their order; 0 for gamma where it was given.
+    covariance : ndarray of float64, shape (4, 4)
+        Of the same.
+    low, swing : ndarray of float64, shape (columns,)
+        The levels in grey levels.
+    profile : ndarray of float64, shape (columns,)
+        The model in grey levels.
+    correlation
+        Of data and model, both without the uneven light.
+    rest
+        Sum of the squares of what the model leaves unexplained.
+    """
+
+    timing: Timing
+    covariance: FloatArray
+    low: FloatArray
+    swing: FloatArray
+    profile: FloatArray
+    correlation: float
+    rest: float
+
+
+class StripeModel:
+    """The model of one profile, for one sequence of chips and one tone.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
+    waveform
+        What is sent.
+    tone
+        The camera's tone.
+    step
+        Chips a column, roughly: the levels get the freedom that as many chips can bear.
+    """
+
+    def __init__(self, profile: FloatArray, waveform: Waveform, tone: Tone, step: float) -> None:
+        self._profile = profile
+        self._waveform = waveform
+        self._tone = tone
+        chips = step * len(profile)
+        freedom = int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
+        self._shapes = smooth_shapes(len(profile), freedom)
+        self._low_freedom = max(1, freedom // 3)
+        kept: NDArray[np.bool_] = profile < _FULL
+        self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
+
+    def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Fit the levels for some times.
+
+        Returns
+        -------
+        low, swing, profile : ndarray of float64, shape (columns,)
+            The profile is the model's, as far as a pixel can hold it.
+        """
+        lit = timing.lit_fraction(self._waveform, len(self._profile))
+        tone = self._tone(lit, timing.gamma)[:, None]
+        few = self._shapes[:, : self._low_freedom]
+        parts = np.hstack([few, self._shapes * tone])
+        kept = parts[self._kept]
+        products = kept.T @ kept
+        # A tone that hardly varies leaves the levels open: keep them small rather than wild.
+        products[np.diag_indices_from(products)] += 1e-9 * len(kept)
+        weights = np.linalg.solve(products, kept.T @ self._profile[self._kept])
+        low = few @ weights[: self._low_freedom]
+        swing = self._shapes @ weights[self._low_freedom :]
+        return low, swing, np.minimum(parts @ weights, WHITE)
+
+    def fit(self, start: Timing, with_gamma: bool = False) -> StripeFit:
+        """Fit the times, and gamma if asked, from a first guess."""
+        # Slow to import, and only needed when a photo is really matched.
+        from scipy.optimize import least_squares
+
+        columns = len(self._profile)
+        first = np.array([start.step, start.exposure, start.middle, start.gamma])
+        scale = np.array([0.1 / columns, 0.1, 0.1, 0.3])
+        low = np.array([0.5 * start.step, _SHORTEST, -np.inf, _GAMMAS[0]])
+        high = np.array([2.0 * start.step, np.inf, np.inf, _GAMMAS[1]])
+        used = 4 if with_gamma else 3
+        if with_gamma:  # from within its bounds
+            first[3] = np.clip(first[3], _GAMMAS[0] + 0.05, _GAMMAS[1] - 0.05)
+        first[1] = max(first[1], 10.0 * _SHORTEST)
+
+        def timing_of(scaled: FloatArray) -> Timing:
+            values = first.copy()
+            values[:used] = scaled * scale[:used]
+            return Timing(*values.tolist())
+
+        def rest(scaled: FloatArray) -> FloatArray:
+            return self._profile - self.levels(timing_of(scaled))[2]
+
+        found = least_squares(
+            rest,
+            first[:used] / scale[:used],
+            bounds=(low[:used] / scale[:used], high[:used] / scale[:used]),
+            diff_step=1e-4 * np.minimum(1.0, scale[:used] / np.abs(first[:used])),
+            xtol=1e-7, ftol=1e-7, gtol=1e-9, max_nfev=40,
+        )  # fmt: skip
+        covariance = np.zeros((4, 4))
+        covariance[:used, :used] = (
+            _covariance(found.jac, found.fun) * scale[:used] * scale[:used, None]
+        )
+        return self._described(timing_of(found.x), covariance)
+
+    def _described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
+        low, swing, profile = self.levels(timing)
+        least = 1e-3 * float(np.abs(swing).max()) + 1e-12
+        safe = np.where(np.abs(swing) < least, least, swing)
+        correlation = _correlation((self._profile - low) / safe, (profile - low) / safe)
+        rest = self._profile - profile
+        return StripeFit(timing, covariance, low, swing, profile, correlation, float(rest @ rest))
+
+
+def _covariance(slopes: FloatArray, rest: FloatArray) -> FloatArray:
+    """Give the covariance of fitted parameters from the model's slopes and the residual."""
+    variance = float(rest @ rest) / max(1, len(rest) - slopes.shape[1])
+    variance *= correlated_columns(rest)
+    return np.asarray(np.linalg.pinv(slopes.T @ slopes) * variance)
+
+
+def _correlation(a: FloatArray, b: FloatArray) -> float:
+    a, b = a - a.mean(), b - b.mean()
+    energy = float(np.sqrt((a @ a) * (b @ b)))
+    return float(a @ b) / energy if energy > 0.0 else 0.0

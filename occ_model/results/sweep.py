@@ -1,0 +1,179 @@
+"""What a sweep finds: a success rate for each point and decoder."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.declarations import ParameterValue
+from occ_model.errors import ParameterError
+from occ_model.output import write_whole
+from occ_model.results.sweep_csv import header_text, point_text
+from occ_model.results.sweep_request import SweepPoint, SweepRequest
+
+
+@dataclass(frozen=True, slots=True)
+class SweepRow:
+    """One success rate.
+
+    Parameters
+    ----------
+    point
+        The varied parameters, in SI units.
+    decoder
+        Its name.
+    right, sent
+        Bits read rightly, of so many.
+    rate
+        Percent; None where the model refuses the scene.
+    low, high
+        The 95 % interval behind it, percent; None where the model refuses the scene.
+    note
+        Why it does.
+    """
+
+    point: Mapping[str, ParameterValue]
+    decoder: str
+    right: int
+    sent: int
+    rate: float | None
+    low: float | None
+    high: float | None
+    note: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SweepTable:
+    """Success rates over all combinations of some parameters' values.
+
+    Two tables are equal when all their numbers and notes are, and so is what was asked for.
+
+    Parameters
+    ----------
+    request
+        What was measured.
+    sent : ndarray of int64, shape (values of the first axis, of the second, ...)
+        Bits sent at each point; 0 where the model refuses the scene.
+    right : ndarray of int64, shape (..., decoders)
+        Bits of them that were read rightly.
+    low, high : ndarray of float64, shape (..., decoders)
+        The 95 % interval by Wilson, percent; not a number where the model refuses the scene. It
+        takes bits as independent, which those of one image are not: where images are few, the
+        rate is less sure.
+    notes
+        Why the model refuses a scene, by the point's index, counted with the last axis first.
+    """
+
+    request: SweepRequest
+    sent: IndexArray
+    right: IndexArray
+    low: FloatArray
+    high: FloatArray
+    notes: Mapping[int, str]
+
+    @property
+    def axes(self) -> Mapping[str, tuple[ParameterValue, ...]]:
+        """The values of each varied parameter."""
+        return self.request.axes
+
+    @property
+    def decoders(self) -> tuple[str, ...]:
+        """The decoders' names."""
+        return self.request.settings.decoders
+
+    @property
+    def rows(self) -> tuple[SweepRow, ...]:
+        """All rates, one a point and decoder, in the order of the axes."""
+        return tuple(self.each_row())
+
+    def each_row(self) -> Iterator[SweepRow]:
+        """Give the rows one after the other: those of a large table need not fit the memory."""
+        for point in self.each_point():
+            values = self.request.values(point.index)
+            place = np.unravel_index(point.index, self.request.shape)
+            for number, decoder in enumerate(self.decoders):
+                rate = low = high = None
+                if point.sent:
+                    rate = 100.0 * point.right[number] / point.sent
+                    low, high = float(self.low[place][number]), float(self.high[place][number])
+                yield SweepRow(
+                    values, decoder, point.right[number], point.sent, rate, low, high, point.note
+                )
+
+    def each_point(self) -> Iterator[SweepPoint]:
+        """Give what was counted, point by point, in the order of the axes."""
+        right = self.right.reshape(-1, len(self.decoders))
+        for index, sent in enumerate(self.sent.ravel().tolist()):
+            counts = tuple(right[index].tolist())
+            yield SweepPoint(index, sent, counts, self.notes.get(index, ""))
+
+    def rates(self, decoder: str | None = None) -> FloatArray:
+        """Give the success rates of a decoder in percent.
+
+        Parameters
+        ----------
+        decoder
+            Its name, by default the first one's.
+
+        Returns
+        -------
+        ndarray of float64, shape (values of the first axis, of the second, ...)
+            Not a number where the model refuses the scene.
+
+        Raises
+        ------
+        ParameterError
+            The sweep has not used that decoder.
+        """
+        rates = np.full(self.sent.shape, np.nan)
+        right = 100.0 * self.right[..., self._place(decoder)]
+        np.divide(right, self.sent, out=rates, where=self.sent > 0)
+        return rates
+
+    def intervals(self, decoder: str | None = None) -> tuple[FloatArray, FloatArray]:
+        """Give both ends of the 95 % intervals behind :meth:`rates`, in percent, shaped alike."""
+        place = self._place(decoder)
+        return self.low[..., place], self.high[..., place]
+
+    def _place(self, decoder: str | None) -> int:
+        if decoder is None:
+            return 0
+        if decoder not in self.decoders:
+            raise ParameterError(
+                f"decoder is {decoder!r}; allowed in this table: {', '.join(self.decoders)}."
+            )
+        return self.decoders.index(decoder)
+
+    def csv(self) -> Iterator[str]:
+        """Give the table as CSV, part by part: its provenance in comments, then a row a rate."""
+        yield header_text(self.request)
+        low = self.low.reshape(-1, len(self.decoders)).tolist()
+        high = self.high.reshape(-1, len(self.decoders)).tolist()
+        for point in self.each_point():
+            ends = list(zip(low[point.index], high[point.index], strict=True))
+            yield point_text(self.request, point, ends)
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write the table as :meth:`csv` gives it.
+
+        Raises
+        ------
+        OutputError
+            The file cannot be written; what was there before is untouched.
+        """
+        write_whole(Path(path), "".join(self.csv()).encode("utf-8"))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, SweepTable):
+            return NotImplemented
+        return (
+            self.request == other.request
+            and list(self.axes) == list(other.axes)
+            and np.array_equal(self.sent, other.sent)
+            and np.array_equal(self.right, other.right)
+            and dict(self.notes) == dict(other.notes)
+        )
+
+    __hash__ = None  # type: ignore[assignment]  # its arrays have no hash

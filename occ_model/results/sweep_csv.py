@@ -1,0 +1,111 @@
+"""A sweep's table as text: its provenance in comment lines, then one row a point and decoder."""
+
+import csv
+import math
+from collections.abc import Sequence
+from io import StringIO
+
+from occ_model.declarations import ParameterValue, Quantity
+from occ_model.parameters import PARAMETERS
+from occ_model.results.sweep_request import SweepPoint, SweepRequest
+from occ_model.version import __version__
+
+_FORMAT = 1
+
+TITLE = "# Success rate over "
+"""What every table of a sweep starts with."""
+
+
+def header_text(request: SweepRequest) -> str:
+    """Write all that a table rests on, and the names of its columns."""
+    settings = request.settings
+    forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
+    lines = [
+        f"{TITLE}{', '.join(request.axes)}",
+        f"# occ_model {__version__}",
+        f"# format {_FORMAT} of a sweep",
+        f"# seed {settings.seed}, of every point",
+        f"# images {settings.images}, at every point",
+        f"# decoders {', '.join(settings.decoders)}",
+        f"# path {settings.path}",
+        f"# tolerance {settings.tolerance!r} levels of the profile",
+        f"# by hand: {forced or 'nothing'}",
+    ]
+    for name, values in request.axes.items():
+        lines.append(f"# axis {_column(name)}: {', '.join(map(_written, values))}")
+    lines += ["#", "# scene at hand:"]
+    lines += [f"# {line}".rstrip() for line in request.scene.to_toml().splitlines()]
+    return "\n".join(lines) + "\n" + _row(_columns(request))
+
+
+def _columns(request: SweepRequest) -> list[str]:
+    return [
+        *map(_column, request.axes), "decoder", "images", "seed", "right bits", "sent bits",
+        "success rate (%)", "95 % from (%)", "95 % to (%)", "note",
+    ]  # fmt: skip
+
+
+def _column(name: str) -> str:
+    parameter = PARAMETERS[name]
+    unit = parameter.unit.symbol if isinstance(parameter, Quantity) else ""
+    return f"{name} ({unit})" if unit else name
+
+
+def point_text(
+    request: SweepRequest, point: SweepPoint, intervals: Sequence[tuple[float, float]]
+) -> str:
+    """Write the rows of a point.
+
+    Parameters
+    ----------
+    request
+        What is measured.
+    point
+        What was counted.
+    intervals
+        Of each decoder's rate, percent; not a number where the model refuses the scene.
+    """
+    settings = request.settings
+    values = [_written(value) for value in request.values(point.index).values()]
+    text = ""
+    for decoder, right, ends in zip(settings.decoders, point.right, intervals, strict=True):
+        found: list[object] = [None] * 5
+        if point.sent:
+            found = [right, point.sent, 100.0 * right / point.sent, *ends]
+        text += _row([*values, decoder, settings.images, settings.seed, *found, point.note])
+    return text
+
+
+def read_point(request: SweepRequest, lines: Sequence[str]) -> SweepPoint | None:
+    """Read the rows of a point, one line a decoder; None where they are none.
+
+    What stands in them is not checked any further: :func:`point_text` gives the same text again
+    where it is right.
+    """
+    axes = len(request.axes)
+    try:
+        rows = next(zip(*(csv.reader([line], strict=True) for line in lines), strict=True))
+        index = 0
+        for values, text in zip(request.axes.values(), rows[0], strict=False):
+            index = index * len(values) + list(map(_written, values)).index(text)
+        right = tuple(int(row[axes + 3] or 0) for row in rows)
+        return SweepPoint(index, int(rows[0][axes + 4] or 0), right, rows[0][-1])
+    except (ValueError, IndexError, StopIteration, csv.Error):
+        return None
+
+
+def one_line(sentence: str) -> str:
+    """Make a sentence fit a row: tables are read line by line."""
+    return " ".join(sentence.split())
+
+
+def _written(value: ParameterValue) -> str:
+    return value if isinstance(value, str) else repr(value)
+
+
+def _row(cells: Sequence[object]) -> str:
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerow(
+        "" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells
+    )
+    return text.getvalue()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from occ_model.commands.parser import Commands
 from occ_model.exit_codes import EXIT_FAILURE
-from occ_model.photo.load import SCAN_AXES, load_photo
+from occ_model.photo.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import DecodeResult
@@ -25,12 +25,19 @@ def add_to(commands: Commands) -> None:
         default="auto",
         help="what the shutter scanned in the file; auto: across the stripes (default)",
     )
+    parser.add_argument(
+        "--channel",
+        choices=CHANNELS,
+        default="brightest",
+        help="what of a coloured photo is read; brightest: the colour with the largest mean "
+        "(default)",
+    )
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
-    photo = load_photo(options.file, options.scan_axis)
+    photo = load_photo(options.file, options.scan_axis, channel=options.channel)
     result = decode(photo.image, scene, options.decoder)
     for line in _report(result):
         print(line)

@@ -1,14 +1,17 @@
 """Decode a picture of any kind to samples of one channel, in the full depth of its file."""
 
+import os
 import sys
-from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import Pixels
 from occ_model.errors import PhotoError
 
 if TYPE_CHECKING:
@@ -62,21 +65,23 @@ def decode_picture(picture: "ImageFile", reopen: "Callable[[], ImageFile]") -> S
         fraction are grey levels, of which no number and minus infinity are 0.
     """
     raw_modes = _raw_modes(picture)
-    picture.load()
+    _load(picture)
     if picture.mode == "F":
-        return _of_grey_levels(np.asarray(picture, dtype=np.float64))
+        return _of_grey_levels(np.asarray(picture))
     if picture.mode.startswith("I"):
         return _whole_numbers(picture, raw_modes)
     if len(raw_modes) == 1 and raw_modes <= _OTHER_BYTE.keys():
         return _deep_colours(picture, reopen())
     from PIL import Image
 
-    upright: PillowImage = picture
+    shown: PillowImage = picture
     if picture.has_transparency_data:
         backed = Image.new("RGBA", picture.size, (0, 0, 0, 255))
-        upright = Image.alpha_composite(backed, picture.convert("RGBA"))
-    grey = upright.mode in ("1", "L")
-    return np.asarray(upright.convert("L" if grey else "RGB"))
+        shown = Image.alpha_composite(backed, picture.convert("RGBA"))
+    if shown.mode == "LAB":  # of which Pillow makes no other colours
+        shown = shown.getchannel("L")
+    grey = shown.mode in ("1", "L")
+    return np.asarray(shown.convert("L" if grey else "RGB"))
 
 
 def take_channel(pixels: Samples, channel: str) -> tuple[Samples, str]:
@@ -101,14 +106,14 @@ def take_channel(pixels: Samples, channel: str) -> tuple[Samples, str]:
         return pixels, "grey"
     means = cv2.mean(pixels)[:3]
     if means[0] == means[1] == means[2] and _has_no_colours(pixels):
-        return cv2.extractChannel(pixels, _GREEN), "grey"
+        return cast("Samples", cv2.extractChannel(pixels, _GREEN)), "grey"
     if channel == "luma":
-        return cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY), "luma"
+        return cast("Samples", cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY)), "luma"
     index = int(np.argmax(means)) if channel == "brightest" else _COLOURS.index(channel)
     near = _NEAR_TIE * white_of(pixels) / 255
     if channel == "brightest" and means[index] - means[_GREEN] <= near:
         index = _GREEN
-    return cv2.extractChannel(pixels, index), _COLOURS[index]
+    return cast("Samples", cv2.extractChannel(pixels, index)), _COLOURS[index]
 
 
 def _has_no_colours(pixels: Samples) -> bool:
@@ -141,9 +146,9 @@ def _whole_numbers(picture: "ImageFile", raw_modes: set[str]) -> Samples:
     return samples
 
 
-def _of_grey_levels(levels: FloatArray) -> Samples:
-    scaled = np.nan_to_num(levels * _GREY_LEVEL, nan=0.0, posinf=65535.0, neginf=0.0)
-    return np.rint(np.clip(scaled, 0.0, 65535.0)).astype(np.uint16)
+def _of_grey_levels(levels: Pixels) -> Samples:
+    within = np.nan_to_num(np.clip(levels, 0.0, 255.0), nan=0.0)
+    return np.rint(within * _GREY_LEVEL).astype(np.uint16)
 
 
 def _deep_colours(upper: "ImageFile", lower: "ImageFile") -> Samples:
@@ -159,7 +164,8 @@ def _deep_colours(upper: "ImageFile", lower: "ImageFile") -> Samples:
     lower
         The same, not yet decoded.
     """
-    lower.tile = [_other_byte(tile) for tile in lower.tile]
+    _take_lower_bytes(lower)
+    _load(lower)
     pixels = np.asarray(upper).astype(np.uint16)
     pixels <<= 8
     pixels |= np.asarray(lower)
@@ -172,7 +178,35 @@ def _deep_colours(upper: "ImageFile", lower: "ImageFile") -> Samples:
     return np.ascontiguousarray(pixels[..., :3])
 
 
-def _other_byte(tile: "ImageFile._Tile") -> "ImageFile._Tile":
-    raw, *more = tile[3] if isinstance(tile[3], tuple) else (tile[3],)
-    other = _OTHER_BYTE[raw]
-    return tile._replace(args=(other, *more) if isinstance(tile[3], tuple) else other)
+def _take_lower_bytes(picture: "ImageFile") -> None:
+    for place, tile in enumerate(picture.tile):
+        raw, *more = tile[3] if isinstance(tile[3], tuple) else (tile[3],)
+        other = _OTHER_BYTE[raw]
+        arguments = (other, *more) if isinstance(tile[3], tuple) else other
+        picture.tile[place] = tile._replace(args=arguments)
+
+
+def _load(picture: "ImageFile") -> None:
+    """Decode a picture in silence."""
+    if picture.format == "TIFF":
+        with _no_stderr():
+            picture.load()
+    else:
+        picture.load()
+
+
+@contextmanager
+def _no_stderr() -> Iterator[None]:
+    """Let nobody write to stderr: libtiff prints each oddity of a file there, and asks nobody."""
+    try:
+        kept = os.dup(2)
+    except OSError:  # a program without a console has none
+        yield
+        return
+    try:
+        with Path(os.devnull).open("wb") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)

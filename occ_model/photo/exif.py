@@ -53,7 +53,7 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
     Parameters
     ----------
     picture
-        As opened: some formats forget their tags on decoding.
+        Decoded: the tags of a PNG may lie behind its pixels.
     """
     # A picture whose notes are damaged is a picture all the same.
     tags: dict[int, Any] = {}

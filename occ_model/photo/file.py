@@ -1,5 +1,7 @@
 """Open an image file of any kind, or say in one sentence why it cannot be read."""
 
+import logging
+import math
 import os
 import re
 import stat
@@ -25,6 +27,13 @@ _ANY_HEIF_BRANDS = (b"mif1", b"msf1")
 
 _BYTES_A_PIXEL, _BYTES_OF_NOTES = 8, 16_000_000
 """Four channels of 16 bits, and what else an honest file of so many pixels may hold."""
+
+_PIXELS_A_BYTE = {"JPEG": 512, "PNG": 8 * 1032, "GIF": 8 * 4096 // 12}
+"""What a byte of a file can hold at most, of formats whose decoders make up what is missing.
+
+A block of 8 x 8 pixels takes a bit of Huffman code; deflate shrinks to 1/1032 at best, and a pixel
+takes a bit; a code of LZW has 12 bits and stands for 4096 pixels.
+"""
 
 _pillow_lock = threading.Lock()
 
@@ -73,15 +82,18 @@ def open_picture(path: Path, max_pixels: int) -> "Iterator[Opener]":
 
 @contextmanager
 def _pillow_ready(max_pixels: int) -> Iterator[None]:
-    """Have our limit in place of Pillow's, and no warnings of oddities in a readable file.
+    """Have our limit in place of Pillow's, and no complaints about oddities in a readable file.
 
-    Both are global, to Pillow and to Python: one photo at a time may change them, and all is as it
-    was when it has been read.
+    These are global, to Pillow and to Python: one photo at a time may change them, and all is as
+    it was when it has been read.
     """
     from PIL import Image
 
+    # Without any handler an error that Pillow logs would be printed.
+    log, handler = logging.getLogger("PIL"), logging.NullHandler()
     with _pillow_lock, warnings.catch_warnings():
         warnings.simplefilter("ignore")
+        log.addHandler(handler)
         pillows = Image.MAX_IMAGE_PIXELS
         # Pillow refuses a picture of more than twice this many, and so hardly less than we do.
         Image.MAX_IMAGE_PIXELS = (max_pixels + 1) // 2
@@ -89,11 +101,15 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
             yield
         finally:
             Image.MAX_IMAGE_PIXELS = pillows
+            log.removeHandler(handler)
 
 
 def _check_file(path: Path, max_pixels: int) -> None:
     """Refuse what is no file with something in it: opening a pipe could wait for ever."""
-    status = path.stat()
+    try:
+        status = path.stat()
+    except ValueError as error:  # a name that no file can have
+        raise PhotoError(f"{path} cannot be read: {error}.") from None
     if stat.S_ISDIR(status.st_mode):
         raise PhotoError(f"{path} is a folder, not a photo.")
     if not stat.S_ISREG(status.st_mode):
@@ -115,15 +131,47 @@ def _first_picture(path: Path, file: IO[bytes], max_pixels: int) -> "ImageFile":
     file.seek(0, os.SEEK_SET)
     try:
         picture = factory(file)
-    except SyntaxError as error:  # Pillow's word for a header that makes no sense
-        raise PhotoError(f"{path} cannot be read: {_damaged(error)}.") from None
+    except SyntaxError as error:  # Pillow's word for a header that makes no sense to it
+        problem = _damaged(error, "the file is damaged or of an unusual kind")
+        raise PhotoError(f"{path} cannot be read: {problem}.") from None
     width, height = picture.size
     if width * height > max_pixels:
         raise PhotoError(
             f"{path} has {width:,} x {height:,} pixels, {_count(width * height)}; "
             f"allowed: at most {_allowed(max_pixels)}"
         )
+    size = os.fstat(file.fileno()).st_size
+    # A size that is wrong in the header would otherwise be read, in seconds, as so much black.
+    if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
+        raise PhotoError(
+            f"{path} cannot be read: the file is damaged ({size:,} bytes cannot hold "
+            f"{width:,} x {height:,} pixels)."
+        )
+    if picture.format == "TIFF":
+        _check_tiff(path, picture)
     return picture
+
+
+def _check_tiff(path: Path, picture: "ImageFile") -> None:
+    """Refuse what Pillow would read as something else without a word."""
+    from PIL.TiffImagePlugin import BITSPERSAMPLE, PLANAR_CONFIGURATION, TiffImageFile
+
+    if not _is_covered(picture):
+        raise PhotoError(f"{path} cannot be read: the file is damaged (parts are missing).")
+    tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
+    bits = tags.get(BITSPERSAMPLE, (1,))
+    if tags.get(PLANAR_CONFIGURATION) == 2 and len(bits) > 1 and max(bits) > 8:
+        raise PhotoError(
+            f"{path} cannot be read: it keeps each colour of {max(bits)} bits in a plane of "
+            "its own; allowed: pixel by pixel."
+        )
+
+
+def _is_covered(picture: "ImageFile") -> bool:
+    """Whether the tiles of a TIFF, which lie on it before it is turned, reach its far corner."""
+    corners = [tile[1][2:] for tile in picture.tile if tile[1] is not None]
+    reach = [max((corner[axis] for corner in corners), default=0) for axis in (0, 1)]
+    return reach[0] * reach[1] >= picture.width * picture.height
 
 
 def _factory(path: Path, file: IO[bytes]) -> "Callable[[IO[bytes]], ImageFile]":
@@ -164,11 +212,11 @@ def _heic_factory(path: Path) -> "Callable[[IO[bytes]], ImageFile]":
     return factory
 
 
-def _damaged(error: Exception) -> str:
+def _damaged(error: Exception, problem: str = "the file is damaged") -> str:
     """Write what a decoder says, which may quote the file's bytes, as part of a sentence."""
     words = re.sub(r"\s+", " ", "".join(c if c.isprintable() else " " for c in str(error)))
     words = words.strip().rstrip(".")[:120]
-    return f"the file is damaged ({words})" if words else "the file is damaged"
+    return f"{problem} ({words})" if words else problem
 
 
 def _allowed(max_pixels: int) -> str:
@@ -176,5 +224,7 @@ def _allowed(max_pixels: int) -> str:
 
 
 def _count(pixels: int) -> str:
-    """Write a number of pixels: in millions where it has some, and to the last one if need be."""
-    return f"{pixels / 1e6:,.6g} million" if pixels >= 1_000_000 else f"{pixels:,}"
+    """Write a number of pixels, in millions if hundredths of them say it."""
+    if pixels >= 1_000_000 and pixels % 10_000 == 0:
+        return f"{pixels / 1e6:,.10g} million"
+    return f"{pixels:,}"

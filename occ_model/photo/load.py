@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import cv2
 import numpy as np
@@ -104,7 +105,7 @@ def load_photo(
         raise PhotoError(f"{path!r} is not the path of a photo; allowed: str or Path.") from None
     seen, taken, notes = _read(path, channel, int(max_pixels))
     turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(seen))
-    samples = cv2.transpose(seen) if turned else seen
+    samples = cast("Samples", cv2.transpose(seen)) if turned else seen
     white = white_of(samples)
     return Photo(
         path=path,
@@ -147,16 +148,16 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
             f"The rows from {first_row} to before {last_row} were asked for; "
             f"allowed: at least one, from 0 to before {rows}."
         )
-    return _means(photo.samples[first_row:last_row], 0) * (WHITE / photo.white)
+    means = _means(photo.samples[first_row:last_row], 0)
+    return means * (WHITE / photo.white)
 
 
 def _read(path: Path, channel: str, max_pixels: int) -> tuple[Samples, str, CameraNotes]:
     """Read a file's samples of one channel the right way up, and what the camera noted."""
     with open_picture(path, max_pixels) as opened:
         picture = opened()
-        notes = camera_notes(picture)
         pixels = decode_picture(picture, opened)
-        orientation = orientation_of(picture)
+        notes, orientation = camera_notes(picture), orientation_of(picture)
         samples, taken = take_channel(pixels, channel)
     return np.ascontiguousarray(upright(samples, orientation)), taken, notes
 
@@ -170,7 +171,8 @@ def _in_grey_levels(samples: Samples) -> ByteArray:
 def _means(samples: Samples, axis: int) -> FloatArray:
     """Average samples along an axis, many times faster than numpy does."""
     sums = cv2.reduce(samples, axis, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
-    return np.asarray(sums, dtype=np.float64).ravel() / samples.shape[axis]
+    means: FloatArray = np.asarray(sums, dtype=np.float64).ravel() / samples.shape[axis]
+    return means
 
 
 def _stripes_are_lines(samples: Samples) -> bool:

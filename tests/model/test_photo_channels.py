@@ -1,0 +1,229 @@
+"""What is taken of a photo's colours, in the full depth of its file."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import tifffile
+from numpy.typing import NDArray
+from photo_files import saved
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.errors import ParameterError, PhotoError
+from occ_model.photo.load import CHANNELS, column_means, load_photo
+
+STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
+PICTURE = Image.fromarray(STRIPES)
+
+
+def deep_stripes() -> NDArray[np.uint16]:
+    """Colours of 16 bits: blue, green and red, as OpenCV has them."""
+    rng = np.random.default_rng(5)
+    return rng.integers(0, 65536, (9, 14, 3), dtype=np.uint16)
+
+
+@pytest.mark.parametrize("compression", [None, "tiff_lzw", "tiff_adobe_deflate"])
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_a_deep_tiff_is_turned_once(
+    tmp_path: Path, orientation: int, compression: str | None
+) -> None:
+    deep = deep_stripes()[..., 0]
+    path = tmp_path / "x.tif"
+    Image.fromarray(deep).save(path, compression=compression, tiffinfo={274: orientation})
+    turned = load_photo(path, "columns").samples
+    assert sorted(turned.shape) == sorted(deep.shape)
+    assert (turned.shape == deep.shape) is (orientation < 5)
+    corners = [deep[0, 0], deep[0, -1], deep[-1, -1], deep[-1, 0]]
+    first = {1: 0, 2: 1, 3: 2, 4: 3, 5: 0, 6: 3, 7: 2, 8: 1}[orientation]
+    assert turned[0, 0] == corners[first]
+
+
+@pytest.mark.parametrize("byte_order", ["<", ">"])
+@pytest.mark.parametrize("how", [{}, {"tile": (16, 16)}, {"compression": "zlib"}], ids=str)
+@pytest.mark.parametrize("alpha", [False, True])
+def test_deep_tiffs_of_all_kinds_are_read_or_refused(
+    tmp_path: Path, byte_order: str, how: dict[str, object], alpha: bool
+) -> None:
+    deep = deep_stripes()
+    kept = np.dstack([deep, np.full(deep.shape[:2], 65535, np.uint16)]) if alpha else deep
+    path = tmp_path / "x.tif"
+    how |= {"byteorder": byte_order, "photometric": "rgb"}
+    tifffile.imwrite(path, kept, extrasamples=["unassalpha"] * alpha, **how)
+    samples = load_photo(path, "columns", channel="blue").samples
+    np.testing.assert_array_equal(samples, deep[..., 2])
+    planes = np.ascontiguousarray(kept.transpose(2, 0, 1))
+    extra = ["unassalpha"] * alpha
+    tifffile.imwrite(path, planes, planarconfig="separate", extrasamples=extra, **how)
+    with pytest.raises(PhotoError, match=r"each colour of 16 bits in a plane of its own; "):
+        load_photo(path)
+
+
+def test_colours_of_eight_bits_in_planes_of_their_own_are_read(tmp_path: Path) -> None:
+    planes = np.stack([STRIPES, STRIPES // 2, STRIPES // 3])
+    tifffile.imwrite(tmp_path / "x.tif", planes, planarconfig="separate", photometric="rgb")
+    np.testing.assert_array_equal(load_photo(tmp_path / "x.tif").image, STRIPES)
+
+
+@pytest.mark.parametrize("brightest", [65535, 20000, 255, 1])
+@pytest.mark.parametrize("name", ["x.png", "x.tif"])
+def test_sixteen_bits_are_kept_however_dark_the_photo(
+    tmp_path: Path, brightest: int, name: str
+) -> None:
+    deep = np.linspace(0, brightest, 300).astype(np.uint16)[None, :].repeat(4, axis=0)
+    deep[2:] = deep[:2, ::-1]
+    photo = load_photo(saved(tmp_path, deep, name), "columns")
+    assert (photo.samples.dtype, photo.white, photo.channel) == (np.uint16, 65535, "grey")
+    np.testing.assert_array_equal(photo.samples, deep)
+    np.testing.assert_array_equal(photo.image, np.rint(deep / 257))
+    np.testing.assert_allclose(photo.profile, deep.mean(axis=0) / 257, rtol=1e-12)
+
+
+def test_eight_bits_are_kept_once(tmp_path: Path) -> None:
+    photo = load_photo(saved(tmp_path, PICTURE))
+    assert photo.image is photo.samples
+    assert (photo.samples.dtype, photo.white, photo.channel) == (np.uint8, 255, "grey")
+
+
+@pytest.mark.parametrize("name", ["x.png", "x.tiff"])
+@pytest.mark.parametrize("channel", ["red", "green", "blue"])
+def test_colours_of_sixteen_bits_are_kept(tmp_path: Path, name: str, channel: str) -> None:
+    deep = deep_stripes()
+    assert cv2.imwrite(str(tmp_path / name), deep)
+    photo = load_photo(tmp_path / name, "columns", channel=channel)
+    assert (photo.white, photo.channel) == (65535, channel)
+    index = ["blue", "green", "red"].index(channel)
+    np.testing.assert_array_equal(photo.samples, deep[..., index])
+
+
+def test_transparent_parts_of_sixteen_bits_are_black(tmp_path: Path) -> None:
+    deep = np.dstack([deep_stripes(), np.full((9, 14), 65535, np.uint16)])
+    deep[:, 0, 3], deep[:, 1, 3] = 0, 32768
+    assert cv2.imwrite(str(tmp_path / "x.png"), deep)
+    samples = load_photo(tmp_path / "x.png", "columns", channel="red").samples
+    seen = deep[..., 2] * (deep[..., 3] / 65535)
+    np.testing.assert_array_equal(samples, np.rint(seen))
+
+
+def test_white_of_twelve_bits_is_white(tmp_path: Path) -> None:
+    packed = bytes([0xFF, 0xF0, 0x00, 0x80, 0x00, 0x00])  # 4095, 0, 2048, 0
+    tags = {256: 4, 257: 1, 258: 12, 259: 1, 262: 1, 273: 8, 277: 1, 278: 1, 279: 6}
+    entries = b"".join(
+        tag.to_bytes(2, "little") + b"\4\0\1\0\0\0" + number.to_bytes(4, "little")
+        for tag, number in tags.items()
+    )
+    start = b"II*\0" + (16).to_bytes(4, "little") + packed + b"\0\0"
+    (tmp_path / "x.tif").write_bytes(start + bytes([len(tags), 0]) + entries + bytes(4))
+    photo = load_photo(tmp_path / "x.tif", "columns")
+    assert photo.samples.tolist() == [[65535, 0, round(2048 / 4095 * 65535), 0]]
+
+
+@pytest.mark.parametrize(
+    ("colour", "brightest"),
+    [
+        ((200, 20, 10), "red"),
+        ((20, 200, 10), "green"),
+        ((10, 20, 200), "blue"),
+        ((202, 200, 10), "red"),
+        ((200, 200, 10), "green"),
+        ((10, 200, 200), "green"),
+        ((99, 0, 99), "red"),
+    ],
+)
+def test_the_brightest_channel_is_the_one_in_which_the_led_shows(
+    tmp_path: Path, colour: tuple[int, int, int], brightest: str
+) -> None:
+    picture = np.zeros((6, 8, 3), np.uint8)
+    picture[:, ::2] = np.array(colour)
+    picture[0, 0] += 1  # for equal means are those of different colours
+    path = saved(tmp_path, picture)
+    photo = load_photo(path)
+    assert photo.channel == brightest
+    index = ("red", "green", "blue").index(brightest)
+    np.testing.assert_array_equal(photo.image, picture[..., index])
+    assert load_photo(path, channel="luma").channel == "luma"
+
+
+@pytest.mark.parametrize("channel", CHANNELS)
+@pytest.mark.parametrize("mode", ["L", "RGB", "RGBA", "LA", "P", "1"])
+def test_a_grey_photo_is_grey_in_whatever_colours_it_is_kept(
+    tmp_path: Path, mode: str, channel: str
+) -> None:
+    grey = PICTURE.point(lambda level: 255 * (level > 99)) if mode == "1" else PICTURE
+    photo = load_photo(saved(tmp_path, grey.convert(mode)), channel=channel)
+    assert photo.channel == "grey"
+    np.testing.assert_array_equal(photo.image, np.asarray(grey))
+
+
+@pytest.mark.parametrize("name", ["x.jpg", "x.webp", "x.avif", "x.heic"])
+def test_a_lossy_format_does_not_make_a_grey_photo_red_or_blue(tmp_path: Path, name: str) -> None:
+    photo = load_photo(saved(tmp_path, PICTURE.convert("RGB"), name))
+    assert photo.channel in ("grey", "green")
+    assert np.abs(photo.profile - STRIPES[0]).max() < 12
+
+
+def test_colours_become_their_luma_if_asked_for(tmp_path: Path) -> None:
+    colours = np.array([[[255, 0, 0], [0, 255, 0], [0, 0, 255], [200, 100, 50]]], np.uint8)
+    picture = Image.fromarray(colours)
+    for mode in ("RGB", "RGBA", "P"):
+        picture = picture.quantize(4) if mode == "P" else picture.convert(mode)
+        photo = load_photo(saved(tmp_path, picture), "columns", channel="luma")
+        assert np.abs(photo.image - colours @ [0.299, 0.587, 0.114]).max() <= 1
+        assert photo.channel == "luma"
+
+
+@pytest.mark.parametrize("mode", ["CMYK", "YCbCr", "LAB"])
+def test_colours_of_print_and_video_are_read(tmp_path: Path, mode: str) -> None:
+    picture = Image.fromarray(np.dstack([STRIPES] * 3))
+    if mode == "LAB":
+        picture = Image.merge("LAB", [PICTURE, *[Image.new("L", PICTURE.size, 128)] * 2])
+    path = saved(tmp_path, picture if mode == "LAB" else picture.convert(mode), "x.tif")
+    np.testing.assert_allclose(load_photo(path).image, STRIPES, atol=2)
+
+
+def test_transparent_parts_are_black_and_one_bit_is_black_or_white(tmp_path: Path) -> None:
+    binary = load_photo(saved(tmp_path, STRIPES > 128)).image
+    np.testing.assert_array_equal(binary, np.where(STRIPES > 128, 255, 0))
+    grey_alpha = np.array([[[200, 255], [200, 0], [200, 128], [10, 255]]], np.uint8)
+    for mode in ("LA", "RGBA"):
+        path = saved(tmp_path, Image.fromarray(grey_alpha).convert(mode))
+        assert np.abs(load_photo(path, "columns").image - [[200.0, 0, 100, 10]]).max() <= 1
+    path = saved(tmp_path, PICTURE.convert("P"), transparency=220)
+    np.testing.assert_array_equal(load_photo(path).image, np.where(STRIPES == 220, 0, STRIPES))
+    deep = STRIPES.astype(np.uint16) * 100
+    path = saved(tmp_path, deep, transparency=3000)
+    np.testing.assert_array_equal(load_photo(path).samples, np.where(deep == 3000, 0, deep))
+
+
+def test_floating_point_pixels_are_grey_levels_and_no_number_is_black(tmp_path: Path) -> None:
+    levels = np.array([[0.2, 99.6, -5.0, 300.0, 3e38, np.inf, -np.inf, np.nan]], np.float32)
+    photo = load_photo(saved(tmp_path, levels, "x.tif"), "columns")
+    assert photo.image.tolist() == [[0, 100, 0, 255, 255, 255, 0, 0]]
+    assert photo.profile[:2] == pytest.approx([0.2, 99.6], abs=1 / 500)
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_column_means_are_those_of_the_rows_asked_for(tmp_path: Path, bits: int) -> None:
+    samples = deep_stripes()[..., 0]
+    if bits == 8:
+        samples = (samples >> 8).astype(np.uint8)
+    photo = load_photo(saved(tmp_path, samples), "columns")
+    for first, last in ((0, 9), (2, 5), (8, 9)):
+        expected = samples[first:last].mean(axis=0) * 255 / (2**bits - 1)
+        np.testing.assert_allclose(column_means(photo, first, last), expected, rtol=1e-12)
+    for first, last in ((-1, 3), (3, 3), (4, 2), (0, 10)):
+        with pytest.raises(ParameterError, match=r"allowed: at least one, from 0 to before 9\.$"):
+            column_means(photo, first, last)
+
+
+@pytest.mark.parametrize(("channel", "code"), [("brightest", 0), ("red", 0), ("blue", 1)])
+def test_the_decoder_reads_the_channel_asked_for(
+    tmp_path: Path, channel: str, code: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    image = occ.render(occ.Scene().replace(rows=300)).image
+    red_led = np.dstack([image, np.full_like(image, 9), np.full_like(image, 9)])
+    path = saved(tmp_path, red_led)
+    assert main(["decode", str(path), "--channel", channel]) == code
+    assert ("code" in capsys.readouterr().out) is (code == 0)

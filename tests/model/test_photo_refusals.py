@@ -1,0 +1,213 @@
+"""Files that are no photo are refused in one sentence."""
+
+import logging
+import os
+import socket
+import struct
+import sys
+import warnings
+import zlib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from photo_files import saved
+from PIL import Image, PngImagePlugin
+
+from occ_model.errors import ParameterError, PhotoError
+from occ_model.photo.load import load_photo
+
+PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
+
+
+def refusal(path: object, **how: int) -> str:
+    with pytest.raises(PhotoError) as refused:
+        load_photo(path, **how)  # type: ignore[arg-type]
+    sentence = str(refused.value)
+    assert sentence.endswith(".")
+    assert "\n" not in sentence
+    return sentence
+
+
+def png(width: int, height: int, *, bits: int = 8, chunks: bytes = b"") -> bytes:
+    """Give a PNG of this size by its header, and little in it."""
+
+    def chunk(name: bytes, content: bytes) -> bytes:
+        check = zlib.crc32(name + content)
+        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", check)
+
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
+    data = chunk(b"IDAT", zlib.compress(bytes(1000)))
+    return b"\x89PNG\r\n\x1a\n" + header + chunks + data + chunk(b"IEND", b"")
+
+
+def test_what_is_no_photo_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    whole = tmp_path / "x.png"
+    PICTURE.save(whole)
+    contents = {
+        "text": b"no photo\n",
+        "cut": whole.read_bytes()[:-30],
+        "head": b"\x89PNG\r\n\x1a\n",
+    }
+    paths = [tmp_path / "missing.png", whole / "y.png", Path("a\0b")]
+    for name, content in contents.items():
+        paths.append(tmp_path / f"{name}.png")
+        paths[-1].write_bytes(content)
+    for path in paths:
+        assert refusal(path).startswith(f"{path} ")
+    assert refusal(tmp_path) == f"{tmp_path} is a folder, not a photo."
+    (tmp_path / "empty.png").touch()
+    assert refusal(tmp_path / "empty.png").endswith("empty.png is an empty file, not a photo.")
+
+
+@pytest.mark.parametrize("path", [3, None, b"x.png", ["x.png"]])
+def test_what_is_no_path_is_refused_in_a_sentence(path: object) -> None:
+    assert refusal(path) == f"{path!r} is not the path of a photo; allowed: str or Path."
+
+
+def test_a_photo_that_may_not_be_read_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "x.png"
+    PICTURE.save(path)
+
+    def refuse(*_: object, **__: object) -> None:  # whoever runs the tests may read everything
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", refuse)
+    assert refusal(path) == f"{path} cannot be read: Permission denied."
+
+
+def test_devices_pipes_and_sockets_are_refused_at_once(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.png")
+    with socket.socket(socket.AF_UNIX) as listening:
+        listening.bind(str(tmp_path / "socket.png"))
+        for path in (tmp_path / "pipe.png", tmp_path / "socket.png", Path("/dev/zero")):
+            assert refusal(path) == f"{path} is a device, pipe or socket, not a photo."
+
+
+def test_formats_that_need_other_programs_are_no_photos(tmp_path: Path) -> None:
+    PICTURE.convert("RGB").save(tmp_path / "x.eps")
+    assert refusal(tmp_path / "x.eps").endswith("x.eps is not an image that can be read.")
+
+
+@pytest.mark.parametrize("width", [12_000, 100_000, 2**31 - 8])
+def test_a_photo_too_large_to_be_honest_is_refused_by_its_header(
+    tmp_path: Path, width: int
+) -> None:
+    path = tmp_path / "x.png"
+    path.write_bytes(png(width, 12_000))
+    assert refusal(path, max_pixels=100_000_000).startswith(
+        f"{path} has {width:,} x 12,000 pixels, {width * 0.012:,.10g} million; "
+        "allowed: at most 100 million; raise max_pixels to read it."
+    )
+    assert "at most 170 million" in refusal(path) or width == 12_000
+
+
+def test_a_size_that_so_few_bytes_cannot_hold_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.png").write_bytes(png(10_000, 10_000))
+    assert "bytes cannot hold 10,000 x 10,000 pixels)." in refusal(tmp_path / "x.png")
+
+
+@pytest.mark.parametrize("name", ["x.png", "x.jpg", "x.tif", "x.webp", "x.gif", "x.heic", "x.jp2"])
+def test_max_pixels_is_the_number_of_pixels_that_is_still_read(tmp_path: Path, name: str) -> None:
+    saved(tmp_path, PICTURE, name)
+    size = PICTURE.width * PICTURE.height
+    assert load_photo(tmp_path / name, max_pixels=size).image.size == size
+    for limit in (size - 1, size // 2 - 1, 1):
+        assert f"{limit:,}; raise max_pixels to read it." in refusal(
+            tmp_path / name, max_pixels=limit
+        )
+
+
+@pytest.mark.parametrize("limit", [1, 10, None])
+@pytest.mark.parametrize("name", ["x.png", "x.tif", "x.webp", "x.gif"])
+def test_pillows_own_limit_does_not_matter_and_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: int | None, name: str
+) -> None:
+    PICTURE.save(tmp_path / name)
+    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", limit)
+    load_photo(tmp_path / name)  # now Pillow knows all formats that it will ever know
+    before = list(warnings.filters), dict(Image.OPEN)
+    assert load_photo(tmp_path / name).image.size == 1536
+    refusal(tmp_path / name, max_pixels=5)
+    assert limit == Image.MAX_IMAGE_PIXELS
+    assert (list(warnings.filters), dict(Image.OPEN)) == before
+
+
+def test_photos_may_be_read_in_several_threads(tmp_path: Path) -> None:
+    PICTURE.save(tmp_path / "x.png")
+    before = Image.MAX_IMAGE_PIXELS, list(warnings.filters), list(logging.getLogger("PIL").handlers)
+    with ThreadPoolExecutor(4) as threads:
+        limits = [1536, 1535] * 50
+        read = threads.map(lambda most: outcome(tmp_path / "x.png", most), limits)
+        assert list(read) == [True, False] * 50
+    after = Image.MAX_IMAGE_PIXELS, list(warnings.filters), list(logging.getLogger("PIL").handlers)
+    assert after == before
+
+
+def outcome(path: Path, max_pixels: int) -> bool:
+    try:
+        return load_photo(path, max_pixels=max_pixels).image.size > 0
+    except PhotoError:
+        return False
+
+
+@pytest.mark.parametrize(
+    ("how", "sentence"),
+    [
+        ({"scan_axis": "rows"}, "scan_axis is 'rows'; allowed: auto, columns, lines."),
+        ({"channel": "ir"}, "channel is 'ir'; allowed: brightest, luma, red, green, blue."),
+        ({"channel": ["red"]}, "channel is ['red']; allowed: brightest, luma, red, green, blue."),
+        ({"max_pixels": 0}, "max_pixels is 0; allowed: a whole number from 1."),
+        ({"max_pixels": 1e6}, "max_pixels is 1000000.0; allowed: a whole number from 1."),
+        ({"max_pixels": True}, "max_pixels is True; allowed: a whole number from 1."),
+    ],
+)
+def test_an_argument_that_is_not_allowed_is_refused(how: dict[str, object], sentence: str) -> None:
+    with pytest.raises(ParameterError) as refused:
+        load_photo("x.png", **how)  # type: ignore[arg-type]
+    assert str(refused.value) == sentence
+
+
+def test_a_heic_photo_tells_how_to_read_it_where_that_is_not_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "x.png"  # whatever its name
+    saved(tmp_path, PICTURE, "x.heic").rename(path)
+    assert load_photo(path).image.size == 1536
+    monkeypatch.setitem(sys.modules, "pillow_heif", None)
+    wanted = f"{path} is a HEIC photo; to read it: pip install occ-explorer[heic]."
+    assert refusal(path) == wanted
+
+
+def test_texts_in_a_png_that_grow_without_bound_are_refused(tmp_path: Path) -> None:
+    texts = PngImagePlugin.PngInfo()
+    for number in range(80):
+        texts.add_text(f"x{number}", "x" * 1_000_000, zip=True)
+    PICTURE.save(tmp_path / "x.png", pnginfo=texts)
+    assert (tmp_path / "x.png").stat().st_size < 200_000
+    assert "the file is damaged (" in refusal(tmp_path / "x.png")
+
+
+def test_more_bytes_than_its_pixels_could_need_are_refused(tmp_path: Path) -> None:
+    PICTURE.save(tmp_path / "x.png")
+    with (tmp_path / "x.png").open("r+b") as file:
+        file.truncate(10**10)  # which takes no room on the disk
+    assert " has 10,000,000,000 bytes; allowed " in refusal(tmp_path / "x.png")
+
+
+def test_whole_numbers_beyond_sixteen_bits_are_refused(tmp_path: Path) -> None:
+    Image.fromarray(np.full((3, 4), 70_000, np.int32)).save(tmp_path / "x.tif")
+    assert "samples up to 70,000; allowed: up to 65,535." in refusal(tmp_path / "x.tif")
+
+
+def test_a_tiff_without_its_last_rows_is_refused(tmp_path: Path) -> None:
+    PICTURE.save(tmp_path / "x.tif")
+    content = bytearray((tmp_path / "x.tif").read_bytes())
+    height = content.find(struct.pack("<HHII", 257, 4, 1, 32))
+    height = height if height >= 0 else content.find(struct.pack("<HHIH", 257, 3, 1, 32))
+    content[height + 8] = 64
+    (tmp_path / "x.tif").write_bytes(content)
+    assert "the file is damaged (" in refusal(tmp_path / "x.tif")

@@ -5,6 +5,11 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
+_MEAN_FREEDOM, _SWING_FREEDOM = 6, 4
+
+_LEAST_POWER = 0.05
+"""Share of the mean square below which a profile does not swing."""
+
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
     """Give the low and the high level round each column.
@@ -50,3 +55,21 @@ def smooth_shapes(count: int, freedom: int) -> FloatArray:
     """
     place = np.linspace(-1.0, 1.0, count)
     return np.asarray(np.polynomial.chebyshev.chebvander(place, freedom - 1))
+
+
+def without_trend(profile: FloatArray) -> FloatArray:
+    """Take slow changes of a profile's mean and of its swing away, knowing nothing of its stripes.
+
+    Returns
+    -------
+    ndarray of float64, shape as ``profile``
+        Of mean zero, and swinging by about one everywhere.
+    """
+    about = profile - _smooth(profile, _MEAN_FREEDOM)
+    power = np.maximum(_smooth(about**2, _SWING_FREEDOM), _LEAST_POWER * float(np.mean(about**2)))
+    return np.asarray(about / np.sqrt(np.maximum(power, 1e-300)))
+
+
+def _smooth(values: FloatArray, freedom: int) -> FloatArray:
+    shapes = smooth_shapes(len(values), freedom)
+    return np.asarray(shapes @ np.linalg.lstsq(shapes, values, rcond=None)[0])

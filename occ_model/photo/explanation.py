@@ -1,21 +1,32 @@
 """What explains a photo's stripes: the timing that fits best for given chips."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.envelope import without_trend
 from occ_model.photo.search import Candidate, Search
 from occ_model.photo.stripe_fit import StripeFit, StripeModel, Timing
 from occ_model.photo.tone import CameraTone
 from occ_model.results import Stripes
 from occ_model.transmitter.waveform import Waveform
 
+_SURELY = 0.9
+"""Correlation from which a candidate is no chance."""
+
 _PROMISING = 0.85
 """Share of the best candidate's correlation from which another is fitted too."""
 
-_MOST_FITS = 8
+_MOST_FITS = 6
+_MOST_REFITS = 3
+
+_AROUND = (0.85, 0.93, 1.07, 1.15)
+"""Shares of an exposure that a fit is tried again with."""
+
+_VALLEY = 1e-3
+"""Chips within which fits are the same."""
 
 _AS_GOOD = 1.05
 """By what factor a fit may leave more unexplained than the best and still explain as well."""
@@ -41,11 +52,6 @@ class Explanation:
     chips: ByteArray
     fits: tuple[StripeFit, ...]
     camera: CameraTone
-
-    @property
-    def rest(self) -> float:
-        """Sum of the squares of what the best fit leaves unexplained."""
-        return min(fit.rest for fit in self.fits)
 
     @property
     def correlation(self) -> float:
@@ -99,17 +105,33 @@ def explain(
     """
     if chips.min() == chips.max():
         return None
-    search = Search(stripes.evened, chips)
-    candidates = search.candidates(search.steps() if steps is None else steps, gamma)
+    candidates = _candidates(without_trend(stripes.profile), chips, steps, gamma)
+    if candidates[0].correlation < _SURELY:
+        # Chips that are mostly on, or mostly off, swing about no mean: their levels tell more.
+        others = _candidates(stripes.evened, chips, steps, gamma)
+        candidates = max(candidates, others, key=lambda found: found[0].correlation)
     starts = _promising(candidates)
-    best: Explanation | None = None
+    best: tuple[StripeModel, list[StripeFit], CameraTone] | None = None
     for camera in cameras:
-        model = StripeModel(stripes.profile, Waveform(chips), camera.tone, starts[0].step)
-        fits = _as_good([model.fit(start, with_gamma) for start in starts])
-        found = Explanation(chips, tuple(fits), camera)
-        if best is None or found.rest < best.rest:
-            best = found
-    return best
+        model = StripeModel(
+            stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.grain
+        )
+        fits = _apart([model.fit(start, with_gamma) for start in starts])
+        if best is None or fits[0].rest < best[1][0].rest:
+            best = model, fits, camera
+        # What another camera makes of the light moves a fit a little, not to another exposure.
+        starts = [fit.timing for fit in fits[:_MOST_REFITS]]
+    assert best is not None  # noqa: S101 - there is a camera
+    model, fits, camera = best
+    polished = _apart([_polished(model, fit, with_gamma) for fit in _as_good(fits)])
+    return Explanation(chips, tuple(_as_good(polished)), camera)
+
+
+def _candidates(
+    even: FloatArray, chips: ByteArray, steps: FloatArray | None, gamma: float
+) -> list[Candidate]:
+    search = Search(even, chips)
+    return search.candidates(search.steps() if steps is None else steps, gamma)
 
 
 def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
@@ -118,13 +140,35 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
     return [one.timing for one in candidates if one.correlation >= enough][:_MOST_FITS]
 
 
-def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep the best fit and those as good with another exposure, from the shortest exposure."""
-    least = min(fit.rest for fit in fits)
-    good = sorted((fit for fit in fits if fit.rest <= _AS_GOOD * least), key=lambda fit: fit.rest)
+def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
+    """Keep one fit of each exposure, the best first."""
     kept: list[StripeFit] = []
-    for fit in good:
+    for fit in sorted(fits, key=lambda fit: fit.rest):
         exposures = [other.timing.exposure for other in kept]
         if all(abs(fit.timing.exposure - other) > _SAME_EXPOSURE for other in exposures):
             kept.append(fit)
-    return sorted(kept, key=lambda fit: fit.timing.exposure)
+    return kept
+
+
+def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit:
+    """Fit again round a fit, and take the middle of what is about as likely.
+
+    The lit fraction has corners, and few columns see an edge: what is left unexplained has many
+    small valleys, and which of them is the deepest says little.
+    """
+    around = [replace(fit.timing, exposure=share * fit.timing.exposure) for share in _AROUND]
+    fits = [fit, *(model.fit(timing, with_gamma) for timing in around)]
+    best = min(fits, key=lambda one: one.rest)
+    exposures = [one.timing.exposure for one in fits if one.rest <= best.likely]
+    spread = 0.5 * (max(exposures) - min(exposures))
+    if spread < _VALLEY:
+        return best
+    middle = replace(best.timing, exposure=0.5 * (max(exposures) + min(exposures)))
+    return model.fit(middle, with_gamma, spread)
+
+
+def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
+    """Keep the best fit and those as good with another exposure, from the shortest exposure."""
+    least = min(fit.rest for fit in fits)
+    good = [fit for fit in fits if fit.rest <= _AS_GOOD * least]
+    return sorted(good, key=lambda fit: fit.timing.exposure)

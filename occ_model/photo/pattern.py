@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.envelope import smooth_shapes
+from occ_model.photo.envelope import without_trend
 
 MOST_CHIPS = 128
 """Chips a period can have."""
@@ -29,15 +29,16 @@ _NOISE = 0.01
 
 _MOST_HARMONICS = 160
 
-_COHERENT = 0.9
-"""How sharply edges lie on a lattice of chips, as a share of the sharpest lattice."""
+_COHERENT = 0.93
+"""How sharply edges lie on a lattice of chips, as a share of the sharpest lattice.
+
+Less than all, since gamma makes bright runs longer than dark ones. So of one pulse in a long period
+it cannot be told whether it is 1/8 or 1/9 of it.
+"""
 
 _LEAST_COHERENCE = 0.6
 
 _LEAST_CROSSINGS = 4
-
-_LONGER = 0.2
-"""Chips by which all bright runs may look longer, or shorter, than they are."""
 
 _UNEXPLAINED = 0.15
 """Share of the harmonics' power that the right chips may leave unexplained."""
@@ -64,13 +65,15 @@ class ReadPattern:
     explained: float
 
 
-def read_pattern(evened: FloatArray, period: float) -> ReadPattern | None:
+def read_pattern(profile: FloatArray, evened: FloatArray, period: float) -> ReadPattern | None:
     """Read the shortest repeating sequence of chips that explains the stripes.
 
     Parameters
     ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
     evened : ndarray of float64, shape (columns,)
-        The profile without uneven light.
+        The same without uneven light, from 0 (dark) to 1 (bright).
     period
         Columns after which it repeats.
 
@@ -79,33 +82,39 @@ def read_pattern(evened: FloatArray, period: float) -> ReadPattern | None:
     ReadPattern or None
         None where no sequence does.
     """
-    lines = _harmonics(evened, period)
+    lines = _harmonics(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
     count = _chips_by_edges(evened, period, most)
-    read = None if count is None else _best_chips(lines, count)
-    if read is None or _unexplained(read) > _UNEXPLAINED:
+    read = None if count is None else _coarsest(lines, count)
+    if read is None:
         read = _chips_by_lines(lines, most)
     return None if read is None else ReadPattern(canonical(read.chips), read.explained)
 
 
-def _chips_by_edges(evened: FloatArray, period: float, most: int) -> int | None:
-    """Count the chips of a period by the coarsest lattice that all edges lie on.
+def _coarsest(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
+    """Find the chips that explain the harmonics, as many as given or a divisor of it.
 
-    Rising and falling edges may be apart by a fraction of a chip: gamma makes bright runs longer.
+    An exposure of nearly a chip moves the edges off the chips' lattice, to a finer one.
     """
+    for divisor in range(2, count + 1):
+        if count % divisor == 0:
+            read = _best_chips(lines, divisor)
+            if read is not None and _unexplained(read) <= _UNEXPLAINED:
+                return read
+    return None
+
+
+def _chips_by_edges(evened: FloatArray, period: float, most: int) -> int | None:
+    """Count the chips of a period by the coarsest lattice that all edges lie on."""
     above = evened > 0.5
     before = np.flatnonzero(above[1:] != above[:-1])
     if before.size < _LEAST_CROSSINGS:
         return None
     low, high = evened[before], evened[before + 1]
     edges = before + (0.5 - low) / (high - low)
-    rising = high > low
     count = np.arange(2, most + 1)
     turns = np.exp(2j * np.pi / period * np.outer(count, edges))
-    up, down = turns[:, rising].mean(axis=1), turns[:, ~rising].mean(axis=1)
-    coherence = 0.5 * (np.abs(up) + np.abs(down))
-    longer = np.abs(np.angle(down * np.conj(up))) / (2.0 * np.pi)
-    coherence[longer > _LONGER] = 0.0
+    coherence = np.abs(turns.mean(axis=1))
     if coherence.size == 0 or coherence.max() < _LEAST_COHERENCE:
         return None
     return int(count[np.flatnonzero(coherence >= _COHERENT * coherence.max())[0]])
@@ -139,16 +148,14 @@ def canonical(chips: ByteArray) -> ByteArray:
     return np.array(list(turned), dtype=np.uint8)
 
 
-def _harmonics(evened: FloatArray, period: float) -> NDArray[np.complex128]:
+def _harmonics(even: FloatArray, period: float) -> NDArray[np.complex128]:
     """Give the strength of each harmonic of 1/period, from the first."""
-    columns = len(evened)
+    columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
-    trend = smooth_shapes(columns, 2)
-    rest = evened - trend @ np.linalg.lstsq(trend, evened, rcond=None)[0]
     # Whole periods, or the harmonics leak into each other.
     whole = int(int(columns / period) * period) or columns
     turn = np.exp(-2j * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(whole)))
-    return np.asarray(turn @ rest[:whole] / whole)
+    return np.asarray(turn @ even[:whole] / whole)
 
 
 def _best_chips(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
@@ -194,7 +201,7 @@ def _rounded(levels: FloatArray) -> ByteArray | None:
         if on.all() or not on.any():
             return None
         split = 0.5 * (levels[on].mean() + levels[~on].mean())
-    return (levels > split).astype(np.uint8)
+    return np.asarray(levels > split, dtype=np.uint8)
 
 
 def _likeness(a: NDArray[np.complex128], b: NDArray[np.complex128]) -> float:

@@ -51,12 +51,17 @@ def _rough_period(evened: FloatArray) -> float | None:
     peaks = start + np.flatnonzero(
         (inner >= alike[start - 1 : count - 2]) & (inner >= alike[start + 1 : count])
     )
-    if peaks.size == 0 or alike[peaks].max() < _LEAST_ALIKE:
+    if peaks.size == 0:
         return None
-    lag = int(peaks[alike[peaks] >= alike[peaks].max() - _AS_GOOD][0])
-    before, here, after = alike[lag - 1 : lag + 2].tolist()
-    bend = before - 2.0 * here + after
-    return lag + (0.5 * (before - after) / bend if bend < 0.0 else 0.0)
+    # A short period's peak is missed by up to half a column: a parabola tells its height.
+    before, here, after = alike[peaks - 1], alike[peaks], alike[peaks + 1]
+    bend = np.minimum(before - 2.0 * here + after, -1e-12)
+    aside = np.clip(0.5 * (before - after) / bend, -0.5, 0.5)
+    height = here - 0.25 * (before - after) * aside
+    if height.max() < _LEAST_ALIKE:
+        return None
+    first = int(np.flatnonzero(height >= height.max() - _AS_GOOD)[0])
+    return float(peaks[first] + aside[first])
 
 
 def self_likeness(values: FloatArray) -> FloatArray:
@@ -79,9 +84,9 @@ def self_likeness(values: FloatArray) -> FloatArray:
 
 
 def _refined(evened: FloatArray, period: float) -> tuple[float, float]:
-    """Fit harmonics of the period whose strength varies slowly, by Gauss-Newton steps."""
+    """Fit harmonics of the period, by Gauss-Newton steps."""
     count = len(evened)
-    harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 12)))
+    harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 6)))
     change = 0.1 * period / count  # small against a column at the last stripe
     best, best_rest = period, np.inf
     slope = rest = np.zeros(count)
@@ -95,7 +100,7 @@ def _refined(evened: FloatArray, period: float) -> tuple[float, float]:
         step = -float(slope @ rest) / max(float(slope @ slope), 1e-300)
         period += float(np.clip(step, -0.5 * period**2 / count, 0.5 * period**2 / count))
     rest = _rest(evened, best, harmonics)
-    freedom = max(1, count - 4 * harmonics - 2)
+    freedom = max(1, count - 2 * harmonics - 2)
     variance = float(rest @ rest) / freedom * correlated_columns(rest)
     return best, float(np.sqrt(variance / max(float(slope @ slope), 1e-300)))
 
@@ -106,7 +111,8 @@ def _rest(evened: FloatArray, period: float, harmonics: int) -> FloatArray:
     turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
     waves = np.hstack([np.cos(turn), np.sin(turn)])
     shapes = smooth_shapes(count, 2)
-    parts = np.hstack([shapes, waves, waves * shapes[:, 1:]])
+    # Of one strength all along: one that might vary would make up for a wrong period.
+    parts = np.hstack([shapes, waves])
     products = parts.T @ parts
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
     return np.asarray(evened - parts @ np.linalg.solve(products, parts.T @ evened))

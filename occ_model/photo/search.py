@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.stripe_fit import Timing
 
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
@@ -55,7 +55,11 @@ class Search:
     def __init__(self, evened: FloatArray, chips: ByteArray) -> None:
         about = evened - evened.mean()
         self._columns, self._period = len(evened), len(chips)
-        self._spectrum = np.fft.fft(about, _PADDING * self._columns)
+        size = _PADDING * self._columns
+        # Phases are counted from the middle column, where a step's error moves them least: half a
+        # column off a whole one, which two rounds of the spectrum make whole.
+        turn = np.exp(1j * np.pi * (self._columns - 1) / size * np.arange(2 * size))
+        self._turned = np.tile(np.fft.fft(about, size), 2) * turn
         self._power = float(about @ about)
         self._harmonics = np.arange(1, 2 * self._period + 1)
         lines = np.fft.fft(chips)[self._harmonics % self._period] / self._period
@@ -73,38 +77,42 @@ class Search:
         rough = np.zeros(len(steps))
         for first in range(0, len(steps), _AT_ONCE):
             part = slice(first, first + _AT_ONCE)
+            seen = self._read(steps[part])
             for exposure in _ROUGHLY:
-                rough[part] = np.maximum(rough[part], self._scores(steps[part], exposure)[0])
+                rough[part] = np.maximum(rough[part], self._scores(seen, exposure)[0])
         best = steps[np.argsort(rough)[-_BEST_STEPS:]]
+        seen = self._read(best)
         found = []
         for exposure in EXPOSURES:
-            scores, phases = self._scores(best, exposure)
+            scores, phases = self._scores(seen, exposure)
             top = int(scores.argmax())
             timing = Timing(float(best[top]), exposure, float(phases[top]), gamma)
             found.append(Candidate(timing, float(scores[top])))
         return sorted(found, key=lambda candidate: -candidate.correlation)
 
-    def _scores(self, steps: FloatArray, exposure: float) -> tuple[FloatArray, FloatArray]:
+    def _scores(
+        self, seen: NDArray[np.complex128], exposure: float
+    ) -> tuple[FloatArray, FloatArray]:
         """Give the best correlation over all phases, and the middle phase that gives it."""
         # An exposure is a box too; its middle is where its phase is counted from.
         lines = self._lines * np.sinc(self._harmonics * (exposure / self._period))
         energy = 2.0 * float((np.abs(lines) ** 2).sum()) * self._columns
-        seen = self._read(np.outer(steps, self._harmonics / self._period))
         phases = _PHASES_A_CHIP * self._period
-        products = np.zeros((len(steps), phases // 2 + 1), dtype=np.complex128)
+        products = np.zeros((len(seen), phases // 2 + 1), dtype=np.complex128)
         products[:, self._harmonics] = np.conj(seen) * lines
         sums = np.fft.irfft(products, phases, axis=1) * phases
         best = sums.argmax(axis=1)
-        scores = sums[np.arange(len(steps)), best] / np.sqrt(max(energy * self._power, 1e-300))
-        # The middle of a chip's box is half a chip after its start.
+        scores = sums[np.arange(len(seen)), best] / np.sqrt(max(energy * self._power, 1e-300))
+        # A chip's own box is centred half a chip after its start.
         return scores, best / _PHASES_A_CHIP + 0.5
 
-    def _read(self, frequencies: FloatArray) -> NDArray[np.complex128]:
-        """Read the profile's spectrum at frequencies in cycles a column, about its middle."""
-        size = len(self._spectrum)
-        place = frequencies * size
-        nearest = np.rint(place)
-        middle = 0.5 * (self._columns - 1)
-        index: IndexArray = nearest.astype(np.int64) % size
-        turn = np.exp(2j * np.pi * middle * nearest / size)
-        return np.asarray(self._spectrum[index] * turn)
+    def _read(self, steps: FloatArray) -> NDArray[np.complex128]:
+        """Read the profile's spectrum at the chips' harmonics, about its middle.
+
+        Returns
+        -------
+        ndarray of complex128, shape (steps, harmonics)
+        """
+        rounds = len(self._turned)
+        nearest = np.rint(np.outer(steps, self._harmonics * (rounds / 2 / self._period)))
+        return np.asarray(self._turned[nearest.astype(np.int64) % rounds])

@@ -19,12 +19,18 @@ from occ_model.photo.envelope import smooth_shapes
 from occ_model.photo.uncertainty import correlated_columns
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
+_SMALL = 1e-5
+"""Chips by which a timing is changed to see what the model makes of it."""
+
 Tone = Callable[[FloatArray, float], FloatArray]
 """From lit fractions and a gamma to pixel values between any two levels."""
 
 _FULL = WHITE - 0.5
 _LEAST_KEPT = 0.4
 """Share of the columns that must not be full for the full ones to be left out of the levels."""
+
+_LEAST_SWING = 0.05
+"""Share of the largest swing below which a column tells nothing of the stripes."""
 
 _CHIPS_A_FREEDOM = 6
 _MOST_FREEDOM = 8
@@ -91,6 +97,8 @@ class StripeFit:
         Of data and model, both without the uneven light.
     rest
         Sum of the squares of what the model leaves unexplained.
+    likely
+        A rest up to which another timing is about as likely: by two standard deviations.
     """
 
     timing: Timing
@@ -100,6 +108,7 @@ class StripeFit:
     profile: FloatArray
     correlation: float
     rest: float
+    likely: float
 
 
 class StripeModel:
@@ -115,16 +124,26 @@ class StripeModel:
         The camera's tone.
     step
         Chips a column, roughly: the levels get the freedom that as many chips can bear.
+    grain
+        Columns within which the tone does not follow a change of the timing.
     """
 
-    def __init__(self, profile: FloatArray, waveform: Waveform, tone: Tone, step: float) -> None:
+    def __init__(
+        self,
+        profile: FloatArray,
+        waveform: Waveform,
+        tone: Tone,
+        step: float,
+        grain: float = 0.0,
+    ) -> None:
         self._profile = profile
         self._waveform = waveform
         self._tone = tone
+        self._change = max(_SMALL, grain * step)
         chips = step * len(profile)
         freedom = int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
         self._shapes = smooth_shapes(len(profile), freedom)
-        self._low_freedom = max(1, freedom // 3)
+        self._low_freedom = max(1, freedom // 2)
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
 
@@ -149,24 +168,37 @@ class StripeModel:
         swing = self._shapes @ weights[self._low_freedom :]
         return low, swing, np.minimum(parts @ weights, WHITE)
 
-    def fit(self, start: Timing, with_gamma: bool = False) -> StripeFit:
-        """Fit the times, and gamma if asked, from a first guess."""
+    def fit(self, start: Timing, with_gamma: bool = False, spread: float = 0.0) -> StripeFit:
+        """Fit the times from a first guess.
+
+        Parameters
+        ----------
+        start
+            The guess.
+        with_gamma
+            Whether gamma is fitted too.
+        spread
+            Where it is above nothing the exposure is held, and known to within as many chips.
+        """
         # Slow to import, and only needed when a photo is really matched.
         from scipy.optimize import least_squares
 
         columns = len(self._profile)
-        first = np.array([start.step, start.exposure, start.middle, start.gamma])
-        scale = np.array([0.1 / columns, 0.1, 0.1, 0.3])
         low = np.array([0.5 * start.step, _SHORTEST, -np.inf, _GAMMAS[0]])
         high = np.array([2.0 * start.step, np.inf, np.inf, _GAMMAS[1]])
-        used = 4 if with_gamma else 3
-        if with_gamma:  # from within its bounds
-            first[3] = np.clip(first[3], _GAMMAS[0] + 0.05, _GAMMAS[1] - 0.05)
-        first[1] = max(first[1], 10.0 * _SHORTEST)
+        # From well within the bounds, where a slope can be told.
+        inside = np.array([0.0, 10.0 * _SHORTEST, 0.0, 0.05])
+        first = np.array([start.step, start.exposure, start.middle, start.gamma])
+        first = np.clip(first, low + inside, high - inside)
+        if not with_gamma:
+            first[3] = start.gamma
+        free = np.flatnonzero([True, spread == 0.0, True, with_gamma])
+        scale = np.array([0.1 / columns, 0.1, 0.1, 0.3])[free]
+        change = self._change * np.array([1.0 / columns, 1.0, 1.0, 1.0])[free]
 
         def timing_of(scaled: FloatArray) -> Timing:
             values = first.copy()
-            values[:used] = scaled * scale[:used]
+            values[free] = scaled * scale
             return Timing(*values.tolist())
 
         def rest(scaled: FloatArray) -> FloatArray:
@@ -174,24 +206,25 @@ class StripeModel:
 
         found = least_squares(
             rest,
-            first[:used] / scale[:used],
-            bounds=(low[:used] / scale[:used], high[:used] / scale[:used]),
-            diff_step=1e-4 * np.minimum(1.0, scale[:used] / np.abs(first[:used])),
+            first[free] / scale,
+            bounds=(low[free] / scale, high[free] / scale),
+            diff_step=change / np.maximum(np.abs(first[free]), 1e-12),
             xtol=1e-7, ftol=1e-7, gtol=1e-9, max_nfev=40,
         )  # fmt: skip
         covariance = np.zeros((4, 4))
-        covariance[:used, :used] = (
-            _covariance(found.jac, found.fun) * scale[:used] * scale[:used, None]
-        )
+        covariance[np.ix_(free, free)] = _covariance(found.jac, found.fun) * np.outer(scale, scale)
+        covariance[1, 1] += spread**2 / 3.0  # evenly likely within it
         return self._described(timing_of(found.x), covariance)
 
     def _described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
         low, swing, profile = self.levels(timing)
-        least = 1e-3 * float(np.abs(swing).max()) + 1e-12
+        least = _LEAST_SWING * float(np.abs(swing).max()) + 1e-12
         safe = np.where(np.abs(swing) < least, least, swing)
         correlation = _correlation((self._profile - low) / safe, (profile - low) / safe)
         rest = self._profile - profile
-        return StripeFit(timing, covariance, low, swing, profile, correlation, float(rest @ rest))
+        power = float(rest @ rest)
+        likely = power * (1.0 + 4.0 * correlated_columns(rest) / len(rest))
+        return StripeFit(timing, covariance, low, swing, profile, correlation, power, likely)
 
 
 def _covariance(slopes: FloatArray, rest: FloatArray) -> FloatArray:

@@ -21,8 +21,17 @@ _BANDS = 64
 _ALIKE = 0.25
 """Share of the usual strength with which a row must show the common stripes."""
 
-_EDGE = 0.12
-"""Share of the strongest edges' slope that makes an edge."""
+_EDGE = 0.3
+"""Share of a steep edge's slope that makes an edge: less than a lens darkens the picture's rim."""
+
+_REACH = 4
+"""Columns within which a slope is looked for."""
+
+_FURTHER = 1.6
+"""How much longer than the stripes' own a way between two edges leads out of the panel."""
+
+_STEEP = 0.98
+"""Quantile of all slopes that is a steep edge's: the panel's own rim is steeper."""
 
 _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
@@ -32,6 +41,9 @@ _LEAST_COHERENCE = 0.2
 
 _FULL = 0.996
 """Share of white from which a sample counts as saturated."""
+
+_MOST_FULL = 0.8
+"""Share of the columns that may be white for the others to tell the stripes."""
 
 
 def find_stripes(photo: Photo) -> Stripes:
@@ -67,6 +79,11 @@ def find_stripes(photo: Photo) -> Stripes:
     high = np.maximum(high, low + FLAT)
     found = repeat_period((profile - low) / (high - low))
     period, uncertainty = found if found is not None else (None, None)
+    if np.mean(profile >= _FULL * WHITE) > _MOST_FULL:
+        raise MatchError(
+            "No stripes: nearly all columns of the panel are white; expose less, or choose another "
+            "channel."
+        )
     part = photo.samples[first_row:last_row, first:last]
     full = np.count_nonzero(part >= _FULL * photo.white) / part.size
     return Stripes(
@@ -118,22 +135,37 @@ def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outwa
     first, last = max(0, near - reach), min(rows, near + reach)
     part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)
     strengths = np.diff(part, axis=1) @ common
-    shows = np.flatnonzero(strengths > 0.5 * typical)
-    if shows.size == 0:
+    shows: list[int] = np.flatnonzero(strengths > 0.5 * typical).tolist()
+    if not shows:
         return near
-    return first + int(shows[0]) if outward < 0 else first + int(shows[-1]) + 1
+    return first + shows[0] if outward < 0 else first + shows[-1] + 1
 
 
 def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     """Find the columns from the first edge to the last, and the longest way between two edges."""
-    slopes = np.abs(np.diff(profile))
-    strong = float(np.quantile(slopes, 0.995))
-    edges = np.flatnonzero(slopes > _EDGE * strong) if strong > 0.0 else np.zeros(0, np.int64)
+    slopes = _local_range(profile)
+    steep = float(np.quantile(slopes, _STEEP))
+    edges = np.flatnonzero(slopes > _EDGE * steep) if steep > 0.0 else np.zeros(0, np.int64)
+    gaps = np.diff(edges)
+    # Noise beside the panel has no place among its stripes: it is further off than they are apart.
+    inner = gaps[len(gaps) // 4 : len(gaps) - len(gaps) // 4]
+    longest = int(_FURTHER * inner.max()) if inner.size else 0
+    far = np.flatnonzero(gaps > max(longest, _REACH))
+    before, after = far[far < len(gaps) // 4], far[far >= len(gaps) - len(gaps) // 4]
+    edges = edges[
+        int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
+    ]
     gaps = np.diff(edges)
     if np.count_nonzero(gaps > 1) + 1 < _LEAST_EDGES:
         raise MatchError(
             "No stripes: fewer than three edges between bright and dark columns; come closer to "
             "the panel, or raise its frequency."
         )
-    first, last = int(edges[0]) + 1, int(edges[-1]) + 1
-    return first, last, int(gaps.max())
+    return int(edges[0]), int(edges[-1]) + 1, int(gaps.max())
+
+
+def _local_range(profile: FloatArray) -> FloatArray:
+    """Give by how much the few columns about each differ: more than noise does, on a slope."""
+    kernel = np.ones((1, _REACH), dtype=np.uint8)
+    line = profile[None, :]
+    return np.asarray((cv2.dilate(line, kernel) - cv2.erode(line, kernel))[0], dtype=np.float64)

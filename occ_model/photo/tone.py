@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,6 +21,8 @@ _DARKEST = 0.5
 _STEADY = np.ones(1)
 
 
+_GRAIN = 0.5
+
 AVERAGINGS = ("pixel-value", "light")
 
 
@@ -33,11 +36,14 @@ class CameraTone:
         In the words of the scene's parameters.
     tone
         What comes of it.
+    grain
+        Columns within which it does not follow a change of the timing, as ranks do not.
     """
 
     averaging: str
     enhancement: str
     tone: Tone
+    grain: float = 0.0
 
 
 def camera_tones(
@@ -59,14 +65,15 @@ def camera_tones(
         tone = _camera_tone(scene.replace(averaging=averaging), low, high)
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
-            tones.append(CameraTone(averaging, "equalization", _equalized(tone)))
+            tones.append(CameraTone(averaging, "equalization", _equalized(tone), _GRAIN))
     return tones
 
 
 def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
     """Give the tone of a scene's camera."""
 
-    def tone(lit: FloatArray, gamma: float) -> FloatArray:
+    @lru_cache(maxsize=4)  # a fit asks again and again for the same gamma
+    def levels(gamma: float) -> tuple[Scene, float, float]:
         dark = (low / high) ** gamma if low > _DARKEST else 0.0
         camera = scene.replace(
             gamma=gamma,
@@ -75,7 +82,12 @@ def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
             luminance=_BRIGHT * (1.0 - dark),
         )
         black, white = level_values(camera).tolist()
-        return (panel_values(camera, ColumnLight(lit, _STEADY)) - black) / (white - black)
+        return camera, black, white
+
+    def tone(lit: FloatArray, gamma: float) -> FloatArray:
+        camera, black, white = levels(gamma)
+        values = panel_values(camera, ColumnLight(lit, _STEADY))
+        return np.asarray((values - black) / (white - black))
 
     return tone
 
@@ -88,6 +100,6 @@ def _equalized(tone: Tone) -> Tone:
         in_order = np.sort(values)
         rank = np.searchsorted(in_order, values, side="right").astype(np.float64)
         least, most = float(rank.min()), float(rank.max())
-        return (rank - least) / (most - least) if most > least else values
+        return np.asarray((rank - least) / (most - least)) if most > least else values
 
     return of_rank

@@ -1,0 +1,122 @@
+"""``occ-model match``."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from occ_model.commands.parser import Commands
+from occ_model.declarations import Quantity
+from occ_model.output import write_whole
+from occ_model.parameters import PARAMETERS, parameter_named
+from occ_model.photo.load import CHANNELS, SCAN_AXES, load_photo
+from occ_model.photo.match import ESTIMATES, SENT, match_photo
+from occ_model.results import Match
+from occ_model.scene import Scene
+from occ_model.settings import add_scene_options, scene_of
+
+_ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser("match", help="find the settings that explain a photo")
+    parser.add_argument("file", type=Path, help="image file")
+    add_scene_options(parser)
+    parser.add_argument(
+        "--led-frequency",
+        metavar="FREQUENCY",
+        help="the LED blinks as a plain square wave of so many cycles, such as 1kHz",
+    )
+    parser.add_argument(
+        "--sent",
+        choices=SENT,
+        default="auto",
+        help="scene: what the scene sends; read: read it from the stripes; auto: what fits "
+        "(default)",
+    )
+    parser.add_argument(
+        "--estimate",
+        choices=ESTIMATES,
+        default=ESTIMATES[0],
+        help="the one that is not known; default: %(default)s",
+    )
+    parser.add_argument("--fit-gamma", action="store_true", help="estimate gamma too")
+    parser.add_argument(
+        "--scan-axis", choices=SCAN_AXES, default=SCAN_AXES[0], help="default: %(default)s"
+    )
+    parser.add_argument(
+        "--channel", choices=CHANNELS, default=CHANNELS[0], help="default: %(default)s"
+    )
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write the fitted scene here")
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from tqdm import tqdm
+
+    scene = scene_of(options)
+    if options.led_frequency is not None:
+        scene = _square_wave(scene, options.led_frequency)
+    photo = load_photo(options.file, options.scan_axis, channel=options.channel)
+    with tqdm(
+        total=1.0, file=sys.stderr, bar_format="{l_bar}{bar}|", leave=False, disable=None
+    ) as bar:
+        match = match_photo(
+            photo,
+            scene,
+            estimate=options.estimate,
+            sent=options.sent,
+            fit_gamma=options.fit_gamma,
+            progress=lambda share: bar.update(share - bar.n),
+        )
+    for line in _report(match):
+        print(line)
+    if options.out:
+        write_whole(options.out, match.scene.to_toml().encode("utf-8"))
+        print(f"{options.out}: the fitted scene")
+    return 0
+
+
+def _square_wave(scene: Scene, text: str) -> Scene:
+    """Let the scene send a square wave: two chips to a cycle."""
+    frequency = parameter_named("switching_frequency").parse(text)
+    return scene.replace(pattern="10", switching_frequency=2.0 * float(frequency))
+
+
+def _report(match: Match) -> list[str]:
+    lines = [f"{name:22}{_with_uncertainty(match, name)}" for name in _ESTIMATED]
+    how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
+    chip = 1.0 / (match.switching_frequency * match.readout_time)
+    region, stripes = match.region, match.stripes
+    lines += [
+        f"{'chips':22}{match.pattern} ({how})",
+        f"{'chip length':22}{chip:.3f} columns",
+        f"{'averaging':22}{match.scene.model.averaging}",
+        f"{'region':22}columns {region.first_column} to {region.last_column - 1}, "
+        f"rows {region.first_row} to {region.last_row - 1}",
+        f"{'correlation':22}{match.correlation:.4f}",
+        f"{'residual (RMSE)':22}{match.rmse:.2f} grey levels",
+        f"{'saturated':22}{100.0 * stripes.saturated:.1f} % of the region's pixels",
+    ]
+    if stripes.period is not None:
+        lines.append(
+            f"{'stripes repeat after':22}{stripes.period:.3f} ± {stripes.period_uncertainty:.3f} "
+            "columns"
+        )
+    if match.other_exposures:
+        unit = PARAMETERS["exposure_time"]
+        others = ", ".join(unit.format(t) for t in match.other_exposures)  # type: ignore[arg-type]
+        lines.append(f"{'or as well exposed':22}{others}")
+    return lines
+
+
+def _with_uncertainty(match: Match, name: str) -> str:
+    """Write an estimate with its standard deviation, in the estimate's own unit."""
+    quantity = PARAMETERS[name]
+    assert isinstance(quantity, Quantity)  # noqa: S101 - all that is estimated is one
+    value = getattr(match, name)
+    deviation = match.uncertainties.get(name)
+    if deviation is None:
+        return f"{quantity.format(value)} (known)"
+    symbol, worth = quantity.unit.display(value)
+    return f"{value / worth:.6g} ± {deviation / worth:.2g} {symbol}".rstrip()

@@ -1,0 +1,190 @@
+"""What a match is asked and answers, and how it refuses."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from simulated_photos import photo_of, random_scene, take
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.exit_codes import EXIT_MISUSE
+from occ_model.output import write_image
+
+SCENE = random_scene(6)
+PHOTO = take(SCENE)
+TOLD = SCENE.replace(readout_time=1e-6, exposure_time=1e-3, start_time=0.0)
+
+
+def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
+    match = occ.match_photo(PHOTO, TOLD)
+    frame = occ.render(match.scene, tolerance=math.inf)
+    assert frame.image.shape == PHOTO.samples.shape
+    assert frame.corners.min(axis=0) == pytest.approx(
+        (match.region.first_column - 0.5, match.region.first_row - 0.5), abs=0.01
+    )
+    seen = slice(match.region.first_column, match.region.last_column)
+    comparison = occ.compare(match.stripes.evened, frame.profile[seen])
+    assert comparison.correlation > 0.99
+    # Its levels are the photo's, in the middle of uneven light.
+    assert np.median(frame.profile[seen]) == pytest.approx(np.median(match.profile), rel=0.2)
+
+
+def test_the_residual_is_the_photo_less_the_aligned_profile() -> None:
+    match = occ.match_photo(PHOTO, TOLD)
+    assert np.allclose(match.residual, match.stripes.profile - match.profile)
+    assert match.rmse == pytest.approx(float(np.sqrt(np.mean(match.residual**2))))
+
+
+def test_either_of_frequency_and_readout_time_is_estimated_from_the_other() -> None:
+    readout, frequency = SCENE.camera.readout_time, SCENE.transmitter.switching_frequency
+    one = occ.match_photo(PHOTO, TOLD)
+    other = occ.match_photo(
+        PHOTO,
+        TOLD.replace(readout_time=readout, switching_frequency=1e3),
+        estimate="switching_frequency",
+    )
+    assert one.readout_time == pytest.approx(readout, rel=1e-4)
+    assert other.switching_frequency == pytest.approx(frequency, rel=1e-4)
+    assert set(one.uncertainties) == {"readout_time", "exposure_time", "start_time"}
+    assert set(other.uncertainties) == {"switching_frequency", "exposure_time", "start_time"}
+
+
+def test_an_unknown_code_is_read_as_the_packet_it_is() -> None:
+    other = (SCENE.transmitter.code + 321) % 1024
+    match = occ.match_photo(PHOTO, TOLD.replace(code=other))
+    assert match.pattern_was_read
+    assert match.scene.transmitter.code == SCENE.transmitter.code
+    assert match.scene.transmitter.pattern == ""
+    late = match.start_time - SCENE.model.start_time
+    period = 24.0 / SCENE.transmitter.switching_frequency
+    assert (late + period / 2) % period - period / 2 == pytest.approx(0.0, abs=0.02 * period / 24)
+
+
+def test_only_what_the_scene_sends_is_tried_where_that_is_asked() -> None:
+    other = TOLD.replace(code=(SCENE.transmitter.code + 321) % 1024)
+    with pytest.raises(occ.MatchError, match="What the scene sends does not explain"):
+        occ.match_photo(PHOTO, other, sent="scene")
+
+
+def test_what_never_changes_is_no_explanation() -> None:
+    with pytest.raises(occ.MatchError, match="never changes"):
+        occ.match_photo(PHOTO, TOLD.replace(pattern="1111"), sent="scene")
+
+
+def test_gamma_is_estimated_with_an_uncertainty_where_it_is_asked() -> None:
+    scene = SCENE.replace(averaging="light", gamma=1.8, illuminance=0.0)
+    match = occ.match_photo(take(scene), scene.replace(gamma=2.4), fit_gamma=True)
+    assert match.gamma == pytest.approx(1.8, abs=0.1)
+    assert match.uncertainties["gamma"] > 0.0
+    assert match.scene.camera.gamma == match.gamma
+
+
+def test_what_the_camera_noted_goes_into_the_scene() -> None:
+    noted = occ.Photo(
+        path=PHOTO.path, samples=PHOTO.samples, white=255, image=PHOTO.image,
+        profile=PHOTO.profile, turned=False, channel="grey", iso=640.0, f_number=1.8,
+    )  # fmt: skip
+    camera = occ.match_photo(noted, TOLD).scene.camera
+    assert (camera.iso, camera.f_number) == (640.0, 1.8)
+
+
+def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
+    assert occ.match_photo(PHOTO, TOLD).scene.model.averaging == SCENE.model.averaging
+    given = occ.match_photo(PHOTO, TOLD, averaging="pixel-value")
+    assert given.scene.model.averaging == "pixel-value"
+
+
+def test_progress_rises_to_all_of_it_and_what_it_raises_ends_the_match() -> None:
+    shares: list[float] = []
+    occ.match_photo(PHOTO, TOLD, progress=shares.append)
+    assert shares == sorted(shares)
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+
+    def stop(share: float) -> None:
+        if share > 0.1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        occ.match_photo(PHOTO, TOLD, progress=stop)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("estimate", "gamma"), ("sent", "nothing"), ("averaging", "median")]
+)
+def test_a_word_that_is_none_of_the_choices_is_refused(name: str, value: str) -> None:
+    with pytest.raises(occ.ParameterError, match=f"{name} is '{value}'; allowed: "):
+        occ.match_photo(PHOTO, TOLD, **{name: value})  # type: ignore[arg-type]
+
+
+def test_stripes_that_no_parameter_explains_are_refused() -> None:
+    slow = TOLD.replace(switching_frequency=1.0)  # a readout of many milliseconds a column
+    match = occ.match_photo(PHOTO, slow)
+    assert match.readout_time > 1e-3
+    with pytest.raises(occ.MatchError, match="cannot be: exposure_time is"):
+        occ.match_photo(PHOTO, TOLD.replace(switching_frequency=1e9))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_no_picture_crashes_a_match(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    shape = tuple(random.integers(1, 200, 2).tolist())
+    image = random.integers(0, 256, shape).astype(np.uint8)
+    if seed % 4 == 1:
+        image = np.sort(image, axis=1)
+    if seed % 4 == 2:
+        image = np.repeat(image[:1], shape[0], axis=0)
+    if seed % 4 == 3:
+        image = (image > 127).astype(np.uint8) * 255
+    try:
+        match = occ.match_photo(photo_of(image), TOLD)
+    except occ.MatchError:
+        return
+    assert match.correlation >= 0.8
+
+
+class TestCommand:
+    @pytest.fixture
+    def file(self, tmp_path: Path) -> Path:
+        path = tmp_path / "photo.png"
+        write_image(path, PHOTO.image)
+        return path
+
+    @pytest.fixture
+    def told(self, tmp_path: Path) -> Path:
+        path = tmp_path / "scene.toml"
+        path.write_text(TOLD.to_toml(), encoding="utf-8")
+        return path
+
+    def test_it_prints_what_was_found_with_uncertainties(
+        self, file: Path, told: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        fitted = tmp_path / "fitted.toml"
+        assert main(["match", str(file), "--scene", str(told), "--out", str(fitted)]) == 0
+        lines = capsys.readouterr().out
+        assert re.search(r"readout_time +[\d.]+ ± [\d.e-]+ µs", lines)
+        assert re.search(r"switching_frequency .*\(known\)", lines)
+        assert re.search(r"correlation +0\.9\d", lines)
+        scene = occ.Scene.from_toml(fitted.read_text(encoding="utf-8"))
+        assert scene.camera.readout_time == pytest.approx(SCENE.camera.readout_time, rel=1e-3)
+
+    def test_a_square_wave_is_two_chips_a_cycle(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        path = tmp_path / "wave.png"
+        wave = np.tile(np.repeat([20, 200], 25).astype(np.uint8), (60, 12))
+        write_image(path, wave)
+        assert main(["match", str(path), "--led-frequency", "1kHz"]) == 0
+        lines = capsys.readouterr().out
+        assert re.search(r"switching_frequency +2 kHz", lines)
+        assert re.search(r"readout_time +(20\.0\d*|19\.99\d*|20) ±", lines)
+
+    def test_what_cannot_be_matched_is_said(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        path = tmp_path / "flat.png"
+        write_image(path, np.full((50, 60), 90, np.uint8))
+        assert main(["match", str(path)]) == EXIT_MISUSE
+        assert "No stripes" in capsys.readouterr().err

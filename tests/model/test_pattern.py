@@ -1,0 +1,75 @@
+"""Chips are read from their stripes up to where they start."""
+
+from itertools import groupby
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from occ_model.arrays import ByteArray
+from occ_model.photo.pattern import canonical, read_pattern
+from occ_model.photo.stripe_fit import Timing
+from occ_model.transmitter.waveform import Waveform
+
+PATTERNS = st.lists(st.integers(0, 1), min_size=2, max_size=26).map(
+    lambda chips: np.array(chips, dtype=np.uint8)
+)
+
+
+def stripes_of(chips: ByteArray, exposure: float, chip: float, phase: float) -> np.ndarray:
+    """Lit fractions over four periods."""
+    timing = Timing(1.0 / chip, exposure, phase, 2.22)
+    return timing.lit_fraction(Waveform(chips), int(4.0 * len(chips) * chip))
+
+
+def is_unambiguous(chips: str) -> bool:
+    """Whether it is of several pulses, and its runs are no multiples of two chips or more."""
+    turned = chips[chips.index("0") :] + chips[: chips.index("0")]
+    runs = [len(list(run)) for _, run in groupby(turned)]
+    return chips == "10" or (len(runs) >= 6 and min(runs) == 1)
+
+
+def text(chips: ByteArray) -> str:
+    return "".join(map(str, chips.tolist()))
+
+
+@given(
+    chips=PATTERNS,
+    exposure=st.floats(0.05, 0.7),
+    chip=st.floats(4.0, 20.0),
+    phase=st.floats(0.0, 1.0),
+    seed=st.integers(0, 99),
+)
+def test_a_sharp_pattern_is_read(
+    chips: ByteArray, exposure: float, chip: float, phase: float, seed: int
+) -> None:
+    assume(0 < chips.sum() < len(chips))
+    shortest = canonical(chips)
+    assume(is_unambiguous(text(shortest)))
+    stripes = stripes_of(shortest, exposure, chip, phase)
+    stripes += 0.01 * np.random.default_rng(seed).standard_normal(len(stripes))
+    read = read_pattern(stripes, stripes, len(shortest) * chip)
+    assert read is not None
+    assert text(read.chips) == text(shortest)
+
+
+@pytest.mark.parametrize("exposure", [1.3, 1.8, 2.4, 2.7])
+def test_an_exposure_of_several_chips_is_undone(exposure: float) -> None:
+    chips = np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0], dtype=np.uint8)
+    stripes = stripes_of(chips, exposure, 9.3, 0.4)
+    read = read_pattern(stripes, stripes, 18 * 9.3)
+    assert read is not None
+    assert text(read.chips) == text(canonical(chips))
+
+
+@given(PATTERNS, st.integers(0, 30), st.integers(1, 3))
+def test_the_canonical_form_knows_no_start_and_no_repetition(
+    chips: ByteArray, turn: int, times: int
+) -> None:
+    assert text(canonical(np.tile(np.roll(chips, turn), times))) == text(canonical(chips))
+
+
+def test_no_chips_are_read_from_noise() -> None:
+    noise = np.random.default_rng(4).standard_normal(1000)
+    assert read_pattern(noise, noise, 120.0) is None

@@ -1,0 +1,107 @@
+"""Stripes are found where the panel is, with their period; where there are none it is said."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from simulated_photos import photo_of, random_scene, take
+
+import occ_model as occ
+from occ_model.camera.projection import panel_corners
+from occ_model.photo.period import repeat_period, self_likeness
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_region_is_the_panels(seed: int) -> None:
+    scene = random_scene(seed)
+    corners = panel_corners(scene)
+    columns, rows = scene.camera.columns, scene.camera.rows
+    region = occ.find_stripes(take(scene, seed)).region
+    # JPEG rings for a block beyond the rim; a dark chip at the rim is as dark as what is beside it.
+    chip = 1.0 / (scene.camera.readout_time * scene.transmitter.switching_frequency)
+    assert region.first_column == pytest.approx(max(corners[:, 0].min(), 0), abs=16 + 5 * chip)
+    assert region.last_column == pytest.approx(min(corners[:, 0].max(), columns), abs=16 + 5 * chip)
+    assert region.first_row == pytest.approx(max(corners[:, 1].min(), 0), abs=16)
+    assert region.last_row == pytest.approx(min(corners[:, 1].max(), rows), abs=16)
+
+
+def test_the_period_is_that_of_the_packet_within_its_uncertainty() -> None:
+    off = []
+    for seed in range(25):
+        scene = random_scene(seed)
+        stripes = occ.find_stripes(take(scene, seed))
+        packet = 24.0 / (scene.camera.readout_time * scene.transmitter.switching_frequency)
+        if stripes.period is not None:
+            assert stripes.period == pytest.approx(packet, rel=0.02)
+            assert stripes.period_uncertainty is not None
+            off.append(abs(stripes.period - packet) / stripes.period_uncertainty)
+        else:
+            assert len(stripes.profile) < 2.0 * packet
+    assert len(off) > 12
+    assert np.mean(np.array(off) < 3.0) > 0.85
+
+
+@given(period=st.floats(6.0, 120.0), phase=st.floats(0.0, 1.0), seed=st.integers(0, 999))
+def test_a_noisy_waves_period_is_found(period: float, phase: float, seed: int) -> None:
+    columns = np.arange(900)
+    noise = 0.05 * np.random.default_rng(seed).standard_normal(900)
+    found = repeat_period(0.5 + 0.5 * np.sin(2 * np.pi * (columns / period + phase)) + noise)
+    assert found is not None
+    assert found[0] == pytest.approx(period, rel=2e-3)
+    assert abs(found[0] - period) < 6.0 * found[1]
+
+
+def test_noise_has_no_period() -> None:
+    noise = np.random.default_rng(1).standard_normal(2000)
+    assert repeat_period(noise) is None
+
+
+@given(st.lists(st.floats(0.0, 255.0), min_size=2, max_size=50))
+def test_likeness_with_itself_is_at_most_one_and_one_at_no_lag(values: list[float]) -> None:
+    alike = self_likeness(np.array(values))
+    assert np.all(np.abs(alike) <= 1.0 + 1e-6)
+    if np.ptp(values) > 1e-3:
+        assert alike[0] == pytest.approx(1.0)
+
+
+def test_deep_pictures_give_the_same_stripes_as_shallow_ones() -> None:
+    shallow = take(random_scene(3), 3)
+    deep = occ.Photo(
+        path=shallow.path,
+        samples=shallow.samples.astype(np.uint16) * 257,
+        white=65535,
+        image=shallow.image,
+        profile=shallow.profile,
+        turned=False,
+        channel="grey",
+    )
+    one, other = occ.find_stripes(shallow), occ.find_stripes(deep)
+    assert one.region == other.region
+    assert np.allclose(one.profile, other.profile, atol=1e-6)
+
+
+def test_the_share_of_white_pixels_is_told() -> None:
+    image = np.tile(np.repeat([20, 255, 20, 255, 255], 12).astype(np.uint8), (50, 8))
+    assert occ.find_stripes(photo_of(image)).saturated == pytest.approx(0.6, abs=0.05)
+
+
+def test_a_panel_that_is_nearly_all_white_is_refused() -> None:
+    image = np.tile(np.repeat([20] + 19 * [255], 6).astype(np.uint8), (50, 8))
+    with pytest.raises(occ.MatchError, match="white"):
+        occ.find_stripes(photo_of(image))
+
+
+@pytest.mark.parametrize(
+    ("image", "why"),
+    [
+        (np.full((40, 200), 90, np.uint8), "alike"),
+        (np.random.default_rng(1).integers(0, 256, (300, 400)).astype(np.uint8), "vary together"),
+        (np.full((40, 9), 90, np.uint8), "at least 16"),
+        (np.repeat(np.array([[10] * 60 + [200] * 60], np.uint8), 50, axis=0), "three edges"),
+        (np.full((50, 300), 255, np.uint8), "alike"),
+    ],
+    ids=["flat", "noise", "narrow", "one-edge", "white"],
+)
+def test_what_shows_no_stripes_is_refused_in_a_sentence(image: np.ndarray, why: str) -> None:
+    with pytest.raises(occ.MatchError, match=why):
+        occ.find_stripes(photo_of(image))

@@ -1,0 +1,93 @@
+"""What is known of the two real photographs is found in them."""
+
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+
+pytestmark = pytest.mark.photos
+
+STRIPES = "01010" + "0010110001001000"
+"""The pattern that VLCDetector's transmitter sends over and over."""
+
+
+@pytest.fixture(scope="module")
+def led(photos: Path) -> occ.Photo:
+    return occ.load_photo(photos / "led_1khz_frame.png")
+
+
+@pytest.fixture(scope="module")
+def square_wave(led: occ.Photo) -> occ.Match:
+    scene = occ.load_preset("phone-68us").replace(pattern="10", switching_frequency=2e3)
+    return occ.match_photo(led, scene)
+
+
+@pytest.fixture(scope="module")
+def stripes(photos: Path) -> occ.Match:
+    return occ.match_photo(
+        occ.load_photo(photos / "vlcdetector_stripes.png"), occ.load_preset("phone-68us")
+    )
+
+
+def test_lines_are_found_to_be_the_scan_axis(led: occ.Photo) -> None:
+    assert led.turned
+    assert led.samples.shape == (1920, 1080)
+
+
+def test_the_readout_is_what_was_measured(square_wave: occ.Match) -> None:
+    assert square_wave.readout_time == pytest.approx(14.565e-6, rel=0.003)
+
+
+def test_the_exposure_is_what_the_camera_was_set_to(square_wave: occ.Match) -> None:
+    assert square_wave.exposure_time == pytest.approx(62.5e-6, rel=0.1)
+
+
+def test_the_square_wave_explains_the_photo(square_wave: occ.Match) -> None:
+    assert square_wave.correlation >= 0.99
+    assert not square_wave.pattern_was_read
+
+
+def test_light_is_averaged_in_a_real_camera_not_pixel_values(
+    square_wave: occ.Match, stripes: occ.Match
+) -> None:
+    assert square_wave.scene.model.averaging == stripes.scene.model.averaging == "light"
+
+
+def test_the_frequency_comes_out_where_the_readout_is_known(led: occ.Photo) -> None:
+    scene = occ.load_preset("phone-68us").replace(pattern="10", readout_time=14.565e-6)
+    match = occ.match_photo(led, scene, estimate="switching_frequency")
+    assert match.switching_frequency == pytest.approx(2e3, rel=0.003)
+
+
+def test_the_square_wave_is_read_where_it_is_not_told(
+    led: occ.Photo, square_wave: occ.Match
+) -> None:
+    scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
+    match = occ.match_photo(led, scene, sent="read")
+    assert match.pattern == "10"
+    assert match.exposure_time == pytest.approx(square_wave.exposure_time, rel=0.05)
+
+
+def test_all_chips_are_read_without_being_told(stripes: occ.Match) -> None:
+    assert stripes.pattern_was_read
+    assert len(stripes.pattern) == len(STRIPES) == 21
+    assert stripes.pattern in STRIPES + STRIPES
+
+
+def test_a_chip_has_its_length_in_columns(stripes: occ.Match) -> None:
+    columns = 1.0 / (stripes.readout_time * stripes.switching_frequency)
+    assert columns == pytest.approx(13.9, rel=0.01)
+
+
+def test_the_profile_is_explained_in_spite_of_saturation(stripes: occ.Match) -> None:
+    assert stripes.correlation >= 0.97
+    assert stripes.stripes.saturated > 0.1
+
+
+def test_the_fitted_scene_shows_the_photo(square_wave: occ.Match, led: occ.Photo) -> None:
+    frame = occ.render(square_wave.scene, tolerance=float("inf"))
+    assert frame.image.shape == led.samples.shape
+    region = square_wave.region
+    simulated = frame.profile[region.first_column : region.last_column]
+    assert occ.compare(square_wave.stripes.evened, simulated).correlation > 0.99

@@ -1,0 +1,104 @@
+"""The fit inverts the exact exposure integral."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from simulated_photos import photo_of
+
+import occ_model as occ
+from occ_model.camera.enhancement import to_bytes
+from occ_model.photo.search import Search
+from occ_model.photo.stripe_fit import StripeModel, Timing
+from occ_model.photo.tone import camera_tones
+from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.waveform import Waveform
+
+CHIPS = sent_chips(occ.Scene().transmitter)
+
+
+def identity(lit: np.ndarray, _gamma: float) -> np.ndarray:
+    return lit
+
+
+def spread(index: int, low: float, high: float) -> float:
+    """Numbers that fill a range evenly, none a simple fraction of another."""
+    return low + (high - low) * (index * (math.sqrt(5.0) - 1.0) / 2.0 % 1.0)
+
+
+@pytest.mark.parametrize("index", range(1, 25))
+def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
+    step, exposure = spread(index, 0.03, 0.4), spread(7 * index, 0.2, 4.0)
+    middle = spread(31 * index, 0.0, 24.0)
+    true = Timing(step, exposure, middle, 2.22)
+    profile = 40.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), 2000)
+    candidates = Search(profile, CHIPS).candidates(Search(profile, CHIPS).steps(), 2.22)
+    model = StripeModel(profile, Waveform(CHIPS), identity, step)
+    fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.rest)
+    assert fit.timing.step == pytest.approx(step, rel=1e-6)
+    assert fit.timing.exposure == pytest.approx(exposure, rel=1e-3)
+    late = (fit.timing.middle - middle + 12.0) % 24.0 - 12.0
+    assert late == pytest.approx(0.0, abs=1e-3)
+    assert fit.correlation > 0.999999
+
+
+def test_gamma_comes_back_where_it_is_asked_for() -> None:
+    scene = occ.Scene().replace(averaging="light", gamma=2.6, illuminance=400.0)
+    model_tone = camera_tones(scene, ("light",), 80.0, 220.0)[0].tone
+    true = Timing(0.08, 0.7, 5.3, 2.6)
+    tone = model_tone(true.lit_fraction(Waveform(CHIPS), 2500), 2.6)
+    model = StripeModel(80.0 + 140.0 * tone, Waveform(CHIPS), model_tone, 0.08)
+    fit = model.fit(Timing(0.08, 0.6, 5.35, 2.0), with_gamma=True)
+    assert fit.timing.gamma == pytest.approx(2.6, rel=1e-3)
+    assert fit.timing.exposure == pytest.approx(0.7, rel=1e-3)
+
+
+@given(exposure=st.floats(0.05, 0.95), turns=st.integers(1, 3))
+def test_a_square_wave_looks_the_same_at_exposures_that_add_up_to_its_periods(
+    exposure: float, turns: int
+) -> None:
+    """Its moving average is a trapezoid whose ramps last the exposure up to the next period."""
+    waveform = Waveform(np.array([1, 0], dtype=np.uint8))
+    one = Timing(0.07, exposure, 0.3, 2.22).lit_fraction(waveform, 500)
+    other = Timing(0.07, 2.0 * turns - exposure, 0.3, 2.22).lit_fraction(waveform, 500)
+    swing = np.ptp(other) / np.ptp(one)
+    turned = np.abs(np.corrcoef(one, other)[0, 1])
+    assert turned == pytest.approx(1.0, abs=1e-9)
+    assert swing == pytest.approx(exposure / (2.0 * turns - exposure), rel=0.05)
+
+
+def square_wave_photo() -> tuple[occ.Photo, occ.Scene]:
+    scene = occ.Scene().replace(
+        pattern="10", switching_frequency=5e3, exposure_time=60e-6, readout_time=11e-6,
+        columns=1500, rows=60, panel_width=5.0, panel_height=5.0, enhancement="none",
+    )  # fmt: skip
+    return photo_of(occ.render(scene, tolerance=math.inf).image), scene
+
+
+def test_the_exposures_that_explain_a_square_wave_as_well_are_named() -> None:
+    photo, scene = square_wave_photo()
+    match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
+    assert match.exposure_time == pytest.approx(60e-6, rel=0.01)
+    assert match.other_exposures[0] == pytest.approx(2 * 200e-6 - 60e-6, rel=0.01)
+
+
+def test_what_the_camera_noted_decides_among_them() -> None:
+    photo, scene = square_wave_photo()
+    noted = occ.Photo(
+        path=photo.path, samples=photo.samples, white=255, image=photo.image,
+        profile=photo.profile, turned=False, channel="grey", exposure_time=1.0 / 3000.0,
+    )  # fmt: skip
+    match = occ.match_photo(noted, scene.replace(readout_time=1e-6))
+    assert match.exposure_time == pytest.approx(340e-6, rel=0.01)
+
+
+@pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])
+def test_the_windows_own_picture_is_explained(enhancement: str) -> None:
+    """Equalized histograms too, which keep the order of the column values and nothing else."""
+    scene = occ.load_preset("phone-136us").replace(enhancement=enhancement)
+    picture = np.repeat(to_bytes(occ.render(scene, tolerance=math.inf).enhanced)[None], 40, 0)
+    match = occ.match_photo(photo_of(picture), scene.replace(readout_time=1e-6))
+    assert match.readout_time == pytest.approx(8e-6, rel=0.002)
+    assert match.exposure_time == pytest.approx(136e-6, rel=0.1)

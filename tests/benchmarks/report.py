@@ -9,46 +9,22 @@ import argparse
 import os
 import subprocess
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 from math import inf
 from pathlib import Path
-from statistics import median
-from time import perf_counter
+
+from measuring import Row, side_by_side
+from photos import match_cost, reading_cost
 
 import occ_model as occ
 from occ_model.camera.enhancement import enhance
 from occ_model.receiver.code_book import code_book
 from occ_model.scene import Scene
 
-_ROUNDS = 41
 _COLD_STARTS = 7
 _FIRST_FRAME = Path(__file__).with_name("first_frame.py")
 _PEAK_MEMORY = Path(__file__).with_name("peak_memory.py")
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of the report."""
-
-    what: str
-    measured: str
-    wanted: str
-
-
-def side_by_side(*things: Callable[[], object], rounds: int = _ROUNDS) -> list[float]:
-    """Time things in turn, round after round; return the median seconds of each."""
-    times: list[list[float]] = [[] for _ in things]
-    for thing in things:
-        thing()
-    for _ in range(rounds):
-        for thing, seconds in zip(things, times, strict=True):
-            start = perf_counter()
-            thing()
-            seconds.append(perf_counter() - start)
-    return [median(seconds) for seconds in times]
 
 
 def profile_cost() -> Row:
@@ -246,6 +222,8 @@ _ALL = (
     profile_path_cost,
     matched_cost,
     code_book_cost,
+    match_cost,
+    reading_cost,
     cold_start,
 )
 

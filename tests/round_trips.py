@@ -1,0 +1,56 @@
+"""Photos of known scenes, matched: how far off what is found is."""
+
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+
+import numpy as np
+from simulated_photos import random_scene, take
+
+import occ_model as occ
+
+
+@dataclass(frozen=True)
+class Found:
+    """How far off one photo's match is."""
+
+    seed: int
+    exposure_in_chips: float
+    failure: str = ""
+    readout: float = np.inf
+    exposure: float = np.inf
+    deviations: tuple[float, ...] = ()
+
+
+def round_trip(seed: int) -> Found:
+    """Simulate a photo and match it, told what was sent and how fast, and nothing else."""
+    scene = random_scene(seed)
+    camera, frequency = scene.camera, scene.transmitter.switching_frequency
+    in_chips = camera.exposure_time * frequency
+    told = scene.replace(readout_time=1e-6, exposure_time=1.0, start_time=0.0)
+    try:
+        match = occ.match_photo(take(scene, seed), told)
+    except occ.MatchError as why:
+        return Found(seed, in_chips, str(why))
+    period = len(match.pattern) / frequency
+    late = (match.start_time - scene.model.start_time + period / 2) % period - period / 2
+    off = {
+        "readout_time": match.readout_time - camera.readout_time,
+        "exposure_time": match.exposure_time - camera.exposure_time,
+        "start_time": late,
+    }
+    return Found(
+        seed,
+        in_chips,
+        readout=abs(off["readout_time"]) / camera.readout_time,
+        exposure=abs(off["exposure_time"]) / camera.exposure_time,
+        deviations=tuple(abs(off[name]) / match.uncertainties[name] for name in off),
+    )
+
+
+def round_trips(seeds: Iterable[int]) -> list[Found]:
+    """Match many photos, on two cores."""
+    # Processes that begin anew: a fork of one that has run Qt may hang.
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        return list(pool.map(round_trip, seeds, chunksize=5))

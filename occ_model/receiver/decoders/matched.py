@@ -29,7 +29,11 @@ _LIKELY = 16
 """Codes that are compared more closely."""
 
 _CODES_AT_ONCE = 4096
-"""Codes compared in one product, so that codes of 16 bits need no gigabytes."""
+"""Codes compared at once, so that codes of 16 bits need no gigabytes."""
+
+_ONE_THREAD = 2**18
+"""Multiplications up to which OpenBLAS starts no threads. They would wait for each other: where the
+processor has other work, too, one large product takes many times as long as small ones."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -132,7 +136,7 @@ def _most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexA
     with_chips = with_response[places % bins]
     best, phase = [], []
     for start in range(0, len(book.chips), _CODES_AT_ONCE):
-        products = book.chips[start : start + _CODES_AT_ONCE] @ with_chips
+        products = _products(book.chips[start : start + _CODES_AT_ONCE], with_chips)
         phases = products.argmax(axis=1)
         best.append(np.take_along_axis(products, phases[:, None], axis=1)[:, 0])
         phase.append(phases)
@@ -140,6 +144,16 @@ def _most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexA
     count = min(_LIKELY, len(scores))
     likely = np.argpartition(scores, -count)[-count:]
     return likely, np.concatenate(phase)[likely]
+
+
+def _products(chips: FloatArray, signal: FloatArray) -> FloatArray:
+    """Multiply two matrices in pieces that one thread does alone."""
+    products = np.empty((len(chips), signal.shape[1]))
+    step = max(1, _ONE_THREAD // signal.size)
+    for first in range(0, len(chips), step):
+        piece = slice(first, first + step)
+        np.matmul(chips[piece], signal, out=products[piece])
+    return products
 
 
 def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -17,6 +17,7 @@ from occ_model.effects.plan import plan
 from occ_model.errors import (
     BandModelUndefined,
     DecodeInputError,
+    MatchError,
     OccError,
     OutputError,
     ParameterError,
@@ -25,25 +26,45 @@ from occ_model.errors import (
     ProjectionError,
     SceneFileError,
 )
+from occ_model.photo.comparison import compare
 from occ_model.photo.load import Photo, load_photo
+from occ_model.photo.match import match_photo
+from occ_model.photo.stripes import find_stripes
 from occ_model.presets import load_preset, presets
 from occ_model.receiver.decode import decode
-from occ_model.results import Decision, DecodeResult, Frame, Plan, Region
+from occ_model.results import (
+    Comparison,
+    Decision,
+    DecodeResult,
+    Frame,
+    Limits,
+    Match,
+    Plan,
+    Region,
+    Stripes,
+    SweepTable,
+)
 from occ_model.scene import Scene
 from occ_model.simulation import render
 from occ_model.simulation_settings import SimulationSettings
 from occ_model.study.accuracy import accuracy
 from occ_model.study.confidence import wilson_interval
+from occ_model.study.limits import limits
 from occ_model.study.success_rate import success_rate
+from occ_model.study.sweep import sweep
 from occ_model.transmitter.packet import packet
 from occ_model.version import __version__
 
 __all__ = [
     "BandModelUndefined",
+    "Comparison",
     "Decision",
     "DecodeInputError",
     "DecodeResult",
     "Frame",
+    "Limits",
+    "Match",
+    "MatchError",
     "OccError",
     "OutputError",
     "ParameterError",
@@ -56,14 +77,20 @@ __all__ = [
     "Scene",
     "SceneFileError",
     "SimulationSettings",
+    "Stripes",
+    "SweepTable",
     "__version__",
     "accuracy",
     "band_lengths",
     "band_profile",
     "column_profile",
+    "compare",
     "decode",
+    "find_stripes",
+    "limits",
     "load_photo",
     "load_preset",
+    "match_photo",
     "on_time",
     "packet",
     "panel_corners",
@@ -71,5 +98,6 @@ __all__ = [
     "presets",
     "render",
     "success_rate",
+    "sweep",
     "wilson_interval",
 ]

@@ -5,12 +5,22 @@ import os
 import sys
 from collections.abc import Sequence
 
-from occ_model.commands import accuracy, decode, figures, listing, plan, render
+from occ_model.commands import (
+    accuracy,
+    decode,
+    figures,
+    limits,
+    listing,
+    match,
+    plan,
+    render,
+    sweep,
+)
 from occ_model.errors import OccError
 from occ_model.exit_codes import EXIT_FAILURE, EXIT_MISUSE
 from occ_model.version import __version__
 
-_COMMANDS = (render, plan, accuracy, decode, figures, listing)
+_COMMANDS = (render, plan, accuracy, sweep, limits, decode, match, figures, listing)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -3,6 +3,7 @@
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.frame import Frame
+from occ_model.results.limits import Edge, Limits, Reach, Trial
 from occ_model.results.match import Comparison, Match, Stripes
 from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
@@ -16,11 +17,14 @@ __all__ = [
     "Comparison",
     "Decision",
     "DecodeResult",
+    "Edge",
     "Frame",
+    "Limits",
     "Location",
     "Match",
     "Plan",
     "RateSettings",
+    "Reach",
     "Region",
     "RunHistogram",
     "Runs",
@@ -29,5 +33,6 @@ __all__ = [
     "SweepRequest",
     "SweepRow",
     "SweepTable",
+    "Trial",
     "Way",
 ]

@@ -175,5 +175,3 @@ class SweepTable:
             and np.array_equal(self.right, other.right)
             and dict(self.notes) == dict(other.notes)
         )
-
-    __hash__ = None  # type: ignore[assignment]  # its arrays have no hash

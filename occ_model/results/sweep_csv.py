@@ -76,22 +76,37 @@ def point_text(
     return text
 
 
-def read_point(request: SweepRequest, lines: Sequence[str]) -> SweepPoint | None:
-    """Read the rows of a point, one line a decoder; None where they are none.
+class PointReader:
+    """Reads what :func:`point_text` wrote.
 
-    What stands in them is not checked any further: :func:`point_text` gives the same text again
-    where it is right.
+    Parameters
+    ----------
+    request
+        What is measured.
     """
-    axes = len(request.axes)
-    try:
-        rows = next(zip(*(csv.reader([line], strict=True) for line in lines), strict=True))
-        index = 0
-        for values, text in zip(request.axes.values(), rows[0], strict=False):
-            index = index * len(values) + list(map(_written, values)).index(text)
-        right = tuple(int(row[axes + 3] or 0) for row in rows)
-        return SweepPoint(index, int(rows[0][axes + 4] or 0), right, rows[0][-1])
-    except (ValueError, IndexError, StopIteration, csv.Error):
-        return None
+
+    def __init__(self, request: SweepRequest) -> None:
+        self._axes = [
+            {_written(value): place for place, value in enumerate(values)}
+            for values in request.axes.values()
+        ]
+
+    def read(self, lines: Sequence[str]) -> SweepPoint | None:
+        """Read the rows of a point, one line a decoder; None where they are none.
+
+        What stands in them is not checked any further: :func:`point_text` gives the same text again
+        where it is right.
+        """
+        first = len(self._axes) + 3
+        try:
+            rows = [next(csv.reader([line], strict=True)) for line in lines]
+            index = 0
+            for places, text in zip(self._axes, rows[0], strict=False):
+                index = index * len(places) + places[text]
+            right = tuple(int(row[first] or 0) for row in rows)
+            return SweepPoint(index, int(rows[0][first + 1] or 0), right, rows[0][-1])
+        except (ValueError, LookupError, StopIteration, csv.Error):
+            return None
 
 
 def one_line(sentence: str) -> str:

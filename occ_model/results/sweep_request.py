@@ -78,7 +78,7 @@ class SweepRequest:
     def values(self, index: int) -> dict[str, ParameterValue]:
         """Give the parameters of a point; points are counted with the last axis first."""
         found: list[ParameterValue] = []
-        for values in reversed(self.axes.values()):
+        for values in reversed(list(self.axes.values())):
             index, place = divmod(index, len(values))
             found.append(values[place])
         return dict(zip(self.axes, reversed(found), strict=True))

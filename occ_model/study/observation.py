@@ -5,7 +5,7 @@ rows, so that the mean of a column is known without its pixels: noise is sent th
 enhancement as each pixel would send it, and averaged over as many rows.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -46,6 +46,28 @@ def panel_span(scene: Scene) -> Region | None:
     return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Observation:
+    """What a decoder gets to read.
+
+    Parameters
+    ----------
+    signal : ndarray of float64 or uint8, shape (columns of the region,)
+        Mean grey level of each column.
+    region
+        The rectangle of the image that it was read from; None where the image shows no panel, and
+        all of one row is read.
+    """
+
+    signal: FloatArray | ByteArray
+    region: Region | None
+
+    def read(self, scene: Scene, decoder: str) -> DecodeResult:
+        """Decode it."""
+        result = decode(self.signal, scene, decoder)
+        return result if self.region is None else replace(result, region=self.region)
+
+
 def decode_profile(
     scene: Scene, decoder: str, plan: Plan, random: np.random.Generator
 ) -> DecodeResult | None:
@@ -70,15 +92,33 @@ def decode_profile(
         None where rows differ by more than noise: the panel is not level, or the plan holds an
         image effect.
     """
-    if "image" in plan.kinds:
-        return None
     span = panel_span(scene)
-    if span is None:
+    if span is None or "image" in plan.kinds:
         return None
+    return observe_profile(scene, span, plan, random).read(scene, decoder)
+
+
+def observe_profile(
+    scene: Scene, span: Region, plan: Plan, random: np.random.Generator
+) -> Observation:
+    """Give what every decoder would read of the image, without the image.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    span
+        The rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at any
+        start time.
+    plan
+        Its effects are simulated; no image effect is among them.
+    random
+        Where the noise comes from.
+    """
     columns = expose_columns(scene, plan)
     profile, around = columns.profile, columns.around
     if span.columns == 0:
-        return decode(to_bytes(around), scene, decoder)
+        return Observation(to_bytes(around), None)
     enhancement = Enhancement(profile, scene.model.enhancement)
     bright = _bright_span(scene, span, enhancement(profile), to_bytes(around))
     if bright is not None:
@@ -88,7 +128,7 @@ def decode_profile(
     signal = enhancement(profile[seen]).astype(np.float64)
     if noise:
         signal = _noisy_means(scene, columns, noise, span, enhancement, random)
-    return replace(decode(signal, scene, decoder), region=span)
+    return Observation(signal, span)
 
 
 def _bright_span(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> slice | None:

@@ -7,8 +7,9 @@ from itertools import product
 import numpy as np
 
 from occ_model.presets import load_preset
+from occ_model.results import RateSettings
 from occ_model.scene import Scene
-from occ_model.study.success_rate import success_rate
+from occ_model.study.success_rate import check_rate, right_bits
 
 FREQUENCIES = tuple(2000.0 * step for step in range(1, 11))
 """2 to 20 kHz in steps of 2 kHz (II.A)."""
@@ -92,8 +93,11 @@ def measure(
     seeds = np.random.SeedSequence(seed).generate_state(len(points)).tolist()
     for (preset, frequency, distance), own_seed in zip(points, seeds, strict=True):
         scene = point_scene(preset, frequency, distance)
-        for decoder in decoders:
-            rate = success_rate(scene, images, decoder, own_seed)
+        settings = RateSettings(images, tuple(decoders), own_seed)
+        check_rate(scene, settings)
+        sent = images * scene.transmitter.bits
+        for decoder, right in zip(decoders, right_bits(scene, settings), strict=True):
+            rate = 100.0 * right / sent
             yield GridPoint(preset, decoder, frequency, distance, images, own_seed, rate)
             progress()
 

@@ -1,26 +1,24 @@
 """The success rate, as the paper defines it."""
 
 import math
-from collections.abc import Mapping
-from typing import Literal
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from occ_model.checks import check_choice, check_count, check_seed
+from occ_model.checks import check_choice, check_count, check_seed, check_switches
 from occ_model.effects.plan import plan
+from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPERS, decoder_named
-from occ_model.results import DecodeResult, Plan
+from occ_model.results import DecodeResult, RateSettings, Region, Way
+from occ_model.results.sweep_request import WAYS
 from occ_model.scene import Scene, check_scene
 from occ_model.simulation import render
 from occ_model.simulation_settings import TOLERANCE
-from occ_model.study.observation import decode_profile
+from occ_model.study.observation import Observation, observe_profile, panel_span
 from occ_model.transmitter.packet import bits_of, packet_length
-
-Way = Literal["auto", "profile", "image"]
-
-_WAYS: tuple[Way, ...] = ("auto", "profile", "image")
 
 _SEEDS = 2**32
 
@@ -71,45 +69,94 @@ def success_rate(
     ProjectionError
         The scene has no picture.
     """
-    _check(scene, images, decoder, seed, path)
+    check_scene(scene)
+    settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
+    check_rate(scene, settings)
+    (correct,) = right_bits(scene, settings)
+    return 100.0 * correct / (images * scene.transmitter.bits)
+
+
+def right_bits(
+    scene: Scene, settings: RateSettings, pulse: Callable[[], object] = lambda: None
+) -> tuple[int, ...]:
+    """Count the bits that each decoder reads rightly, all from the same images.
+
+    What a decoder reads does not depend on which others read the image too: each count is the one
+    behind :func:`success_rate` with that decoder alone.
+
+    Parameters
+    ----------
+    scene, settings
+        As :func:`check_rate` allows them.
+    pulse
+        Called before each image; what it raises ends the count.
+
+    Returns
+    -------
+    tuple of int, one a decoder
+
+    Raises
+    ------
+    ParameterError
+        The path is ``"profile"`` and rows differ.
+    ProjectionError
+        The scene has no picture.
+    """
     transmitter = scene.transmitter
     sent = np.array(bits_of(transmitter.code, transmitter.bits))
     duration = packet_length(transmitter.bits) * transmitter.switching_period
-    correct = 0
-    root = np.random.default_rng(seed)
-    for _ in range(images):
+    correct = [0] * len(settings.decoders)
+    root = np.random.default_rng(settings.seed)
+    span = None if settings.path == "image" else panel_span(scene)
+    for _ in range(settings.images):
+        pulse()
         (stream,) = root.spawn(1)
-        at = scene.replace(start_time=float(stream.uniform(0.0, duration)))
+        changes = {"start_time": float(stream.uniform(0.0, duration))}
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
-            at = at.replace(flicker_phase=float(stream.uniform(-math.pi, math.pi)))
-        chosen = plan(at, tolerance, "profile", force)
-        seen = _decode(at, decoder, chosen, path, stream)
-        if seen.bits.size == sent.size:
-            correct += int(np.count_nonzero(seen.bits == sent))
-    return 100.0 * correct / (images * sent.size)
+            changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
+        at = scene.replace(**changes)
+        for place, seen in enumerate(_read(at, settings, span, stream)):
+            if seen.bits.size == sent.size:
+                correct[place] += int(np.count_nonzero(seen.bits == sent))
+    return tuple(correct)
 
 
-def _decode(
-    scene: Scene, decoder: str, chosen: Plan, path: Way, random: np.random.Generator
-) -> DecodeResult:
-    if path != "image":
-        result = decode_profile(scene, decoder, chosen, random)
-        if result is not None:
-            return result
-        if path == "profile":
-            raise ParameterError(
-                "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
-            )
+def _read(
+    scene: Scene, settings: RateSettings, span: Region | None, random: np.random.Generator
+) -> list[DecodeResult]:
+    """Make one image, or its profile, and let every decoder read it."""
+    chosen = plan(scene, settings.tolerance, "profile", settings.force)
+    if span is not None and "image" not in chosen.kinds:
+        observed = observe_profile(scene, span, chosen, random)
+        return [observed.read(scene, decoder) for decoder in settings.decoders]
+    if settings.path == "profile":
+        raise ParameterError(
+            "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
+        )
     force = {decision.effect: decision.included for decision in chosen.decisions}
-    frame = render(scene, seed=int(random.integers(_SEEDS)), force=force)
-    return decode(frame.image, scene, decoder)
+    image = render(scene, seed=int(random.integers(_SEEDS)), force=force).image
+    first = decode(image, scene, settings.decoders[0])
+    if first.signal is None:  # no panel was found, which other decoders find no more
+        return [replace(first, decoder=decoder) for decoder in settings.decoders]
+    observed = Observation(first.signal, first.region)
+    return [first, *(observed.read(scene, decoder) for decoder in settings.decoders[1:])]
 
 
-def _check(scene: Scene, images: int, decoder: str, seed: int, path: Way) -> None:
-    check_scene(scene)
-    check_count("images", images, 1)
-    check_seed(seed)
-    check_choice("path", path, _WAYS)
-    decoder_named(decoder)
+def check_rate(scene: Scene, settings: RateSettings) -> None:
+    """Refuse to measure what has no success rate.
+
+    Raises
+    ------
+    ParameterError
+        There are no images, no such decoder, path or effect, seed or tolerance are out of range,
+        or the scene sends a raw pattern.
+    """
+    check_count("images", settings.images, 1)
+    check_seed(settings.seed)
+    check_choice("path", settings.path, WAYS)
+    TOLERANCE.check(settings.tolerance)
+    check_switches(settings.force, NAMES)
+    for decoder in settings.decoders:
+        decoder_named(decoder)
     if scene.transmitter.pattern:
         raise ParameterError("A raw pattern holds no code; a success rate needs packets.")

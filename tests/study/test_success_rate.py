@@ -40,7 +40,7 @@ def test_rate_is_the_share_of_right_bits_in_percent(
             DecodeResult("x", bits=sent[:4]),
         ]
     )
-    monkeypatch.setattr(module, "decode_profile", lambda *_: next(results))
+    monkeypatch.setattr(module, "_read", lambda *_: [next(results)])
     assert occ.success_rate(scene.replace(code=718), images=4) == pytest.approx(100 * 17 / 40)
 
 

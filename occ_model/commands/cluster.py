@@ -1,0 +1,69 @@
+"""Workers on other machines, by way of dask."""
+
+import asyncio
+import logging
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import Any
+
+from occ_model.errors import OccError
+
+_SECONDS = 5
+"""How long a scheduler gets to answer."""
+
+
+class ClusterError(OccError):
+    """There is no cluster to work with."""
+
+
+@contextmanager
+def cluster_executor(address: str) -> Iterator[Executor]:
+    """Give an executor whose workers are those of a dask cluster.
+
+    Parameters
+    ----------
+    address
+        Of its scheduler, such as ``tcp://10.0.0.5:8786``.
+
+    Raises
+    ------
+    ClusterError
+        ``distributed`` is not installed, no scheduler answers at the address, or it has no worker.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ClusterError(
+            "A cluster needs the package distributed: pip install 'occ-explorer[cluster]'."
+        ) from None
+    # What it has to say of a connection that fails is said below, in one sentence.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    if not asyncio.run(_workers(address)):
+        raise ClusterError(
+            f"The cluster at {address!r} has no workers; start one with 'dask worker {address}'."
+        )
+    client: Any = Client(address, timeout=_SECONDS, set_as_default=False)  # type: ignore[no-untyped-call]
+    try:
+        yield client.get_executor()
+    finally:
+        client.close(timeout=_SECONDS)
+
+
+async def _workers(address: str) -> int:
+    """Ask a scheduler how many workers it has: clients that nobody answers are slow to go away."""
+    from distributed.core import rpc
+
+    try:
+        async with asyncio.timeout(_SECONDS):
+            async with rpc(address) as scheduler:  # type: ignore[no-untyped-call]
+                known = await scheduler.identity()
+            return len(known["workers"])
+    except TimeoutError:
+        reason = f"no answer within {_SECONDS} s"
+    except Exception as error:  # noqa: BLE001 - whatever may listen there can answer anything
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    raise ClusterError(
+        f"No dask scheduler answers at {address!r}: {reason}. Allowed: the address of one, such as "
+        "tcp://127.0.0.1:8786."
+    )

@@ -1,0 +1,182 @@
+"""``occ-model sweep``."""
+
+import argparse
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, nullcontext
+from pathlib import Path
+from typing import Any
+
+from occ_model.checks import check_choice, check_count
+from occ_model.commands.cluster import cluster_executor
+from occ_model.commands.parser import Commands
+from occ_model.commands.vary import SYNTAX, axes_of
+from occ_model.effects.registry import NAMES
+from occ_model.errors import OutputError, ParameterError
+from occ_model.exit_codes import EXIT_FAILURE
+from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.results import RateSettings, SweepRequest, SweepTable
+from occ_model.results.sweep_request import WAYS
+from occ_model.settings import add_scene_options, scene_of
+from occ_model.simulation_settings import TOLERANCE
+from occ_model.study.sweep import sweep
+from occ_model.study.sweep_check import checked_request
+
+BOTH = "both"
+
+PLOT_ENDINGS = (".png", ".pdf", ".svg")
+"""The endings of the files that a plot is written to."""
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser(
+        "sweep",
+        help="measure the success rate over any parameters",
+        epilog="Stopped by Ctrl-C, or by anything else, what is done is in the file of --out; the "
+        "same command goes on from there.",
+    )
+    add_scene_options(parser)
+    parser.add_argument(
+        "--vary", action="append", required=True, metavar="NAME=VALUES",
+        help=f"{SYNTAX}; may be repeated, all combinations are measured",
+    )  # fmt: skip
+    parser.add_argument("--images", type=int, default=5, help="a point; default: %(default)s")
+    parser.add_argument(
+        "--decoder", action="append", choices=(*DECODERS, BOTH),
+        help=f"may be repeated; {BOTH}: all there are; default: {PAPERS}",
+    )  # fmt: skip
+    parser.add_argument("--seed", type=int, default=1, help="default: %(default)s")
+    parser.add_argument(
+        "--tolerance", type=float, default=TOLERANCE.default, metavar="LEVELS",
+        help="what effects left out may change in the profile; default: %(default)s",
+    )  # fmt: skip
+    for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
+        parser.add_argument(
+            f"--{switch}", action="append", default=[], choices=NAMES, metavar="EFFECT",
+            help=f"{meaning} whatever its bound; may be repeated",
+        )  # fmt: skip
+    parser.add_argument(
+        "--path", choices=WAYS, default="auto",
+        help="by whole images, by the column means alone, or as the plan allows; "
+        "default: %(default)s",
+    )  # fmt: skip
+    work = parser.add_mutually_exclusive_group()
+    work.add_argument(
+        "--jobs", type=int, default=1, metavar="N", help="processes; default: %(default)s"
+    )
+    work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE.csv",
+        help="results, point by point; where a part of them is there, the rest is measured",
+    )  # fmt: skip
+    parser.add_argument(
+        "--plot", type=Path, metavar="FILE",
+        help="draw one axis as curves, two as maps; PNG, PDF or SVG by its ending",
+    )  # fmt: skip
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    scene, axes = scene_of(options), axes_of(options.vary)
+    for name in set(options.on) & set(options.off):
+        raise ParameterError(f"effect {name!r} is switched both on and off; allowed: one of them.")
+    settings = RateSettings(
+        options.images,
+        _decoders(options.decoder or [PAPERS]),
+        options.seed,
+        options.tolerance,
+        {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
+        options.path,
+    )
+    # All that can be refused is, before a cluster is asked for or minutes of work are done.
+    request = checked_request(scene, axes, settings)
+    check_count("jobs", options.jobs, 1)
+    if options.plot:
+        _check_plot(options.plot, len(axes))
+    table = _measured(request, options)
+    if table is None:
+        return EXIT_FAILURE
+    if options.out:
+        print(f"{options.out}: {request.points} points, {len(settings.decoders)} rates each")
+    elif not options.plot:
+        sys.stdout.writelines(table.csv())
+    if options.plot:
+        # matplotlib takes half a second to import: only for those who want a figure.
+        from occ_model.export.sweep_figure import write_sweep_figure
+
+        write_sweep_figure(options.plot, table)
+        print(f"{options.plot}: success rate over {' and '.join(axes)}")
+    return 0
+
+
+def _decoders(names: Sequence[str]) -> tuple[str, ...]:
+    return tuple(DECODERS) if BOTH in names else tuple(dict.fromkeys(names))
+
+
+def _check_plot(path: Path, axes: int) -> None:
+    check_choice("the plot's ending", path.suffix.lower(), PLOT_ENDINGS)
+    if axes > 2:
+        raise ParameterError(
+            f"--plot draws one axis or two, not {axes}; leave it out, or vary less."
+        )
+    if path.is_dir() or not path.resolve().parent.is_dir():
+        raise OutputError(f"{path} cannot be written: name a file in a folder that is there.")
+
+
+def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable | None:
+    """Measure with a bar that shows the time left; None where Ctrl-C ended it."""
+    from tqdm import tqdm
+
+    settings = request.settings
+    workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
+    reached = 0
+    with ExitStack() as stack:
+        bar: Any = None
+
+        def progress(done: int, total: int, _left: float) -> None:
+            nonlocal bar, reached
+            if bar is None:  # only now: what is refused needs none
+                bar = stack.enter_context(tqdm(total=total, unit="point", file=sys.stderr))
+            reached = done
+            bar.update(done - bar.n)
+
+        try:
+            stack.enter_context(_warnings_as_sentences())
+            executor = stack.enter_context(workers)
+            return sweep(
+                request.scene,
+                request.axes,
+                settings.images,
+                settings.decoders,
+                settings.seed,
+                executor=executor,
+                jobs=options.jobs,
+                progress=progress,
+                results=options.out,
+                path=settings.path,
+                tolerance=settings.tolerance,
+                force=settings.force,
+            )
+        except KeyboardInterrupt:
+            pass
+    kept = f"they are in {options.out}, and the same command goes on from there."
+    if not options.out:
+        kept = "with --out FILE.csv they would be kept."
+    print(f"occ-model: stopped after {reached} of {request.points} points; {kept}", file=sys.stderr)
+    return None
+
+
+@contextmanager
+def _warnings_as_sentences() -> Iterator[None]:
+    """Print warnings as the sentences that they are, above a bar if there is one."""
+    from tqdm import tqdm
+
+    def show(message: Warning | str, *_others: object, **_options: object) -> None:
+        tqdm.write(f"occ-model: {message}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", RuntimeWarning)
+        warnings.showwarning = show
+        yield

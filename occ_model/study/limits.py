@@ -1,0 +1,183 @@
+"""The advisor: how fast a scene can go, and how long it can be exposed, before reading stops."""
+
+import math
+from collections.abc import Callable, Mapping
+from numbers import Real
+
+import numpy as np
+
+from occ_model.declarations import Quantity
+from occ_model.errors import ParameterError
+from occ_model.parameters import PARAMETERS
+from occ_model.receiver.decoders import PAPERS
+from occ_model.results import Edge, Limits, RateSettings, Reach, SweepPoint, Trial, Way
+from occ_model.scene import Scene, check_scene
+from occ_model.simulation_settings import TOLERANCE
+from occ_model.study.success_rate import check_rate, right_bits
+from occ_model.study.sweep import rate_intervals
+
+STEP = 1.15
+"""Ratio of neighbouring values in the first, coarse search."""
+
+NEAR = 1.003
+"""Ratio of the values on both sides of an edge at which the search for it ends."""
+
+Pulse = Callable[[], object]
+
+
+def limits(  # noqa: PLR0913 - a study's settings, most of them optional
+    scene: Scene,
+    decoder: str = PAPERS,
+    *,
+    rate: float = 99.0,
+    images: int = 20,
+    seed: int = 1,
+    tolerance: float = TOLERANCE.default,
+    force: Mapping[str, bool] | None = None,
+    path: Way = "auto",
+    pulse: Pulse = lambda: None,
+) -> Limits:
+    """Find the switching frequencies and the exposure times at which a decoder reads a scene.
+
+    Each parameter is varied by itself. The range of its slider, widened where the scene's own value
+    lies outside, is first tried coarsely, in steps of a factor ``STEP`` up and down from that
+    value. Success need not fall steadily: at low frequencies too few packets fit the picture, and
+    beyond a null the stripes come back. What is reported is therefore one interval without a
+    failure, as far as the coarse search saw: the one that holds the scene's own value, or else the
+    nearest by ratio. A gap narrower than a step can be missed. Each end is then found by bisection,
+    to a factor ``NEAR``.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    decoder
+        The decoder's name.
+    rate
+        Success rate in percent from which it counts as reading, above 0.
+    images
+        Images at each value. Their number decides how sure the answer is: each end carries the bits
+        it rests on and their interval.
+    seed
+        Of each value's start times and noise.
+    tolerance, force, path
+        As for :func:`occ_model.success_rate`; where the profile path holds the answer takes some
+        seconds, by whole images it takes minutes.
+    pulse
+        Called before each image; what it raises ends the search.
+
+    Returns
+    -------
+    Limits
+
+    Raises
+    ------
+    ParameterError
+        The rate is not from above 0 to 100 %, or another argument cannot be.
+    ProjectionError
+        The scene has no picture.
+    """
+    check_scene(scene)
+    settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
+    check_rate(scene, settings)
+    wanted = _checked(rate)
+    found = {}
+    for name in ("switching_frequency", "exposure_time"):
+        found[name] = _Search(scene, name, wanted, settings, pulse).reach()
+    return Limits(
+        scene, decoder, wanted, images, seed, found["switching_frequency"], found["exposure_time"]
+    )
+
+
+def _checked(rate: object) -> float:
+    number = isinstance(rate, Real) and not isinstance(rate, bool)
+    if not number or not 0.0 < rate <= 100.0:  # type: ignore[operator]
+        raise ParameterError(f"rate is {rate!r} %; allowed: above 0 % to 100 %.")
+    return float(rate)  # type: ignore[arg-type]
+
+
+class _Search:
+    """The search for the values of one parameter at which a scene is read."""
+
+    def __init__(
+        self, scene: Scene, name: str, rate: float, settings: RateSettings, pulse: Pulse
+    ) -> None:
+        self._scene = scene
+        self._name = name
+        self._rate = rate
+        self._settings = settings
+        self._pulse = pulse
+        parameter = PARAMETERS[name]
+        assert isinstance(parameter, Quantity)  # noqa: S101 - the two that are searched are
+        self._parameter = parameter
+        self._own = float(scene.value(name))
+        low, high = parameter.slider
+        self._low, self._high = min(low, self._own), max(high, self._own)
+
+    def reach(self) -> Reach:
+        """Find them."""
+        values = self._coarse()
+        own = values.index(self._own)
+        trials = [self._try(value) for value in values]
+        works = [self._reads(trial) for trial in trials]
+        searched = (values[0], values[-1])
+        nearest = min(
+            (place for place, good in enumerate(works) if good),
+            key=lambda place: abs(math.log(values[place] / self._own)),
+            default=None,
+        )
+        if nearest is None:
+            best = max(trials, key=lambda trial: trial.right)
+            return Reach(self._name, searched, None, None, self._nowhere(searched, best))
+        first = last = own if works[own] else nearest
+        while first > 0 and works[first - 1]:
+            first -= 1
+        while last < len(works) - 1 and works[last + 1]:
+            last += 1
+        below = trials[first - 1] if first > 0 else None
+        above = trials[last + 1] if last < len(works) - 1 else None
+        return Reach(
+            self._name, searched, self._edge(trials[first], below), self._edge(trials[last], above)
+        )
+
+    def _coarse(self) -> list[float]:
+        """Give values in even ratios from the scene's own to both ends."""
+        down = self._towards(self._low)
+        return [*reversed(down), self._own, *self._towards(self._high)]
+
+    def _towards(self, end: float) -> list[float]:
+        steps = math.ceil(abs(math.log(end / self._own)) / math.log(STEP))
+        if not steps:
+            return []
+        between = np.geomspace(self._own, end, steps + 1)[1:-1]
+        # Few digits, so that a value that is reported can be typed in again.
+        return [*(float(f"{value:.5g}") for value in between.tolist()), end]
+
+    def _edge(self, works: Trial, fails: Trial | None) -> Edge:
+        """Bring two values that lie on both sides of an edge together."""
+        while fails is not None:
+            middle = float(f"{math.sqrt(works.value * fails.value):.5g}")
+            ratio = max(works.value, fails.value) / min(works.value, fails.value)
+            if ratio <= NEAR or middle in (works.value, fails.value):
+                break
+            trial = self._try(middle)
+            works, fails = (trial, fails) if self._reads(trial) else (works, trial)
+        return Edge(works, fails)
+
+    def _try(self, value: float) -> Trial:
+        scene = self._scene.replace(**{self._name: value})
+        right = right_bits(scene, self._settings, self._pulse)
+        sent = self._settings.images * scene.transmitter.bits
+        ((low, high),) = rate_intervals(SweepPoint(0, sent, right))
+        return Trial(value, right[0], sent, low, high)
+
+    def _reads(self, trial: Trial) -> bool:
+        return 100.0 * trial.right >= self._rate * trial.sent
+
+    def _nowhere(self, searched: tuple[float, float], best: Trial) -> str:
+        write = self._parameter.format
+        return (
+            f"The {self._settings.decoders[0]} decoder reads {self._rate:g} % of the bits at no "
+            f"{self._parameter.label.lower()} from {write(searched[0])} to {write(searched[1])}; "
+            f"the most it reads is {best.right} of {best.sent} bits, at {write(best.value)}."
+        )

@@ -1,0 +1,87 @@
+"""The limits of reading that theory gives, as numbers to hold a simulation against.
+
+They follow from single equations, know nothing of noise or decoders, and are where things change,
+not where reading stops: a matched decoder reads far beyond the null.
+"""
+
+import math
+
+import numpy as np
+
+from occ_model.camera.photometry import WHITE, luminance_levels, luminance_of
+from occ_model.camera.projection import panel_corners
+from occ_model.effects.sight import region_of
+from occ_model.scene import Scene
+from occ_model.transmitter.packet import packet_length
+
+
+def band_model_frequency(scene: Scene) -> float:
+    """Give the switching frequency from which the band model says nothing: t_LED = t, f = 1/t.
+
+    Beyond it every column's exposure holds a change of state, and no column shows one state alone:
+    h_c = (t_LED - t) / t_r is negative (the paper's section II.B).
+
+    Returns
+    -------
+    float
+        Hz.
+    """
+    return 1.0 / scene.camera.exposure_time
+
+
+def null_frequency(scene: Scene) -> float:
+    """Give the switching frequency at which an alternating pattern has no stripes: f = 2/t.
+
+    Chips on and off in turn have the period 2 t_LED. An exposure as long as that, t = 2/f, sees as
+    much light wherever it starts: the first null of sinc(t f / 2), the exposure's response to the
+    square wave's fundamental f/2.
+
+    Returns
+    -------
+    float
+        Hz.
+    """
+    return 2.0 / scene.camera.exposure_time
+
+
+def two_packets_frequency(scene: Scene) -> float | None:
+    """Give the switching frequency below which no two packets fit the panel's image.
+
+    The columns that show the panel are read out within t_r times their number; two packets of L
+    chips take 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers, and so a
+    packet and a header at the least, two packets to find them wherever a packet starts.
+
+    Returns
+    -------
+    float or None
+        Hz; None where the image shows no panel.
+
+    Raises
+    ------
+    ProjectionError
+        Part of the panel is behind the camera.
+    """
+    camera = scene.camera
+    region = region_of(panel_corners(scene), camera.rows, camera.columns)
+    if region is None:
+        return None
+    return 2.0 * packet_length(scene.transmitter.bits) / (camera.readout_time * region.columns)
+
+
+def saturation_exposure(scene: Scene) -> float:
+    """Give the exposure time at which the lit panel reaches the largest pixel value.
+
+    The paper's equations (1) and (2) with PV_max = 255, solved for t:
+    t = (255 / 118)^gamma K N^2 / (S (L_v + E_v R / pi)).
+
+    Returns
+    -------
+    float
+        Seconds; infinite where there is no light.
+    """
+    brightest = float(luminance_levels(scene)[1])
+    if not brightest:
+        return math.inf
+    # Of one exposure time the luminance that is white; the product of both is what saturates.
+    white = float(luminance_of(np.array([WHITE]), scene.camera)[0])
+    return scene.camera.exposure_time * white / brightest

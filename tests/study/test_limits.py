@@ -1,0 +1,226 @@
+"""Laws of the advisor, and of the limits that theory gives."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as hypothesis_settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.camera.photometry import level_values
+from occ_model.cli import main
+from occ_model.results import Edge, RateSettings
+from occ_model.scene import Scene
+from occ_model.study import limits as module
+from occ_model.study import theory
+from occ_model.study.limits import NEAR, STEP
+from occ_model.study.observation import panel_span
+
+SCENE = Scene()
+
+
+def reads_where(good: Callable[[float], bool], name: str = "switching_frequency") -> object:
+    """Stand in for all decoding: bits are right where ``good`` says so, half of them elsewhere."""
+
+    def right_bits(scene: Scene, settings: RateSettings, _pulse: object) -> tuple[int]:
+        all_bits = settings.images * scene.transmitter.bits
+        return (all_bits if good(float(scene.value(name))) else all_bits // 2,)
+
+    return right_bits
+
+
+def ends(edge: Edge | None) -> tuple[float, float]:
+    assert edge is not None
+    assert edge.fails is not None
+    return edge.works.value, edge.fails.value
+
+
+@hypothesis_settings(max_examples=60)
+@given(low=st.floats(600.0, 40e3), ratio=st.floats(1.2, 2.0), own=st.floats(500.0, 100e3))
+def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
+    low: float, ratio: float, own: float
+) -> None:
+    high = low * ratio
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "right_bits", reads_where(lambda f: low <= f <= high))
+        found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
+    for edge, truth in ((found.lowest, low), (found.highest, high)):
+        works, fails = ends(edge)
+        assert min(works, fails) <= truth <= max(works, fails)
+        assert max(works, fails) / min(works, fails) <= NEAR
+        assert edge is not None
+        assert edge.width == abs(works - fails)
+
+
+@pytest.mark.parametrize(
+    ("own", "wanted"), [(700.0, 1e3), (5e3, 8e3), (12e3, 8e3), (40e3, 60e3), (90e3, 60e3)]
+)
+def test_of_several_intervals_the_one_at_hand_or_nearest_by_ratio_is_told(
+    monkeypatch: pytest.MonkeyPatch, own: float, wanted: float
+) -> None:
+    # Reading stops at 1, 8 and 60 kHz, and comes back at 2 and 25 kHz.
+    monkeypatch.setattr(
+        module,
+        "right_bits",
+        reads_where(lambda f: f <= 1e3 or 2e3 <= f <= 8e3 or 25e3 <= f <= 60e3),
+    )
+    found = occ.limits(SCENE.replace(switching_frequency=own), images=1)
+    works, fails = ends(found.frequency.highest)
+    assert works <= wanted <= fails
+    assert found.highest_frequency == works
+
+
+def test_an_interval_to_the_end_of_what_is_searched_is_told_as_such(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(module, "right_bits", reads_where(lambda _: True))
+    far = SCENE.replace(switching_frequency=3e6)
+    found = occ.limits(far, images=1)
+    assert found.frequency.searched == (500.0, 3e6)
+    assert found.highest_frequency == 3e6
+    for reach in (found.frequency, found.exposure):
+        for edge in (reach.lowest, reach.highest):
+            assert edge is not None
+            assert (edge.fails, edge.width) == (None, 0.0)
+            assert edge.value in reach.searched
+    assert (found.shortest_exposure, found.longest_exposure) == found.exposure.searched
+
+
+def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "right_bits", reads_where(lambda f: f == 10e3 and False))
+    found = occ.limits(SCENE, "matched", rate=75.0, images=2)
+    assert found.highest_frequency is found.shortest_exposure is found.longest_exposure is None
+    assert found.frequency.failure == (
+        "The matched decoder reads 75 % of the bits at no switching frequency from 500 Hz to "
+        "100 kHz; the most it reads is 10 of 20 bits, at 500 Hz."
+    )
+
+
+@pytest.mark.parametrize("preset", ["phone-136us", "tablet-122us"])
+def test_the_papers_decoder_reads_up_to_the_null_and_down_to_two_packets(preset: str) -> None:
+    scene = occ.load_preset(preset)
+    found = occ.limits(scene, images=3)
+    works, fails = ends(found.frequency.highest)
+    null = theory.null_frequency(scene)
+    assert 0.97 * null < works < fails < 1.01 * null
+    least = theory.two_packets_frequency(scene)
+    assert least is not None
+    assert found.frequency.lowest is not None
+    assert 0.7 * least < found.frequency.lowest.value < 1.1 * least
+    longest = found.longest_exposure
+    assert longest is not None
+    assert longest == pytest.approx(2.0 / scene.transmitter.switching_frequency, rel=0.03)
+
+
+def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
+    scene = occ.load_preset("phone-136us")
+    edge = occ.limits(scene, rate=90.0, images=2, seed=5).frequency.highest
+    assert edge is not None
+    assert edge.fails is not None
+    for trial in (edge.works, edge.fails):
+        at = scene.replace(switching_frequency=trial.value)
+        assert occ.success_rate(at, 2, seed=5) == trial.rate
+        low, high = occ.wilson_interval(trial.right, trial.sent)
+        assert (trial.low, trial.high) == (100 * low, 100 * high)
+    assert edge.fails.rate < 90.0 <= edge.works.rate
+
+
+def test_where_the_scene_itself_is_too_slow_the_answer_lies_above_it() -> None:
+    """The tablet at 2 kHz and 2 m: too few packets fit the picture."""
+    slow = occ.load_preset("tablet-122us").replace(switching_frequency=2e3, distance=2.0)
+    assert occ.success_rate(slow, 3) < 99.0
+    found = occ.limits(slow, images=3)
+    assert found.frequency.lowest is not None
+    assert found.frequency.lowest.value > 2e3 * STEP
+    assert found.highest_frequency == pytest.approx(theory.null_frequency(slow), rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"rate": 0.0}, "rate is 0.0 %; allowed: above 0 % to 100 %"),
+        ({"rate": 101.0}, "rate is 101.0 %"),
+        ({"rate": math.nan}, "rate is nan"),
+        ({"rate": True}, "rate is True"),
+        ({"rate": "99"}, "rate is '99'"),
+        ({"images": 0}, "images is 0"),
+        ({"decoder": "psychic"}, "no decoder 'psychic'"),
+        ({"seed": -1}, "seed is -1"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused_with_a_sentence(
+    arguments: dict[str, object], words: str
+) -> None:
+    with pytest.raises(occ.ParameterError, match=words):
+        occ.limits(SCENE, **arguments)  # type: ignore[arg-type]
+
+
+def test_what_the_pulse_raises_ends_the_search() -> None:
+    def stop() -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        occ.limits(SCENE, pulse=stop)
+
+
+def test_the_band_model_ends_where_theory_says() -> None:
+    scene = occ.load_preset("phone-136us")
+    end = theory.band_model_frequency(scene)
+    occ.band_profile(scene.replace(switching_frequency=end * (1 - 1e-9)))
+    with pytest.raises(occ.BandModelUndefined):
+        occ.band_profile(scene.replace(switching_frequency=end * (1 + 1e-9)))
+
+
+def test_an_alternating_pattern_has_no_stripes_at_the_null_and_some_beside_it() -> None:
+    scene = occ.load_preset("phone-136us").replace(pattern="10")
+    null = theory.null_frequency(scene)
+
+    def swing(frequency: float) -> float:
+        return float(np.ptp(occ.column_profile(scene.replace(switching_frequency=frequency))))
+
+    assert swing(null) < 1e-6
+    assert min(swing(0.98 * null), swing(1.02 * null)) > 0.5
+
+
+def test_two_packets_just_fill_the_panels_columns_at_their_limit() -> None:
+    scene = occ.load_preset("tablet-122us")
+    frequency = theory.two_packets_frequency(scene)
+    span = panel_span(scene)
+    assert frequency is not None
+    assert span is not None
+    chips = span.columns * scene.camera.readout_time * frequency
+    assert chips == pytest.approx(2 * len(occ.packet(scene)), rel=1e-12)
+    assert theory.two_packets_frequency(scene.replace(offset_x=50.0)) is None
+
+
+def test_the_lit_panel_is_just_white_at_the_exposure_of_saturation() -> None:
+    scene = occ.load_preset("phone-136us")
+    white = theory.saturation_exposure(scene)
+    assert level_values(scene.replace(exposure_time=white))[1] == pytest.approx(255.0, rel=1e-12)
+    dark = scene.replace(luminance=0.0, illuminance=0.0)
+    assert theory.saturation_exposure(dark) == math.inf
+
+
+def test_the_command_answers_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["limits", "--preset", "phone-136us", "--images", "2", "--rate", "90"]
+    assert main(command) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith(
+        "At an exposure of 136 µs and 1.2 m the threshold decoder reads 90 % of the bits at any "
+        "switching frequency from 3."
+    )
+    assert " of 20 bits (" in lines[2]
+    assert "below it was not searched" in lines[4]
+    assert lines[-3].startswith("By theory the band model ends at 7.353 kHz and an alternating")
+    assert lines[-1] == "  from an exposure of 1.17 ms the panel is white."
+
+
+def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["limits", "--images", "1", "--set", "luminance=0", "--set", "illuminance=0"]
+    assert main(command) == 1
+    printed = capsys.readouterr().out
+    assert "at no switching frequency from 500 Hz to 100 kHz" in printed
+    assert "there is no light that could saturate" in printed

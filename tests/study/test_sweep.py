@@ -1,0 +1,164 @@
+"""Laws of the sweep: each point stands by itself."""
+
+import math
+import subprocess
+import sys
+from concurrent.futures import Executor, Future
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.results import RateSettings, SweepTable
+from occ_model.scene import Scene
+from occ_model.study.sweep_check import checked_request
+
+BOTH = ("threshold", "matched")
+AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return occ.load_preset("phone-136us")
+
+
+@pytest.fixture(scope="module")
+def table(scene: Scene) -> SweepTable:
+    """The sweep in this process, which all others must give again."""
+    return occ.sweep(scene, AXES, 3, BOTH, 7)
+
+
+def test_every_point_can_be_had_again_by_itself(scene: Scene, table: SweepTable) -> None:
+    assert len(table.rows) == 4 * 3 * 2
+    for row in table.rows:
+        alone = occ.success_rate(scene.replace(**row.point), 3, row.decoder, 7)
+        assert alone == row.rate
+    assert len({row.rate for row in table.rows}) > 2  # it is no table of one number
+
+
+def test_rates_stand_where_their_axes_say(table: SweepTable) -> None:
+    for decoder in BOTH:
+        rates, (low, high) = table.rates(decoder), table.intervals(decoder)
+        assert rates.shape == low.shape == high.shape == (4, 3)
+        for row in table.rows:
+            if row.decoder == decoder:
+                place = tuple(AXES[name].index(row.point[name]) for name in AXES)  # type: ignore[arg-type]
+                wilson = occ.wilson_interval(row.right, row.sent)
+                assert (rates[place], low[place], high[place]) == (row.rate, row.low, row.high)
+                assert (row.low, row.high) == tuple(100.0 * end for end in wilson)
+    with pytest.raises(occ.ParameterError, match="decoder is 'psychic'; allowed in this table"):
+        table.rates("psychic")
+
+
+def test_the_order_of_the_axes_turns_the_table_and_changes_no_number(
+    scene: Scene, table: SweepTable
+) -> None:
+    turned = occ.sweep(scene, dict(reversed(AXES.items())), 3, BOTH, 7)
+    for decoder in BOTH:
+        np.testing.assert_array_equal(turned.rates(decoder).T, table.rates(decoder))
+    assert turned != table
+
+
+def test_any_kind_of_parameter_can_be_varied(scene: Scene) -> None:
+    axes = {
+        "enhancement": np.array(["equalization", "none"]),
+        "bits": np.array([4, 10]),
+        "code": (3, 9),
+        "yaw": [0.0],
+    }
+    found = occ.sweep(scene, axes, 1)
+    assert found.sent.tolist() == [[[[4], [4]], [[10], [10]]]] * 2
+    assert {type(value) for values in found.axes.values() for value in values} == {str, int, float}
+    for row in found.rows:
+        assert occ.success_rate(scene.replace(**row.point), 1) == row.rate
+
+
+def test_all_points_are_visited_once_and_each_code_book_in_one_go(scene: Scene) -> None:
+    axes = {"distance": [1.0, 2.0], "switching_frequency": [4e3, 5e3, 6e3], "iso": [50.0, 80.0]}
+    request = checked_request(scene, axes, RateSettings(1, BOTH))
+    order = list(request.in_order_of_work())
+    assert sorted(order) == list(range(12))
+    frequencies = [request.values(index)["switching_frequency"] for index in order]
+    assert frequencies == [4e3] * 4 + [5e3] * 4 + [6e3] * 4
+
+
+def test_what_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:
+    axes = {"distance": [0.1, 1.0], "yaw": [0.0, 1.2]}
+    found = occ.sweep(scene.replace(rows=60, panel_height=0.01), axes, 1)
+    refused = found.rows[1]
+    assert refused.rate is refused.low is refused.high is None
+    assert refused.note.startswith("Turned like this at a distance of 0.1 m, part of the panel")
+    assert np.isnan(found.rates()).tolist() == [[False, True], [False, False]]
+    assert [row.note for row in found.rows if row is not refused].count("") == 3
+    bits = occ.sweep(scene, {"bits": [4, 10], "code": [900]}, 1)
+    assert bits.rows[0].note == "code is 900; allowed with 4 bits: 0 to 15."
+    assert bits.rows[1].rate == 100.0
+
+
+@pytest.mark.parametrize(
+    ("axes", "others", "words"),
+    [
+        ({}, {}, "axes is {}; allowed: one parameter or more"),
+        ([1.0], {}, "axes is "),
+        ({"distnce": [1.0]}, {}, "did you mean distance"),
+        ({"distance": []}, {}, "distance has no values to vary over; allowed: one or more, 1 mm"),
+        ({"distance": 1.0}, {}, "distance varies over 1.0; allowed: a list of values"),
+        ({"averaging": "light"}, {}, "averaging varies over 'light'"),
+        ({"distance": [1.0, -2.0]}, {}, "distance is -2 m; allowed: 1 mm to 10 km"),
+        ({"distance": [1.0, math.nan]}, {}, "distance is nan"),
+        ({"distance": [1, 2.0, 1.0]}, {}, "distance is 1 m twice; allowed: values that differ"),
+        ({"columns": [10, 10.5]}, {}, "columns is 10.5; allowed: a whole number"),
+        ({"pattern": ["", "01"]}, {}, "pattern cannot be varied"),
+        ({"distance": [1.0]}, {"images": 0}, "images is 0"),
+        ({"distance": [1.0]}, {"decoder": []}, "decoder is"),
+        ({"distance": [1.0]}, {"decoder": ["matched", "x"]}, "no decoder 'x'"),
+        ({"distance": [1.0]}, {"decoder": ["matched"] * 2}, "'matched' is there twice"),
+        ({"distance": [1.0]}, {"seed": -1}, "seed is -1"),
+        ({"distance": [1.0]}, {"jobs": 0}, "jobs is 0"),
+        ({"distance": [1.0]}, {"path": "guess"}, "path is 'guess'"),
+        ({"distance": [1.0]}, {"tolerance": -1.0}, "tolerance is -1"),
+        ({"distance": [1.0]}, {"force": {"blur": True}}, "effect is 'blur'"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_any_work(
+    scene: Scene, tmp_path: Path, axes: object, others: dict[str, object], words: str
+) -> None:
+    class Untouched(Executor):
+        def submit(self, *_: object, **__: object) -> "Future[object]":  # type: ignore[override]
+            raise AssertionError("work has started")
+
+    results = tmp_path / "r.csv"
+    with pytest.raises(occ.ParameterError, match=words):
+        occ.sweep(scene, axes, executor=Untouched(), results=results, **others)  # type: ignore[arg-type]
+    assert not results.exists()
+
+
+def test_a_scene_with_a_raw_pattern_is_refused(scene: Scene) -> None:
+    with pytest.raises(occ.ParameterError, match="A raw pattern holds no code"):
+        occ.sweep(scene.replace(pattern="01"), AXES)
+
+
+def test_the_profile_path_gives_the_table_of_the_image_path(scene: Scene) -> None:
+    few = scene.replace(rows=96, panel_height=0.02)
+    # Each path draws noise of its own, which decides where the stripes are about to vanish.
+    quiet = {"sensor-noise": False, "fixed-pattern": False}
+    for preset in (few, few.replace(flicker_depth=0.3, edge_time=2e-6)):
+        profile, image = (
+            occ.sweep(preset, AXES, 2, BOTH, path=path, force=quiet)  # type: ignore[arg-type]
+            for path in ("profile", "image")
+        )
+        np.testing.assert_array_equal(profile.right, image.right)
+        assert 0 < profile.right.sum() < profile.right.size * 20
+
+
+def test_importing_the_package_imports_nothing_that_starts_processes() -> None:
+    program = "import sys, occ_model; print(*sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    loaded = set(done.stdout.split())
+    assert "occ_model.study.sweep" in loaded
+    assert (
+        loaded & {"concurrent.futures.process", "multiprocessing", "distributed", "tqdm"} == set()
+    )

@@ -1,0 +1,230 @@
+"""``occ-model sweep``: what it takes, writes, draws and says."""
+
+import csv
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.commands import cluster
+from occ_model.commands.vary import axes_of
+from occ_model.errors import OutputError, ParameterError
+from occ_model.export.sweep_figure import write_sweep_figure
+
+VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.8m,120cm")
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("switching_frequency=2kHz:20kHz:2kHz", [2000.0 * step for step in range(1, 11)]),
+        ("distance=0.6:1.2:0.2", [0.6, 0.8, 1.0, 1.2]),
+        ("distance=60cm:100cm:15cm", [0.6, 0.75, 0.9]),
+        ("distance=1,80cm,1200mm", [1.0, 0.8, 1.2]),
+        ("exposure_time=10us:1ms:x3", [1e-5, 1e-4, 1e-3]),
+        ("gamma=1:4:x4", [1.0, 2.0, 3.0, 4.0]),
+        ("bits=4:10:3", [4, 7, 10]),
+        ("code=0:9:X4", [0, 3, 6, 9]),
+        ("bits=2:4:x9", [2, 3, 4]),
+        ("averaging=light,pixel-value", ["light", "pixel-value"]),
+        (" yaw = -10deg:10deg:10deg", [-np.pi / 18, 0.0, np.pi / 18]),
+        ("edge_time=0:2us:x3", [0.0, 1e-6, 2e-6]),
+    ],
+)
+def test_axes_are_read_as_people_write_them(text: str, values: list[object]) -> None:
+    ((_, found),) = axes_of([text]).items()
+    assert found == pytest.approx(values, rel=1e-11) if values[0] != "light" else found == values
+    assert {type(value) for value in found} == {type(value) for value in values}
+
+
+def test_steps_that_meet_the_end_end_there_exactly() -> None:
+    for step in ("0.1", "0.3", "0.7", "1/3"):
+        values = axes_of([f"distance=0.1:21.1:{step}"])["distance"]
+        assert values[-1] == 21.1
+        assert len(values) == round(21.0 / eval(step)) + 1
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("distance", "'distance' is no axis; allowed: NAME=a,b,c"),
+        ("distnce=1", "did you mean distance"),
+        ("distance=1:2", "allowed: low:high:step, low:high:xN"),
+        ("distance=1:2:3:4", "allowed: low:high:step"),
+        ("averaging=a:b:c", "averaging varies over 'a:b:c'; allowed: values with commas"),
+        ("averaging=dark", "averaging is 'dark'; allowed: pixel-value, light"),
+        ("distance=2:1:0.1", "from a lower to a higher"),
+        ("distance=1:2:0", "steps of '0'; allowed: a step above 0"),
+        ("distance=1:2:-1", "a step above 0"),
+        ("distance=1:2:1kHz", "a step above 0"),
+        ("distance=1:2:x1", "varies in 'x1'; allowed: x2 to x"),
+        ("distance=1:2:xx", "allowed: x2 to x"),
+        ("distance=1m:2m:1nm", "values; allowed: up to 1000000"),
+        ("distance=1:1e9:1", "distance is 1e"),
+        ("distance=1,,2", "distance is '', which is not a number in m"),
+        ("bits=2:9:0.5", "a step above 0"),
+    ],
+)
+def test_axes_that_cannot_be_are_refused_with_a_sentence(text: str, words: str) -> None:
+    with pytest.raises(ParameterError) as refusal:
+        axes_of([text])
+    assert words in str(refusal.value)
+
+
+def test_a_parameter_is_varied_once() -> None:
+    with pytest.raises(ParameterError, match="distance is varied twice"):
+        axes_of(["distance=1", "distance=2"])
+
+
+def test_the_command_writes_the_sweeps_table_and_draws_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, plot = tmp_path / "r.csv", tmp_path / "r.png"
+    settings = ("--preset", "phone-136us", "--images", "2", "--seed", "4", "--decoder", "both")
+    command = ["sweep", *settings, "--jobs", "2", *VARY, "--out", str(out), "--plot", str(plot)]
+    assert main(command) == 0
+    printed = capsys.readouterr()
+    assert printed.out.splitlines() == [
+        f"{out}: 4 points, 2 rates each",
+        f"{plot}: success rate over switching_frequency and distance",
+    ]
+    assert "4/4" in printed.err
+    axes = {"switching_frequency": [4e3, 14e3], "distance": [0.8, 1.2]}
+    table = occ.sweep(occ.load_preset("phone-136us"), axes, 2, ("threshold", "matched"), 4)
+    assert out.read_text() == "".join(table.csv())
+    with Image.open(plot) as picture:
+        assert "seed 4" in str(picture.info["Description"])
+        assert "images a point" in str(picture.info["Description"])
+
+
+def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sweep", "--vary", "distance=1,1.5", "--images", "1", "--off", "jpeg"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    assert [row["distance (m)"] for row in rows] == ["1.0", "1.5"]
+    assert "# by hand: jpeg off" in lines
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--vary", "distance=1,1"], "distance is 1 m twice"),
+        (["--vary", "distance=1", "--images", "0"], "images is 0"),
+        (["--vary", "distance=1", "--jobs", "0"], "jobs is 0"),
+        (["--vary", "distance=1", "--plot", "x.gif"], "'.gif'; allowed: .png, .pdf, .svg"),
+        (["--vary", "distance=1", "--plot", "no/such/x.png"], "cannot be written"),
+        (["--vary", "distance=1", "--out", "."], "is a folder"),
+        (["--vary", "distance=1", "--on", "jpeg", "--off", "jpeg"], "both on and off"),
+        (["--vary", "distance=1", "--cluster", "nowhere"], "No dask scheduler answers at 'nowhere"),
+        (
+            ["--vary", "distance=1", "--vary", "yaw=0", "--vary", "roll=0", "--plot", "x.png"],
+            "draws one axis or two, not 3",
+        ),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_what_cannot_be_is_a_sentence_and_nothing_is_written(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str],
+    words: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("occ-model: ")
+    assert words in error
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_cluster_that_does_not_answer_is_a_sentence_within_its_time(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "_SECONDS", 0.2)
+    assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://127.0.0.1:9"]) == 2
+    assert "127.0.0.1:9': no answer within 0.2 s. Allowed: " in capsys.readouterr().err
+
+
+def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None:
+    out = tmp_path / "r.csv"
+    program = "import sys; from occ_model.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", program, "sweep", "--vary", "iso=100:400:1", "--images", "9"]
+    running = subprocess.Popen([*command, "--out", out], stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 30
+    while not out.exists() or out.read_bytes().count(b",threshold,") < 5:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    running.send_signal(signal.SIGINT)
+    _, error = running.communicate(timeout=30)
+    assert running.returncode == 1
+    written = out.read_bytes().count(b",threshold,")
+    *_, last = error.splitlines()
+    told = int(last.split()[3])
+    assert 5 <= told <= written <= told + 1 < 301  # stopped just before it was counted, perhaps
+    assert last == (
+        f"occ-model: stopped after {told} of 301 points; they are in {out}, and the same command "
+        "goes on from there."
+    )
+
+
+def table_of(**axes: object) -> occ.SweepTable:
+    return occ.sweep(occ.load_preset("phone-136us"), axes, 1, ("threshold", "matched"))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+def test_a_figure_is_written_in_the_format_of_its_ending_with_its_provenance(
+    tmp_path: Path, ending: str
+) -> None:
+    path = tmp_path / f"f.{ending}"
+    write_sweep_figure(path, table_of(switching_frequency=[4e3, 6e3, 15e3]))
+    content = path.read_bytes()
+    starts = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
+    assert content.startswith(starts[ending])
+    assert b"Success rate over switching_frequency" in content
+    if ending == "svg":
+        text = content.decode()
+        assert "switching_frequency: 4000.0, 6000.0, 15000.0" in text
+        assert "exposure_time = 0.000136" in text
+
+
+@pytest.mark.parametrize(
+    "axes",
+    [
+        {"enhancement": ["none", "equalization"]},
+        {"distance": [0.1, 1.0], "yaw": [1.2, 0.0]},
+        {"averaging": ["light"], "bits": [4, 8]},
+        {"distance": [1.0]},
+    ],
+)
+def test_any_axes_can_be_drawn(tmp_path: Path, axes: dict[str, object]) -> None:
+    path = tmp_path / "f.png"
+    write_sweep_figure(path, table_of(rows=[100], **axes) if len(axes) < 2 else table_of(**axes))
+    with Image.open(path) as picture:
+        assert min(picture.size) > 500
+        assert len(np.unique(np.asarray(picture.convert("L")))) > 10
+
+
+def test_what_the_model_refuses_is_grey_in_a_map(tmp_path: Path) -> None:
+    path = tmp_path / "f.png"
+    small = occ.load_preset("phone-136us").replace(rows=60, panel_height=0.01)
+    write_sweep_figure(path, occ.sweep(small, {"yaw": [0.0, 1.2], "distance": [0.1, 1.0]}, 1))
+    with Image.open(path) as picture:
+        grey = (np.asarray(picture.convert("RGB")) == 191).all(axis=2)
+    assert 0.05 < grey.mean() < 0.3
+
+
+def test_what_cannot_be_drawn_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed to be drawn: one"):
+        write_sweep_figure(tmp_path / "f.png", table_of(iso=[100.0], bits=[10], rows=[100]))
+    with pytest.raises(OutputError, match=r"no ending of a figure; use \.png, "):
+        write_sweep_figure(tmp_path / "f.gif", table_of(iso=[100.0]))
+    assert list(tmp_path.iterdir()) == []

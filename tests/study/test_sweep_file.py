@@ -1,0 +1,253 @@
+"""Laws of a sweep's file: what is written stays, and is continued by its own sweep alone."""
+
+import csv
+import errno
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+from occ_model.results import SweepTable
+from occ_model.scene import Scene
+from occ_model.study import sweep_file, sweep_work
+
+BOTH = ("threshold", "matched")
+AXES: dict[str, list[float]] = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
+REFUSED = {"yaw": 1.3, "rows": 60, "panel_height": 0.01}
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    """A scene whose nearest points the model refuses."""
+    return occ.load_preset("phone-136us").replace(**REFUSED)
+
+
+def run(scene: Scene, file: Path | None, **others: object) -> SweepTable:
+    settings = {"axes": AXES, "images": 1, "decoder": BOTH, "seed": 3, **others}
+    return occ.sweep(scene, results=file, **settings)  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="module")
+def table(scene: Scene) -> SweepTable:
+    found = run(scene, None)
+    assert len(found.notes) == 2
+    return found
+
+
+@pytest.fixture(scope="module")
+def whole(table: SweepTable) -> bytes:
+    """What a complete file holds."""
+    return "".join(table.csv()).encode()
+
+
+@pytest.fixture
+def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Which points were measured."""
+    indices: list[int] = []
+    real = sweep_work.measure_point
+
+    def spy(scene: Scene, settings: object, index: int, *others: object) -> object:
+        indices.append(index)
+        return real(scene, settings, index, *others)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(sweep_work, "measure_point", spy)
+    return indices
+
+
+def header_size(whole: bytes) -> int:
+    return (
+        whole.index(b"\ndistance (m),")
+        + whole[whole.index(b"\ndistance (m),") + 1 :].index(b"\n")
+        + 2
+    )
+
+
+def test_the_file_is_the_table_in_order_with_its_scene(
+    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "r.csv"
+    assert run(scene, path) == table
+    assert path.read_bytes() == whole
+    table.to_csv(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_bytes() == whole
+    lines = whole.decode().splitlines()
+    comments = "\n".join(line[2:] for line in lines if line.startswith("#"))
+    assert Scene.from_toml(comments[comments.index("format = 1\n") :]) == scene
+    assert f"occ_model {occ.__version__}" in comments
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    assert [float(row["success rate (%)"] or "nan") for row in rows] == pytest.approx(
+        [float("nan") if row.rate is None else row.rate for row in table.rows], nan_ok=True
+    )
+    assert rows[0]["note"] == table.rows[0].note != ""
+
+
+def test_a_complete_file_is_read_and_nothing_is_measured(
+    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path, measured: list[int]
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_bytes(whole)
+    told: list[int] = []
+    assert run(scene, path, progress=lambda done, *_: told.append(done)) == table
+    assert measured == []
+    assert told == [6]
+    assert path.read_bytes() == whole
+
+
+def test_a_file_cut_off_anywhere_is_continued_and_only_what_is_missing_is_measured(
+    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path, measured: list[int]
+) -> None:
+    path, begin = tmp_path / "r.csv", header_size(whole)
+    cuts = {0, 1, begin - 1, begin, begin + 1, len(whole) - 1, *range(begin, len(whole), 61)}
+    for cut in sorted(cuts):
+        path.write_bytes(whole[:cut])
+        measured.clear()
+        assert run(scene, path) == table
+        assert path.read_bytes() == whole
+        there = whole[begin:cut].count(b"\n") // len(BOTH)
+        assert sorted(measured) == list(range(there, 6))
+
+
+def test_rows_in_any_order_are_continued_and_put_in_order(
+    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path
+) -> None:
+    path, begin = tmp_path / "r.csv", header_size(whole)
+    lines = whole[begin:].splitlines(keepends=True)
+    points = [b"".join(lines[first : first + 2]) for first in range(0, len(lines), 2)]
+    path.write_bytes(whole[:begin] + points[4] + points[0] + points[5])
+    assert run(scene, path) == table
+    assert path.read_bytes() == whole
+
+
+@pytest.mark.parametrize(
+    ("others", "words"),
+    [
+        ({"seed": 4}, "'seed 3, of every point' where this one has 'seed 4"),
+        ({"images": 2}, "images 1"),
+        ({"decoder": "matched"}, "decoders threshold, matched"),
+        ({"axes": {**AXES, "distance": [0.1, 1.0]}}, "axis distance"),
+        ({"axes": dict(reversed(AXES.items()))}, "Success rate over distance"),
+        ({"tolerance": 0.25}, "tolerance 0.5"),
+        ({"force": {"jpeg": False}}, "by hand: nothing"),
+        ({"path": "image"}, "path auto"),
+    ],
+)
+def test_the_file_of_another_sweep_is_refused_and_left_as_it_is(
+    scene: Scene, whole: bytes, tmp_path: Path, others: dict[str, object], words: str
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_bytes(whole)
+    with pytest.raises(occ.OutputError, match=f"holds the results of another sweep.*{words}"):
+        run(scene, path, **others)
+    assert path.read_bytes() == whole
+
+
+def test_another_scene_or_format_is_another_sweep(
+    scene: Scene, whole: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_bytes(whole)
+    with pytest.raises(occ.OutputError, match=r"'iso = 100.0' where this one has 'iso = 200.0'"):
+        run(scene.replace(iso=200.0), path)
+    path.write_bytes(whole.replace(b"\n", b"\r\n"))
+    with pytest.raises(occ.OutputError, match="was changed by another program"):
+        run(scene, path)
+    newer = whole.replace(b"# format 1 of", b"# format 2 of")
+    path.write_bytes(newer)
+    with pytest.raises(occ.OutputError, match="format 2"):
+        run(scene, path)
+    assert path.read_bytes() == newer
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text + b"1.0,4000.0,threshold,1,3,10,10,100.0,1,1,\n" * 2,
+        lambda text: text + b"hello\nworld\n",
+        lambda text: text.replace(b",matched,1,3,", b",matched,1,4,", 1),
+        lambda text: text + b"".join(text.splitlines(keepends=True)[-2:]),
+        lambda text: text + b"\0" * 30 + b"\n\n",
+    ],
+)
+def test_lines_that_the_sweep_has_not_written_are_refused_and_left(
+    scene: Scene, whole: bytes, tmp_path: Path, change: Callable[[bytes], bytes]
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_bytes(change(whole))
+    with pytest.raises(occ.OutputError, match=r"holds something else in line \d+"):
+        run(scene, path)
+    assert path.read_bytes() == change(whole)
+
+
+def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: Path) -> None:
+    foreign = tmp_path / "foreign.csv"
+    foreign.write_text("a,b\n1,2\n")
+    for path, words in (
+        (foreign, "holds no results of a sweep; name another file"),
+        (tmp_path, "is a folder"),
+        (Path(os.devnull), "is a device"),
+        (tmp_path / "no" / "r.csv", "cannot be written: No such file"),
+        (foreign / "r.csv", "cannot be written: Not a directory"),
+    ):
+        with pytest.raises(occ.OutputError, match=words):
+            run(scene, path)
+    assert foreign.read_text() == "a,b\n1,2\n"
+
+
+@pytest.mark.parametrize("room", [0, 1, 3, 4.5])
+def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
+    scene: Scene,
+    table: SweepTable,
+    whole: bytes,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    room: float,
+) -> None:
+    path, real = tmp_path / "r.csv", os.write
+    left = room
+
+    def write(descriptor: int, text: memoryview) -> int:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return real(descriptor, text[:40] if left == 0.5 else text)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(sweep_file.os, "write", write)
+        with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
+            run(scene, path)
+    kept = path.read_bytes()
+    assert kept == b"" or kept.endswith(b"\n")
+    assert kept.count(b"\n") == (0 if room < 1 else whole[: header_size(whole)].count(b"\n")) + (
+        2 * max(0, int(room) - 1 - (room == 4.5))
+    )
+    assert run(scene, path) == table
+
+
+def test_two_sweeps_on_one_file_are_refused(
+    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "r.csv"
+    refusals: list[str] = []
+
+    def second(done: int, *_: object) -> None:
+        if done == 2:
+            with pytest.raises(occ.OutputError) as refusal:
+                run(scene, path)
+            refusals.append(str(refusal.value))
+
+    assert run(scene, path, progress=second) == table
+    assert refusals == [
+        f"{path} is being written by another sweep; wait for it, or name another file."
+    ]
+    assert path.read_bytes() == whole
+
+
+def test_a_link_is_followed(scene: Scene, whole: bytes, tmp_path: Path) -> None:
+    link, path = tmp_path / "link.csv", tmp_path / "r.csv"
+    link.symlink_to(path)
+    run(scene, link)
+    assert link.is_symlink()
+    assert path.read_bytes() == whole

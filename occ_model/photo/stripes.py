@@ -130,7 +130,7 @@ def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outward: int) -> int:
     """Find, within a band to either side, the row from which the stripes are shown."""
-    rows = photo.samples.shape[0]
+    rows = len(photo.samples)
     reach = -(-rows // _BANDS)
     first, last = max(0, near - reach), min(rows, near + reach)
     part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)

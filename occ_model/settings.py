@@ -11,6 +11,7 @@ from occ_model.errors import ParameterError, SceneFileError
 from occ_model.parameters import parameter_named
 from occ_model.presets import load_preset
 from occ_model.scene import Scene
+from occ_model.scene_inside import ENDINGS, scene_inside
 from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, TOLERANCE, SimulationSettings
 
 DEFAULT_PRESET = "phone-68us"
@@ -18,7 +19,7 @@ DEFAULT_PRESET = "phone-68us"
 
 
 def read_scene_file(path: Path) -> Scene:
-    """Read a scene file.
+    """Read a scene file, or the scene inside a figure or table that was exported.
 
     Raises
     ------
@@ -27,6 +28,8 @@ def read_scene_file(path: Path) -> Scene:
     ParameterError
         A value in it is not of its kind or out of range.
     """
+    if path.suffix.lower() in ENDINGS:
+        return scene_inside(path)
     try:
         # Some editors begin a file with a byte order mark.
         text = path.read_text(encoding="utf-8-sig")

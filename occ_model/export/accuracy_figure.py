@@ -11,8 +11,8 @@ from matplotlib.ticker import LogFormatterMathtext
 
 from occ_model import colours
 from occ_model.export.drawing import house_style, save_figure
-from occ_model.export.provenance import Provenance
 from occ_model.export.tables import write_table
+from occ_model.provenance import Provenance
 from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings

@@ -9,13 +9,17 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from occ_model import colours
-from occ_model.export.provenance import Provenance
+from occ_model.errors import OutputError
 from occ_model.output import write_whole
+from occ_model.provenance import Provenance
 
 # The styles tell the lines apart in grey print, too.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
 BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
+
+FORMATS = ("png", "svg", "pdf")
+"""What figures are written in."""
 
 _LOOK: dict[Any, Any] = {
     "font.size": 9,
@@ -24,12 +28,53 @@ _LOOK: dict[Any, Any] = {
     "figure.constrained_layout.use": True,
     "savefig.dpi": 200,
     "pdf.fonttype": 42,
+    "svg.hashsalt": "occ_model",  # the same figure is the same file
 }
 
 
 def house_style() -> AbstractContextManager[None]:
     """Give all figures drawn within the same look."""
     return rc_context(_LOOK)
+
+
+def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
+    """Write a figure in the format that the file's ending names, its provenance inside.
+
+    To be called within the house style, in which the figure was drawn.
+
+    Raises
+    ------
+    OutputError
+        The ending names no format of figures, or the file cannot be written.
+    """
+    write_whole(path, figure_bytes(figure, figure_format(path), provenance))
+
+
+def figure_format(path: Path) -> str:
+    """Say which format a file's ending names.
+
+    Raises
+    ------
+    OutputError
+        None of those that figures are written in.
+    """
+    ending = path.suffix.lower().removeprefix(".")
+    if ending not in FORMATS:
+        raise OutputError(f"{path.name} has no ending of a figure; use .png, .svg or .pdf.")
+    return ending
+
+
+def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
+    """Encode a figure, its provenance inside."""
+    title, text = provenance.title, provenance.text()
+    metadata: dict[str, dict[str, str | None]] = {
+        "pdf": {"Title": title, "Subject": text, "CreationDate": None},
+        "svg": {"Title": title, "Description": text, "Date": None},
+        "png": {"Title": title, "Description": text},
+    }
+    buffer = BytesIO()
+    figure.savefig(buffer, format=format_name, metadata=metadata[format_name])
+    return buffer.getvalue()
 
 
 def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
@@ -42,12 +87,5 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
     OutputError
         A file cannot be written.
     """
-    text = provenance.text()
-    metadata = {
-        "pdf": {"Title": provenance.title, "Subject": text, "CreationDate": None},
-        "png": {"Title": provenance.title, "Description": text},
-    }
-    for ending, fields in metadata.items():
-        buffer = BytesIO()
-        figure.savefig(buffer, format=ending, metadata=fields)
-        write_whole(folder / f"{name}.{ending}", buffer.getvalue())
+    for ending in ("pdf", "png"):
+        write_figure(folder / f"{name}.{ending}", figure, provenance)

@@ -15,10 +15,10 @@ from occ_model.band_model import band_profile
 from occ_model.camera.projection import row_spans
 from occ_model.errors import BandModelUndefined
 from occ_model.export.drawing import BAND, PHOTO, SIMULATION, save_figure
-from occ_model.export.provenance import Provenance
 from occ_model.export.tables import write_table
 from occ_model.photo.load import Photo
 from occ_model.presets import load_preset
+from occ_model.provenance import Provenance
 from occ_model.results import Frame
 from occ_model.scene import Scene
 from occ_model.simulation import render

@@ -1,6 +1,5 @@
 """A sweep's success rates, drawn: over one axis as curves, over two as maps."""
 
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -15,14 +14,11 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.declarations import Choice, ParameterValue, Quantity
-from occ_model.errors import OutputError, ParameterError
-from occ_model.export.drawing import house_style
-from occ_model.export.provenance import Provenance
-from occ_model.output import write_whole
+from occ_model.errors import ParameterError
+from occ_model.export.drawing import figure_format, house_style, write_figure
 from occ_model.parameters import PARAMETERS
+from occ_model.provenance import Provenance
 from occ_model.results import SweepTable
-
-_FORMATS = ("png", "pdf", "svg")
 
 _STYLES: tuple[dict[str, Any], ...] = (
     {"color": colours.SIMULATION, "marker": "o", "markersize": 6.5, "linestyle": "-"},
@@ -62,9 +58,7 @@ def write_sweep_figure(path: Path, table: SweepTable) -> None:
     OutputError
         The ending names no such format, or the file cannot be written.
     """
-    ending = path.suffix.lower().removeprefix(".")
-    if ending not in _FORMATS:
-        raise OutputError(f"{path.name} has no ending of a figure; use .png, .pdf or .svg.")
+    figure_format(path)  # before anything is drawn
     names = list(table.axes)
     if len(names) > 2:
         raise ParameterError(
@@ -72,25 +66,17 @@ def write_sweep_figure(path: Path, table: SweepTable) -> None:
         )
     with house_style():
         figure = _curves(table) if len(names) == 1 else _maps(table)
-        buffer = BytesIO()
-        figure.savefig(buffer, format=ending, metadata=_metadata(ending, table))
-    write_whole(path, buffer.getvalue())
+        write_figure(path, figure, _provenance(table))
 
 
-def _metadata(ending: str, table: SweepTable) -> dict[str, Any]:
+def _provenance(table: SweepTable) -> Provenance:
     settings = table.request.settings
     title = f"Success rate over {' and '.join(table.axes)}"
     notes = (
         f"{settings.images} images a point",
         *(f"{name}: {', '.join(map(_text, values))}" for name, values in table.axes.items()),
     )
-    scenes = {"at hand": table.request.scene}
-    text = Provenance(title, scenes, settings.seed, notes).text()
-    if ending == "pdf":
-        return {"Title": title, "Subject": text, "CreationDate": None}
-    if ending == "svg":
-        return {"Title": title, "Description": text, "Date": None}
-    return {"Title": title, "Description": text}
+    return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
 
 
 def _text(value: ParameterValue) -> str:

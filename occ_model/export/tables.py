@@ -5,8 +5,8 @@ from collections.abc import Iterable, Sequence
 from io import StringIO
 from pathlib import Path
 
-from occ_model.export.provenance import Provenance
 from occ_model.output import write_whole
+from occ_model.provenance import Provenance
 
 
 def write_table(

@@ -1,10 +1,13 @@
-"""What a file says about where its numbers come from."""
+"""What a file says about where its numbers come from, written and read back."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from occ_model.scene import Scene
 from occ_model.version import __version__
+
+_SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -21,16 +24,21 @@ class Provenance:
         Of all random numbers, None where there are none.
     notes
         Further lines.
+    date
+        When they were made, empty where the file is to be the same whenever it is.
     """
 
     title: str
     scenes: Mapping[str, Scene]
     seed: int | None = None
     notes: tuple[str, ...] = field(default=())
+    date: str = ""
 
     def lines(self) -> list[str]:
         """Write it as lines of text."""
         lines = [self.title, f"occ_model {__version__}"]
+        if self.date:
+            lines.append(f"date {self.date}")
         if self.seed is not None:
             lines.append(f"seed {self.seed}")
         lines += self.notes
@@ -41,3 +49,19 @@ class Provenance:
     def text(self) -> str:
         """Write it as one text."""
         return "\n".join(self.lines())
+
+
+def scenes_in(text: str) -> dict[str, Scene]:
+    """Read the scenes out of what :meth:`Provenance.text` wrote, by their names.
+
+    Raises
+    ------
+    SceneFileError
+        A scene in it cannot be read.
+    ParameterError
+        A value in one is out of range.
+    """
+    _before, *parts = _SCENE.split(text)  # names and texts in turn
+    return {
+        name: Scene.from_toml(toml) for name, toml in zip(parts[::2], parts[1::2], strict=True)
+    }

@@ -1,0 +1,104 @@
+"""What the window shows, as files."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.export.drawn import ENDINGS, Drawing, write_all
+from occ_model.export.view_figures import decode_drawing, picture_drawing, profile_drawing
+from occ_model.provenance import Provenance
+from occ_model.scene_inside import scene_inside
+
+SCENE = occ.load_preset("phone-68us").replace(rows=800, panel_height=2.0)
+FRAME = occ.render(SCENE)
+BAND = occ.band_profile(SCENE)
+PHOTO = occ.compare(FRAME.profile[800:2000] * 0.7 + 3.0, FRAME.profile, 800.0)
+
+
+def drawings() -> list[Drawing]:
+    return [
+        picture_drawing(FRAME, occ.decode(FRAME.image, SCENE).region, FRAME.image),
+        profile_drawing(FRAME, BAND, comparison=PHOTO),
+        decode_drawing(SCENE, occ.decode(FRAME.image, SCENE)),
+        decode_drawing(SCENE, occ.decode(FRAME.image, SCENE, "matched")),
+    ]
+
+
+def provenance(drawing: Drawing) -> Provenance:
+    return Provenance(drawing.title, {"at hand": SCENE}, 1, date="2026-11-21")
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("report") / "deep"
+    written = write_all(folder, drawings(), provenance)
+    assert sorted(written) == sorted(folder.iterdir())
+    return folder
+
+
+def test_every_drawing_comes_in_every_format(folder: Path) -> None:
+    names = {"picture", "profile", "decoding-threshold", "decoding-matched"}
+    assert {p.name for p in folder.iterdir()} == {f"{n}{end}" for n in names for end in ENDINGS}
+
+
+def test_every_file_gives_the_scene_back(folder: Path) -> None:
+    assert all(scene_inside(path) == SCENE for path in folder.iterdir())
+
+
+def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
+    profile = rows(folder / "profile.csv")
+    assert [float(row["simulation (grey level)"]) for row in profile] == FRAME.profile.tolist()
+    assert [float(row["band model (grey level)"]) for row in profile] == BAND.tolist()
+    photo = np.array([float(row["photo (grey level)"]) for row in profile])
+    assert np.isnan(photo[:800]).all()
+    assert np.array_equal(photo[800:2000], PHOTO.photo)
+    signal = occ.decode(FRAME.image, SCENE).signal
+    assert signal is not None
+    read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]
+    assert [float(value) for value in read if value] == signal.tolist()
+    first = rows(folder / "picture.csv")[0]
+    assert len(first) == 1 + FRAME.image.shape[1] // 4
+
+
+def test_the_same_drawing_is_the_same_file(tmp_path: Path) -> None:
+    for ending in ENDINGS:
+        path = tmp_path / f"a{ending}"
+        texts = set()
+        for _ in range(2):
+            drawing = drawings()[2]
+            drawing.write(path, provenance(drawing))
+            texts.add(path.read_bytes())
+        assert len(texts) == 1
+
+
+def test_a_decoding_that_failed_is_drawn_as_far_as_it_came(tmp_path: Path) -> None:
+    dark = SCENE.replace(luminance=0.0)
+    result = occ.decode(occ.render(dark).image, dark)
+    assert result.failure is not None
+    drawing = decode_drawing(dark, result)
+    assert result.failure in drawing.title
+    drawing.write(tmp_path / "failed.png", provenance(drawing))
+    with Image.open(tmp_path / "failed.png") as picture:
+        assert picture.width > 500
+
+
+def test_the_reason_stands_where_there_is_no_band_model(tmp_path: Path) -> None:
+    drawing = profile_drawing(FRAME, None, "The band model is undefined here.")
+    drawing.write(tmp_path / "profile.svg", provenance(drawing))
+    assert "band model (grey level)" not in drawing.header
+
+
+def test_an_ending_that_is_none_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    drawing = drawings()[0]
+    with pytest.raises(occ.OutputError, match=r"figure\.doc has no ending"):
+        drawing.write(tmp_path / "figure.doc", provenance(drawing))
+    assert not list(tmp_path.iterdir())

@@ -30,7 +30,7 @@ from occ_model.photo.comparison import compare
 from occ_model.photo.load import Photo, load_photo
 from occ_model.photo.match import match_photo
 from occ_model.photo.stripes import find_stripes
-from occ_model.presets import load_preset, presets
+from occ_model.presets import delete_preset, load_preset, presets, save_preset
 from occ_model.receiver.decode import decode
 from occ_model.results import (
     Comparison,
@@ -86,6 +86,7 @@ __all__ = [
     "column_profile",
     "compare",
     "decode",
+    "delete_preset",
     "find_stripes",
     "limits",
     "load_photo",
@@ -97,6 +98,7 @@ __all__ = [
     "plan",
     "presets",
     "render",
+    "save_preset",
     "success_rate",
     "sweep",
     "wilson_interval",

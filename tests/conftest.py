@@ -7,6 +7,9 @@ from pathlib import Path
 # Before Qt is imported anywhere: no test opens a window on a real screen.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
+# No test sees or touches the presets of whoever runs it.
+os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
+
 import pytest
 from hypothesis import settings
 

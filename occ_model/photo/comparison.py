@@ -15,8 +15,8 @@ def compare(
 ) -> Comparison:
     """Lay a photo's profile over a simulated one, and measure how alike they are.
 
-    The photo's levels become the simulation's by the straight line that fits best: how bright a
-    photo is says nothing about its stripes.
+    The photo gets the simulation's mean and swing (standard deviation): how bright a photo is says
+    nothing about its stripes.
 
     Parameters
     ----------
@@ -45,12 +45,9 @@ def compare(
     place = (np.arange(first, last + 1) - first_column) / scale
     seen = np.interp(place, np.arange(len(evened)), evened)
     under = simulated[first : last + 1]
-    about_mean = seen - seen.mean()
-    power, swing = float(about_mean @ about_mean), under - under.mean()
-    if np.sqrt(power / len(seen)) < _FLAT or under.std() < _FLAT:
+    about_mean, swing = seen - seen.mean(), under - under.mean()
+    if about_mean.std() < _FLAT or swing.std() < _FLAT:
         return Comparison(first, np.full(len(under), under.mean()), under, 0.0)
-    slope = float(about_mean @ swing) / power
-    correlation = slope * np.sqrt(power) / float(np.linalg.norm(swing))
-    # A photo that runs against the simulation is not turned round to make it fit.
-    slope = max(slope, 0.0)
-    return Comparison(first, under.mean() + slope * about_mean, under, float(correlation))
+    correlation = float(np.mean(about_mean * swing) / (about_mean.std() * swing.std()))
+    photo = under.mean() + about_mean * (swing.std() / about_mean.std())
+    return Comparison(first, photo, under, correlation)

@@ -35,8 +35,14 @@ def test_a_photo_that_is_moved_and_scaled_is_compared_where_it_lies(
 def test_the_opposite_is_not_turned_round_to_fit() -> None:
     found = occ.compare(-SIMULATED, SIMULATED)
     assert found.correlation == pytest.approx(-1.0)
-    assert np.ptp(found.photo) == pytest.approx(0.0, abs=1e-9)
-    assert found.rmse == pytest.approx(float(SIMULATED.std()))
+    assert np.allclose(found.photo, 2.0 * SIMULATED.mean() - SIMULATED)
+    assert found.rmse == pytest.approx(2.0 * float(SIMULATED.std()))
+
+
+def test_a_photo_of_something_else_keeps_its_stripes() -> None:
+    found = occ.compare(np.sin(np.arange(300) / 3.7), SIMULATED)
+    assert abs(found.correlation) < 0.2
+    assert found.photo.std() == pytest.approx(SIMULATED.std())
 
 
 def test_what_is_flat_correlates_with_nothing() -> None:

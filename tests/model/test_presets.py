@@ -1,13 +1,23 @@
-"""The scenes that come with the package."""
+"""The scenes that come with the package, and those that a user keeps."""
 
 import sys
 from pathlib import Path
 
 import pytest
 
-from occ_model.errors import OccError, ParameterError, PresetError, SceneFileError
+from occ_model.errors import OccError, OutputError, ParameterError, PresetError, SceneFileError
 from occ_model.parameters import PARAMETERS
-from occ_model.presets import Preset, load_preset, preset_named, presets
+from occ_model.presets import (
+    USER_FOLDER,
+    Preset,
+    delete_preset,
+    load_preset,
+    preset_named,
+    presets,
+    save_preset,
+    user_folder,
+    user_presets,
+)
 from occ_model.scene import Scene
 
 PAPER = ("phone-136us", "phone-68us", "tablet-122us", "tablet-61us")
@@ -181,3 +191,150 @@ def test_a_misspelt_preset_is_answered_with_the_nearest() -> None:
 def test_an_unknown_preset_is_a_key_error_and_one_of_ours() -> None:
     assert issubclass(PresetError, KeyError)
     assert issubclass(PresetError, OccError)
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Keep the user's own presets in a folder that is not there yet."""
+    folder = tmp_path / "own" / "presets"
+    monkeypatch.setenv(USER_FOLDER, str(folder))
+    return folder
+
+
+MINE = Scene().replace(readout_time=14.565e-6, pattern="10", iso=321.0)
+
+
+def test_a_saved_preset_is_loaded_exactly_as_it_was_with_its_title_and_sources(own: Path) -> None:
+    sources = {"readout_time": "measured: photo a.png"}
+    path = save_preset("My phone", MINE, title="My phone's camera", sources=sources)
+    assert path == own / "My phone.toml"
+    preset = preset_named("My phone")
+    assert (preset.scene, preset.title, preset.sources) == (MINE, "My phone's camera", sources)
+    assert load_preset("My phone") == MINE
+    assert list(own.iterdir()) == [path]
+
+
+def test_the_users_own_presets_are_listed_after_those_of_the_program(own: Path) -> None:
+    built_in = presets()
+    for name in ("b", "a 1", "zz"):
+        save_preset(name, MINE)
+    assert user_presets() == ("a 1", "b", "zz")
+    assert presets() == (*built_in, "a 1", "b", "zz")
+    assert preset_named("b").title == "b"
+
+
+def test_saving_under_the_name_of_an_own_preset_replaces_it(own: Path) -> None:
+    save_preset("mine", MINE)
+    save_preset("mine", MINE.replace(iso=400.0))
+    assert load_preset("mine").camera.iso == 400.0
+    assert user_presets() == ("mine",)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["", " a", "a ", ".a", "../a", "a/b", "a\\b", "a.b", "ä", "a\n", "a\0", "x" * 61, "NUL", 3],
+)
+def test_what_cannot_be_a_presets_name_is_refused_and_nothing_written(
+    own: Path, name: object
+) -> None:
+    with pytest.raises(PresetError, match=r"^A preset cannot be named ") as refused:
+        save_preset(name, MINE)  # type: ignore[arg-type]
+    assert str(refused.value).endswith(".")
+    assert not own.exists()
+
+
+@pytest.mark.parametrize("name", ["phone-136us", "PHONE-136us"])
+def test_the_name_of_a_preset_of_the_program_is_refused(own: Path, name: str) -> None:
+    with pytest.raises(PresetError, match=r"is a preset of the program; choose another name\.$"):
+        save_preset(name, MINE)
+    assert not own.exists()
+
+
+def test_a_source_of_what_is_no_parameter_is_refused_and_nothing_written(own: Path) -> None:
+    with pytest.raises(ParameterError, match="isoo"):
+        save_preset("mine", MINE, sources={"isoo": "a book"})
+    with pytest.raises(ParameterError, match=r"^scene is "):
+        save_preset("mine", "a scene")  # type: ignore[arg-type]
+    assert not own.exists()
+
+
+def test_a_deleted_preset_is_gone(own: Path) -> None:
+    save_preset("mine", MINE)
+    delete_preset("mine")
+    assert user_presets() == ()
+    with pytest.raises(PresetError, match=r"^There is no preset 'mine'\."):
+        load_preset("mine")
+    with pytest.raises(PresetError, match=r"^There is no preset 'mine'\. Known are none\.$"):
+        delete_preset("mine")
+
+
+def test_a_preset_of_the_program_cannot_be_deleted(own: Path) -> None:
+    with pytest.raises(PresetError, match="comes with the program"):
+        delete_preset("phone-136us")
+    assert "phone-136us" in presets()
+
+
+RUBBISH = {
+    "no toml": b"this is no preset",
+    "bytes": b"\xff\xfe\x00",
+    "empty": b"",
+    "title": b"format = 1\ntitle = 5\n",
+    "base": b"format = 1\nbased_on = 5\n",
+    "elsewhere": b"format = 1\nbased_on = '../../elsewhere'\n",
+    "itself": b"format = 1\nbased_on = 'itself'\n",
+    "notes": b"format = 1\nsources = 3\n",
+    "note": b"format = 1\n[sources]\niso = 3\n",
+    "value": b"format = 1\n[camera]\niso = -5.0\n",
+    "key": b"format = 1\n[camera]\nshutter = 1\n",
+}
+
+
+@pytest.mark.parametrize("name", RUBBISH)
+def test_rubbish_among_the_users_own_is_left_out_and_named_when_it_is_loaded(
+    own: Path, name: str
+) -> None:
+    built_in = presets()
+    save_preset("good", MINE)
+    (own / f"{name}.toml").write_bytes(RUBBISH[name])
+    (own / "a folder.toml").mkdir()
+    (own / "phone-136us.toml").write_bytes(b"not the program's")
+    assert presets() == (*built_in, "good")
+    with pytest.raises((SceneFileError, ParameterError)) as refused:
+        load_preset(name)
+    assert str(own / f"{name}.toml") in str(refused.value)
+    assert load_preset("phone-136us").camera.exposure_time == 136e-6
+    delete_preset(name)
+    assert not (own / f"{name}.toml").exists()
+
+
+def test_an_own_preset_may_be_based_on_one_of_the_program(own: Path) -> None:
+    own.mkdir(parents=True)
+    (own / "mine.toml").write_text(
+        'format = 1\nbased_on = "phone-136us"\ntitle = "Mine"\n[camera]\niso = 400\n'
+        '[sources]\niso = "my camera"\n'
+    )
+    mine = preset_named("mine")
+    assert mine.scene == load_preset("phone-136us").replace(iso=400)
+    assert mine.sources["iso"] == "my camera"
+    assert mine.sources["readout_time"].startswith("paper, ")
+
+
+def test_a_preset_that_cannot_be_written_says_so(own: Path) -> None:
+    own.parent.mkdir()
+    own.write_text("a file where the folder should be")
+    with pytest.raises(OutputError, match=r"\.$"):
+        save_preset("mine", MINE)
+    assert presets() == tuple(sorted(presets()))
+
+
+def test_a_text_that_no_file_can_hold_is_saved_all_the_same(own: Path) -> None:
+    save_preset("mine", MINE, title="photo \udcff.png")
+    assert preset_named("mine").title == "photo ?.png"
+
+
+def test_the_users_folder_is_the_systems_where_none_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delenv(USER_FOLDER)
+    assert user_folder().is_absolute()
+    assert user_folder().parts[-2:] == ("occ-explorer", "presets")

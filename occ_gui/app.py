@@ -28,8 +28,11 @@ if TYPE_CHECKING:
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables one of which says where a window can be drawn."""
 
-PANES = ("controls", "decode", "profile", "accuracy")
+PANES = ("controls", "decode", "photo", "profile", "accuracy")
 """The docks, by their names in the window."""
+
+OVERLAYS = ("beside", "blend", "split", "difference")
+"""How a photo can be shown with the simulated picture."""
 
 _NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
@@ -66,6 +69,13 @@ def _parser() -> argparse.ArgumentParser:
     parser.set_defaults(noise="reused")  # keeps up with a slider
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
+        "--match", action="store_true", help="match the photo, and let the scene follow it"
+    )
+    parser.add_argument(
+        "--overlay", choices=OVERLAYS, default=OVERLAYS[0],
+        help="how photo and simulation are shown; default: %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
         "--screenshot", type=Path, metavar="FILE",
         help="draw the window, without a display, into this picture, and end",
     )  # fmt: skip
@@ -87,6 +97,8 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _run(options: argparse.Namespace, scene: Scene, settings: SimulationSettings) -> int:
+    if options.match and not options.photo:
+        raise occ.OccError("--match needs a photo; name one with --photo.")
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise occ.OutputError(f"{options.screenshot}: a screenshot is a .png file; name one.")
@@ -94,14 +106,16 @@ def _run(options: argparse.Namespace, scene: Scene, settings: SimulationSettings
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
             occ.load_photo(options.photo)
-    qt, application = start(scene, sys.argv[:1], settings)
+    # A screenshot is of the window as it comes, whatever its user did last.
+    qt, application = start(scene, sys.argv[:1], settings, remembers=not options.screenshot)
     if options.size:
         application.window.resize(*options.size)
     if options.photo:
-        application.open_photo(options.photo)
+        application.show_mode(options.overlay)
+        application.open_photo(options.photo, options.match, front=options.dock is None)
     application.window.show()
     if options.dock:
-        application.window.docks[options.dock].raise_()
+        application.window.bring_to_front(options.dock)
     if options.screenshot:
         _take_screenshot(application, options.screenshot)
         return 0
@@ -121,7 +135,10 @@ def _close_on_interrupt(application: "Application") -> None:
 
 
 def start(
-    scene: Scene, arguments: list[str], settings: SimulationSettings | None = None
+    scene: Scene,
+    arguments: list[str],
+    settings: SimulationSettings | None = None,
+    remembers: bool = False,
 ) -> "tuple[QApplication, Application]":
     """Put the application together, its window not yet shown.
 
@@ -133,20 +150,25 @@ def start(
         What Qt may read from the command line.
     settings
         How the scene is simulated at first, by default as suits a slider.
+    remembers
+        Whether files that were opened are remembered until the next start.
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would find out by itself, but say more about it than helps.
         raise occ.OccError(_NO_DISPLAY)
     # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
+    from PySide6.QtCore import QSettings
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
     from occ_gui.qt_messages import log_qt_messages
+    from occ_gui.state.settings_store import FIRST_SETTINGS
 
     log_qt_messages(_end_without_display)
     qt = QApplication(arguments)
     log_qt_messages()
-    return qt, Application(scene) if settings is None else Application(scene, settings)
+    memory = QSettings("occ-explorer", "occ-gui") if remembers else None
+    return qt, Application(scene, settings or FIRST_SETTINGS, memory)
 
 
 def _end_without_display() -> NoReturn:
@@ -166,7 +188,8 @@ def wait_until_shown(application: "Application") -> None:
     from PySide6.QtWidgets import QApplication
 
     failures: list[str] = []
-    for controller in (application.simulation, application.photos):
+    matching = application.desk.matching
+    for controller in (application.simulation, application.photos, matching):
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
     QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case

@@ -2,34 +2,36 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QSettings
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMessageBox
 
 import occ_model as occ
 from occ_gui.controllers.accuracy import AccuracyController
-from occ_gui.controllers.files import FileController
-from occ_gui.controllers.photo import PhotoController
+from occ_gui.controllers.files import FileController, sample_photos
+from occ_gui.controllers.photo_desk import PhotoDesk
+from occ_gui.controllers.presets import PresetController
 from occ_gui.controllers.simulation import SimulationController
 from occ_gui.main_window import MainWindow
-from occ_gui.state.gesture import new_gesture
+from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
+from occ_gui.views.photo_view import PhotoView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
 from occ_model.declarations import ParameterValue
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.load import Photo
-from occ_model.presets import preset_named
+from occ_model.results import Match
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
 
 # What a sentence in the status line can be shown until.
-_CHANGE, _PICTURE, _PHOTO = "a change of the scene", "a picture", "a photo"
+_CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
 
 
 class Application(QObject):
@@ -41,48 +43,59 @@ class Application(QObject):
         The scene to begin with.
     settings
         How it is simulated at first.
+    memory
+        What is remembered from one start to the next; by default nothing.
     """
 
-    def __init__(self, scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        settings: SimulationSettings = FIRST_SETTINGS,
+        memory: QSettings | None = None,
+    ) -> None:
         super().__init__()
-        self._preset_names = {occ.load_preset(name): name for name in occ.presets()}
         self.store, self.settings = SceneStore(scene), SettingsStore(settings)
-        self.controls = ControlPanel(
-            [(n, preset_named(n).title) for n in occ.presets()],
-            [name for effect in EFFECTS for name in effect.parameters],
-        )
+        self.memory = Memory(memory)
+        effects = [name for effect in EFFECTS for name in effect.parameters]
+        self.controls = ControlPanel([], effects)
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
-        self.accuracy = AccuracyView()
+        self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.window = MainWindow(
-            self.controls, self.image, self.profile, self.decode, self.accuracy,
-            self.store.undo_stack,
+            self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
+            undo_stack=self.store.undo_stack,
         )  # fmt: skip
-        self.photos = PhotoController([self.image, self.profile])
-        self.files = FileController(self.window, self.store, self.photos)
-        self.simulation = SimulationController(
-            self.store,
-            self.settings,
-            [self.image, self.profile, self.decode, self.accuracy, self.files],
-        )
+        self.desk = PhotoDesk(self.store, self.image, self.profile, self.photo)
+        self.photos = self.desk.photos
+        self.presets = PresetController(self.window, self.store, self.desk.matching)
+        self.files = FileController(self.window, self.store, self.photos, self.memory)
+        # The comparison goes before the profile, which is drawn with it.
+        views = (self.image, self.desk.comparison, self.profile, self.decode, self.accuracy)
+        self.simulation = SimulationController(self.store, self.settings, [*views, self.files])
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
+        self._photo_path: Path | None = None
+        self._match_next, self._front_next = False, True
         self._connect_scene()
         self._connect_settings()
+        self._connect_photo()
         self._connect_menus()
+        self._list_presets()
+        self._list_recent()
+        self.window.menus.show_samples(sample_photos(), self.files.open_sample)
         self._show_scene(scene)
         self._show_settings(settings)
 
     def _connect_scene(self) -> None:
         self.controls.edited.connect(self._edit)
-        self.controls.preset_chosen.connect(self._load_preset)
+        self.controls.preset_chosen.connect(self.presets.load)
+        self.presets.changed.connect(self._list_presets)
+        self.presets.said.connect(self.window.say)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
         self.controls.refused.connect(self._say_refusal)
         self.simulation.shown.connect(self._on_shown)
         self.simulation.failed.connect(self._say_failure)
-        self.photos.failed.connect(self._say_photo_failure)
-        self.photos.opened.connect(self._on_photo)
         self.files.said.connect(self.window.say)
         self.window.closing.connect(self.stop)
 
@@ -97,6 +110,17 @@ class Application(QObject):
         self.settings.changed.connect(self._show_settings)
         self.settings.refused.connect(self._refuse_setting)
 
+    def _connect_photo(self) -> None:
+        self.photos.failed.connect(self._say_photo_failure)
+        self.photos.opened.connect(self._on_photo)
+        self.photo.open_asked.connect(self.files.ask_for_photo)
+        self.photo.form.refused.connect(self._say_refusal)
+        self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
+        self.desk.matching.matched.connect(self._on_match)
+        self.desk.matching.failed.connect(self._say_match_failure)
+        self.memory.changed.connect(self._list_recent)
+        self.window.dropped.connect(self.files.open_dropped)
+
     def _connect_menus(self) -> None:
         for name, slot in {
             "open_photo": self.files.ask_for_photo,
@@ -104,31 +128,71 @@ class Application(QObject):
             "open_scene": self.files.ask_for_scene,
             "save_scene": self.files.ask_to_save_scene,
             "save_picture": self.files.ask_to_save_picture,
+            "delete_preset": self.presets.ask_to_delete,
+            "match": self._match,
+            "apply_match": self.desk.matching.apply,
+            "save_match": self.presets.ask_to_save_match,
+            "use_settings": self.desk.matching.use_notes,
+            "fit": self.image.fit,
             "about": self._tell_about,
         }.items():
             self.window.actions_by_name[name].triggered.connect(slot)
-        self.window.scan_axes.triggered.connect(self._scan_along)
+        menus = self.window.menus
+        menus.scan_axes.triggered.connect(lambda action: self.photos.scan_along(action.data()))
+        self.photos.reading_changed.connect(
+            lambda reading: menus.show_choice(menus.scan_axes, reading.scan_axis)
+        )
+        menus.modes.triggered.connect(self._show_mode)
+        self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
 
     @property
     def is_idle(self) -> bool:
         """Whether all that was asked for is shown."""
-        return self.simulation.runner.is_idle and self.photos.runner.is_idle
+        return self.simulation.runner.is_idle and self.desk.is_idle
 
-    def open_photo(self, path: Path) -> None:
-        """Open a photo."""
+    def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
+        """Open a photo.
+
+        Parameters
+        ----------
+        path
+            The file.
+        match
+            Whether to match it and to put what is found into the scene.
+        front
+            Whether to bring its pane to the front.
+        """
+        self._match_next, self._front_next = match, front
         self.photos.open(path)
+
+    def show_mode(self, mode: str) -> None:
+        """Show the photo beside the simulated picture or on it."""
+        self.image.set_mode(mode)
+        self.window.menus.show_choice(self.window.menus.modes, mode)
+
+    def _show_mode(self, action: QAction) -> None:
+        self.image.set_mode(action.data())
+
+    def _match(self) -> None:
+        self.window.bring_to_front("photo")
+        self.desk.match()
 
     def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
         self.window.happened(_CHANGE)  # also where the value that holds is entered again
         self.store.change(gesture, **{name: value})
 
-    def _load_preset(self, name: str) -> None:
-        self.store.put(occ.load_preset(name), f"preset {name}", new_gesture())
-
     def _show_scene(self, scene: Scene) -> None:
         self.window.happened(_CHANGE)
         self.controls.show_scene(scene)
-        self.controls.show_preset(self._preset_names.get(scene))
+        self.controls.show_preset(self.presets.name_of(scene))
+
+    def _list_presets(self) -> None:
+        self.controls.list_presets(self.presets.titles)
+        self.controls.show_preset(self.presets.name_of(self.store.scene))
+
+    def _list_recent(self) -> None:
+        memory, menus = self.memory, self.window.menus
+        menus.show_recent(memory.files, self.files.open_recent, memory.clear)
 
     def _edit_tolerance(self, tolerance: float) -> None:
         self.window.happened(_CHANGE)  # also where the value that holds is entered again
@@ -151,7 +215,11 @@ class Application(QObject):
         self.window.say(sentence, until=_PICTURE)
 
     def _say_photo_failure(self, sentence: str) -> None:
+        self._match_next = False
         self.window.say(sentence, until=_PHOTO)
+
+    def _say_match_failure(self, sentence: str) -> None:
+        self.window.say(sentence, until=_MATCH)
 
     def _say_refusal(self, sentence: str) -> None:
         self.window.say(sentence, until=_CHANGE)
@@ -162,10 +230,22 @@ class Application(QObject):
 
     def _on_photo(self, photo: Photo | None) -> None:
         self.window.happened(_PHOTO)
+        self.window.happened(_MATCH)
         self.window.show_photo_name(None if photo is None else photo.path.name)
+        self.window.menus.show_match_there(False)
+        path = None if photo is None else photo.path
+        if path not in (None, self._photo_path) and self._front_next:
+            self.window.bring_to_front("photo")
+        self._photo_path, self._front_next = path, True
+        if self._match_next:
+            self.desk.match()
 
-    def _scan_along(self, action: QAction) -> None:
-        self.photos.scan_along(action.data())
+    def _on_match(self, _match: Match) -> None:
+        self.window.happened(_MATCH)
+        self.window.menus.show_match_there(True)
+        if self._match_next:
+            self._match_next = False
+            self.desk.matching.apply()
 
     def _tell_about(self) -> None:
         QMessageBox.about(
@@ -181,4 +261,4 @@ class Application(QObject):
         """Let the work in the background end."""
         self.simulation.stop()
         self.study.stop()
-        self.photos.stop()
+        self.desk.stop()

@@ -1,18 +1,23 @@
 """The window: panes in docks, and the menus."""
 
-from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QAction, QActionGroup, QCloseEvent, QKeySequence, QUndoStack
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMenu, QWidget
+from pathlib import Path
 
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent, QUndoStack
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
+
+from occ_gui.menus import Menus
 from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
+from occ_gui.views.photo_view import PhotoView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_model.photo.load import SCAN_AXES
+from occ_gui.widgets.scroll_pane import ScrollPane
 
 _FIRST_SIZE = QSize(1280, 800)
+_LEAST_DECODING = QSize(320, 300)
 
 
 class MainWindow(QMainWindow):
@@ -20,7 +25,7 @@ class MainWindow(QMainWindow):
 
     Parameters
     ----------
-    controls, image, profile, decode, accuracy
+    controls, image, profile, decode, photo, accuracy
         The panes.
     undo_stack
         The steps that the edit menu undoes.
@@ -29,13 +34,18 @@ class MainWindow(QMainWindow):
     closing = Signal()
     """The window is about to close."""
 
+    dropped = Signal(list)
+    """The paths of what was dropped on the window; none where nothing of it is a file."""
+
     def __init__(
         self,
         controls: ControlPanel,
         image: ImageView,
         profile: ProfileView,
         decode: DecodeView,
+        photo: PhotoView,
         accuracy: AccuracyView,
+        *,
         undo_stack: QUndoStack,
     ) -> None:
         super().__init__()
@@ -45,25 +55,29 @@ class MainWindow(QMainWindow):
         left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
         bottom = Qt.DockWidgetArea.BottomDockWidgetArea
         self.setCorner(Qt.Corner.BottomLeftCorner, left)
+        decoding = ScrollPane(decode, _LEAST_DECODING)
         self.docks = {
             "controls": self._dock("controls", self.tr("Scene"), controls, left),
-            "decode": self._dock("decode", self.tr("Decoding"), decode, right),
+            "decode": self._dock("decode", self.tr("Decoding"), decoding, right),
+            "photo": self._dock("photo", self.tr("Photo"), photo, right),
             "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
             "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
         }
         self.tabifyDockWidget(self.docks["profile"], self.docks["accuracy"])
         self.docks["profile"].raise_()
+        self.docks["photo"].hide()  # so that until it has its place it needs no room
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
         self.resizeDocks([self.docks["profile"]], [308], Qt.Orientation.Vertical)
         self.resizeDocks(
             [self.docks["controls"], self.docks["decode"]], [340, 360], Qt.Orientation.Horizontal
         )
-        self.actions_by_name: dict[str, QAction] = {}
-        self._make_file_menu()
-        self._make_edit_menu(undo_stack)
-        self._make_view_menu(image)
-        self._make_help_menu()
+        self.menus = Menus(self, undo_stack, self.docks.values())
+        self.actions_by_name = self.menus.actions
+        self.setAcceptDrops(True)
+        for widget in self.findChildren(QWidget):
+            widget.setAcceptDrops(False)  # a file can be dropped anywhere
         self._said_until = ""
+        self._is_arranged = False
         self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._timing = QLabel()
         self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
@@ -79,66 +93,16 @@ class MainWindow(QMainWindow):
         self.addDockWidget(area, dock)
         return dock
 
-    def _add(
-        self, menu: QMenu, name: str, text: str, shortcut: QKeySequence.StandardKey | None = None
-    ) -> QAction:
-        action = menu.addAction(text)
-        if shortcut is not None:
-            action.setShortcut(QKeySequence(shortcut))
-        self.actions_by_name[name] = action
-        return action
-
-    def _make_file_menu(self) -> None:
-        keys = QKeySequence.StandardKey
-        menu = self.menuBar().addMenu(self.tr("&File"))
-        self._add(menu, "open_photo", self.tr("Open &photo…"), keys.Open)
-        self._add(menu, "close_photo", self.tr("&Close photo")).setEnabled(False)
-        menu.addSeparator()
-        self._add(menu, "open_scene", self.tr("Open sc&ene…"))
-        self._add(menu, "save_scene", self.tr("&Save scene as…"), keys.Save)
-        self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
-        menu.addSeparator()
-        self._add(menu, "quit", self.tr("&Quit"), keys.Quit).triggered.connect(self.close)
-
-    def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
-        menu = self.menuBar().addMenu(self.tr("&Edit"))
-        undo = undo_stack.createUndoAction(self, self.tr("&Undo"))
-        redo = undo_stack.createRedoAction(self, self.tr("&Redo"))
-        undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
-        redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
-        menu.addActions([undo, redo])
-
-    def _make_view_menu(self, image: ImageView) -> None:
-        menu = self.menuBar().addMenu(self.tr("&View"))
-        self._add(menu, "fit", self.tr("&Fit pictures")).triggered.connect(image.fit)
-        self.actions_by_name["fit"].setShortcut(QKeySequence(self.tr("Ctrl+0")))
-        over = self._add(menu, "photo_over", self.tr("Photo &over the simulation"))
-        over.setCheckable(True)
-        over.toggled.connect(image.set_over)
-        axes = menu.addMenu(self.tr("Photo was &scanned"))
-        self.scan_axes = QActionGroup(self)
-        texts = {
-            "auto": self.tr("&Automatic: across its stripes"),
-            "columns": self.tr("Column by &column"),
-            "lines": self.tr("&Line by line"),
-        }
-        for axis in SCAN_AXES:
-            action = self._add(axes, f"scan_{axis}", texts[axis])
-            action.setCheckable(True)
-            action.setChecked(axis == SCAN_AXES[0])
-            action.setData(axis)
-            self.scan_axes.addAction(action)
-        menu.addSeparator()
-        for dock in self.docks.values():
-            menu.addAction(dock.toggleViewAction())
-
-    def _make_help_menu(self) -> None:
-        menu = self.menuBar().addMenu(self.tr("&Help"))
-        self._add(menu, "about", self.tr("&About"))
+    def bring_to_front(self, name: str) -> None:
+        """Show a pane before those that share its place."""
+        dock = self.docks[name]
+        dock.show()
+        # A window that has just been shown lays its panes out once more, in an order of its own.
+        QTimer.singleShot(0, dock, dock.raise_)
 
     def show_photo_name(self, name: str | None) -> None:
         """Tell which photo is open, if any."""
-        self.actions_by_name["close_photo"].setEnabled(name is not None)
+        self.menus.show_photo_open(name is not None)
         title = self.tr("Optical Camera Communication")
         self.setWindowTitle(f"{name} – {title}" if name else title)  # noqa: RUF001 - a dash
 
@@ -171,6 +135,28 @@ class MainWindow(QMainWindow):
         """Clear the sentence that was to be shown until this happened."""
         if self._said_until == what:
             self.statusBar().clearMessage()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Put the photo's pane behind the decoding, once they have been laid out."""
+        super().showEvent(event)
+        decode, photo = self.docks["decode"], self.docks["photo"]
+        # Earlier, beside the other group, Qt would leave a bar of tabs behind that belongs to none.
+        if not self._is_arranged:
+            self._is_arranged = True
+            self.tabifyDockWidget(decode, photo)
+            photo.show()
+            decode.raise_()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
+        """Take what may be files."""
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell which files were dropped."""
+        event.acceptProposedAction()
+        urls = [url for url in event.mimeData().urls() if url.isLocalFile()]
+        self.dropped.emit([Path(url.toLocalFile()) for url in urls])
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
         """Tell before closing."""

@@ -1,6 +1,7 @@
 """Read photos off the window's thread and hand them to the views."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
@@ -8,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
 from occ_gui.tasks.latest_wins import LatestWins
-from occ_model.photo.load import Photo
+from occ_model.photo.load import CHANNELS, SCAN_AXES, Photo
 
 
 class PhotoView(Protocol):
@@ -18,13 +19,29 @@ class PhotoView(Protocol):
         """Show this photo in place of the last one, or none."""
 
 
-def _read(request: tuple[Path, str]) -> Photo:
-    path, scan_axis = request
-    return occ.load_photo(path, scan_axis)
+@dataclass(frozen=True, slots=True)
+class PhotoReading:
+    """How photos are read.
+
+    Parameters
+    ----------
+    scan_axis
+        Which axis of the file the shutter scanned, one of SCAN_AXES.
+    channel
+        What of a coloured photo is taken, one of CHANNELS.
+    """
+
+    scan_axis: str = SCAN_AXES[0]
+    channel: str = CHANNELS[0]
+
+
+def _read(request: tuple[Path, PhotoReading]) -> Photo:
+    path, reading = request
+    return occ.load_photo(path, reading.scan_axis, channel=reading.channel)
 
 
 class PhotoController(QObject):
-    """Opens photos, turns them, and closes them.
+    """Opens photos, turns them, takes another of their channels, and closes them.
 
     Parameters
     ----------
@@ -38,24 +55,37 @@ class PhotoController(QObject):
     failed = Signal(str)
     """Why a photo could not be read; the last one stays."""
 
+    reading_changed = Signal(object)
+    """How photos are read from now on: a PhotoReading."""
+
     def __init__(self, views: Sequence[PhotoView]) -> None:
         super().__init__()
         self._views = views
         self._wanted: Path | None = None
         self._path: Path | None = None
-        self._scan_axis = "auto"
-        self.runner: LatestWins[tuple[Path, str], Photo] = LatestWins(_read, "reading of the photo")
+        self.reading = PhotoReading()
+        self.runner: LatestWins[tuple[Path, PhotoReading], Photo] = LatestWins(
+            _read, "reading of the photo"
+        )
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self._keep_last)
 
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
         self._wanted = path
-        self.runner.submit((path, self._scan_axis))
+        self.runner.submit((path, self.reading))
 
     def scan_along(self, scan_axis: str) -> None:
         """Say which axis of the file the shutter scanned, and turn the photo that is open."""
-        self._scan_axis = scan_axis
+        self._read_as(replace(self.reading, scan_axis=scan_axis))
+
+    def take_channel(self, channel: str) -> None:
+        """Say which channel is taken, also of the photo that is open."""
+        self._read_as(replace(self.reading, channel=channel))
+
+    def _read_as(self, reading: PhotoReading) -> None:
+        self.reading = reading
+        self.reading_changed.emit(reading)
         if self._wanted is not None:
             self.open(self._wanted)
 

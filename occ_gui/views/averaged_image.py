@@ -23,6 +23,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         super().__init__()
         self._image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
         self._rect = QRectF()
+        self._first_row = -math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
 
     def set_image(self, image: ByteArray, rect: QRectF | None = None) -> None:
@@ -44,6 +45,12 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self._drawn = None
         self.update()
 
+    def show_from(self, row: float) -> None:
+        """Show only what lies at this height of the view or below it; all of it for -inf."""
+        if row != self._first_row:
+            self._first_row = row
+            self.update()
+
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
         """Where the image lies."""
         return self._rect
@@ -64,6 +71,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         if self._drawn is None or self._drawn[:2] != (part, size):
             self._drawn = (part, size, self._averaged(part, size))
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
+        if self._first_row > self._rect.top():
+            painter.setClipRect(self._rect.adjusted(0, self._first_row - self._rect.top(), 0, 0))
         painter.drawImage(target, self._drawn[2])
 
     def _visible_part(self) -> QRect:

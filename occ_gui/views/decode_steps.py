@@ -74,7 +74,7 @@ class SignalPlot(QWidget):
 
     def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
         self.plot.setLabel("bottom", self.tr("bin of a packet"))
-        self.plot.setLabel("left", self.tr("lit fraction"))
+        self.plot.setLabel("left", self.tr("lit share"))
         _draw(self.signal, folded)
         _draw(self.model, model)
         self.plot.setXRange(0, len(folded) - 1, padding=0.02)

@@ -36,6 +36,8 @@ class DecodeView(QWidget):
         self._steps = {name: QLabel() for name in _STEPS}
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
         layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(4)
         for widget in (self.decoders, self.verdict, self.strip, self.reason):
             layout.addWidget(widget)
         layout.addLayout(self._make_form())

@@ -3,7 +3,8 @@
 import pyqtgraph as pg
 from pyqtgraph.graphicsItems.ScatterPlotItem import renderSymbol
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette, QPen, QPixmap
+from PySide6.QtGui import QColor, QPalette, QPen, QPixmap, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy
 
 from occ_model import colours
 
@@ -18,6 +19,28 @@ PACKETS_IN_VIEW = 2
 """Packets that a plot over columns shows at first; the rest can be panned to."""
 
 _LEAST_HEIGHT = 86
+_NAMED_FROM = 76
+"""Pixels of height from which a plot has room for the name of its lower axis."""
+
+
+class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
+    """A plot that names its lower axis where it is high enough, and where that is wanted."""
+
+    _is_named = False
+
+    def name_bottom(self, wanted: bool) -> None:
+        """Say whether the lower axis is to be named."""
+        self._is_named = wanted
+        self._show_name()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Name the axis if there is room for its name now."""
+        super().resizeEvent(event)
+        if self._is_named and self.plotItem is not None:  # there is none once it is closed
+            self._show_name()
+
+    def _show_name(self) -> None:
+        self.getAxis("bottom").showLabel(self._is_named and self.height() >= _NAMED_FROM)
 
 
 def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
@@ -38,7 +61,7 @@ def new_plot(
     palette: QPalette,
     left: pg.AxisItem | None = None,
     bottom: pg.AxisItem | None = None,
-) -> pg.PlotWidget:
+) -> Plot:
     """Make an empty plot that ranges itself only when told to.
 
     Parameters
@@ -53,7 +76,7 @@ def new_plot(
         The axes, where plain ones do not suit.
     """
     axes = {"left": left, "bottom": bottom}
-    plot = pg.PlotWidget(axisItems={side: axis for side, axis in axes.items() if axis is not None})
+    plot = Plot(axisItems={side: axis for side, axis in axes.items() if axis is not None})
     plot.setAccessibleName(name)
     plot.setBackground(palette.color(QPalette.ColorRole.Base))
     for side, label in (("bottom", x), ("left", y)):
@@ -61,7 +84,10 @@ def new_plot(
         axis.setPen(palette.color(QPalette.ColorRole.Mid))
         axis.setTextPen(palette.color(QPalette.ColorRole.Text))
         plot.setLabel(side, label)
+    plot.name_bottom(True)
     plot.setMinimumHeight(_LEAST_HEIGHT)
+    # As high as there is room for; what a plot would like by itself is out of all proportion.
+    plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
     plot.setMenuEnabled(False)
     plot.hideButtons()
     plot.getViewBox().disableAutoRange()

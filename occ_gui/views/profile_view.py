@@ -1,13 +1,20 @@
-"""The column profile beside the band model's and a photo's."""
-
-from collections.abc import Iterable
+"""The column profile beside the band model's and a photo's, and what tells them apart."""
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
+from occ_gui.state.photo_profile import PhotoProfile
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.plots import (
     BAND,
@@ -19,12 +26,14 @@ from occ_gui.views.plots import (
     new_plot,
     thin,
 )
+from occ_gui.views.residual_plot import ResidualPlot
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import FloatArray
-from occ_model.photo.load import Photo
 
 _LEAST_HEIGHT = 76
 """Pixels: in a low window all panes have to share them."""
+
+_AXIS_WIDTH = 52
 
 _SHADE = 40
 """How much of the region's colour lies under the curves, of 255."""
@@ -33,14 +42,19 @@ _SHADE = 40
 class ProfileView(QWidget):
     """Grey level over column: the simulation, the band model or why there is none, and the photo.
 
-    The plot follows the panel's first packets, or the whole panel, until the user moves it.
-    A photo's first column is drawn at the panel's, as its picture is laid over the panel.
+    The plot follows the panel's first packets, or the whole panel, until the user moves it. While
+    a photo is open, what is left of it without the simulation is drawn under both.
     """
+
+    enhanced_chosen = Signal(bool)
+    """Whether the simulated columns are wanted as they stand in the picture."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
-        self._photo: Photo | None = None
+        self._photo: PhotoProfile | None = None
+        self._photo_levels: FloatArray | None = None
+        self._simulated_levels: tuple[FloatArray | None, ...] = ()
         self.plot = new_plot(
             self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
         )
@@ -54,6 +68,9 @@ class ProfileView(QWidget):
         self.reason.setWordWrap(True)
         self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
         self._make_controls()
+        self.residual = ResidualPlot(self.plot)
+        for plot in (self.plot, self.residual.plot):  # so that a column stands over itself
+            plot.getAxis("left").setWidth(_AXIS_WIDTH)
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
         self._lay_out()
 
@@ -86,6 +103,7 @@ class ProfileView(QWidget):
             self.tr("Show the simulated column values as they stand in the picture.")
         )
         self.enhanced.toggled.connect(self._redraw)
+        self.enhanced.toggled.connect(self.enhanced_chosen)
         self._packets = self._range_button(
             self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW),
             self.tr("Show the panel's first packets, and follow them."),
@@ -113,17 +131,44 @@ class ProfileView(QWidget):
         layout.setSpacing(2)
         layout.addLayout(row)
         layout.addWidget(self.reason)
-        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.plot, 3)
+        layout.addWidget(self.residual, 2)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        """Name the columns once only, under the lower of the two plots."""
+        below = self._photo is not None and self._photo.comparison is not None
+        self.residual.setVisible(self._photo is not None)
+        # A sentence in place of the lower plot takes no more room than a line.
+        policy = self.residual.sizePolicy()
+        vertical = QSizePolicy.Policy.Preferred if below else QSizePolicy.Policy.Maximum
+        policy.setVerticalPolicy(vertical)
+        self.residual.setSizePolicy(policy)
+        self.plot.name_bottom(not below)
+        self.plot.getAxis("bottom").setStyle(showValues=not below)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
         self._snapshot = snapshot
         self._redraw()
 
-    def show_photo(self, photo: Photo | None) -> None:
-        """Show this photo's profile in place of the last one, or none."""
-        self._photo = photo
-        self._redraw()
+    def show_photo_profile(self, profile: PhotoProfile | None) -> None:
+        """Show this profile of a photo in place of the last one, or none."""
+        self._photo = profile
+        if profile is None:
+            self._photo_levels = None
+            _draw(self.photo, None)
+        elif profile.comparison is None:  # as it is in the file
+            self._photo_levels = profile.raw
+            _draw(self.photo, profile.raw, profile.first_column, profile.scale)
+        else:  # in the simulation's levels
+            self._photo_levels = profile.comparison.photo
+            _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
+        self.legend.show_line("photo", profile is not None)
+        self._make_room()
+        if profile is not None:
+            self.residual.show_profile(profile)
+        self._fit_levels()
 
     def _redraw(self) -> None:
         snapshot = self._snapshot
@@ -132,10 +177,8 @@ class ProfileView(QWidget):
         frame, decoded = snapshot.frame, snapshot.decoded
         enhanced = self.enhanced.isChecked()
         profile = frame.enhanced.astype(np.float64) if enhanced else frame.profile
-        photo = None if self._photo is None else self._photo.profile
         _draw(self.simulation, profile)
         _draw(self.band, snapshot.band)
-        _draw(self.photo, photo, round(snapshot.panel_origin[0]))
         self.reason.setText(snapshot.band_undefined)
         self.reason.setVisible(bool(snapshot.band_undefined))
         self._region.setVisible(decoded.region is not None)
@@ -146,16 +189,17 @@ class ProfileView(QWidget):
             self.threshold.setValue(decoded.threshold)
         for key, visible in {
             "band": snapshot.band is not None,
-            "photo": photo is not None,
             "threshold": self.threshold.isVisible(),
         }.items():
             self.legend.show_line(key, visible)
-        self._fit_levels([profile, snapshot.band, photo])
+        self._simulated_levels = (profile, snapshot.band)
+        self._fit_levels()
         self._fit_columns(snapshot)
 
-    def _fit_levels(self, profiles: Iterable[FloatArray | None]) -> None:
+    def _fit_levels(self) -> None:
         """Show from black to the largest value, in steps, so that the axis does not tremble."""
-        largest = max(float(p.max()) for p in profiles if p is not None)
+        profiles = (*self._simulated_levels, self._photo_levels)
+        largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
 
@@ -181,8 +225,10 @@ class ProfileView(QWidget):
         self._redraw()
 
 
-def _draw(curve: pg.PlotDataItem, values: FloatArray | None, first_column: int = 0) -> None:
+def _draw(
+    curve: pg.PlotDataItem, values: FloatArray | None, first_column: float = 0.0, scale: float = 1.0
+) -> None:
     if values is None:
         curve.setData([], [])
     else:
-        curve.setData(first_column + np.arange(len(values), dtype=np.float64), values)
+        curve.setData(first_column + scale * np.arange(len(values), dtype=np.float64), values)

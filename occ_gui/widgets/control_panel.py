@@ -53,14 +53,14 @@ class ControlPanel(QWidget):
         super().__init__(parent)
         self.preset = QComboBox()
         self.preset.setAccessibleName(self.tr("Preset"))
-        self.preset.setToolTip(self.tr("Load a scene that comes with the program."))
+        self.preset.setToolTip(
+            self.tr("Load a scene that comes with the program, or one of your own.")
+        )
         self.preset.setPlaceholderText(self.tr("Choose a preset"))
         self.preset.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
-        for name, title in presets:
-            self.preset.addItem(name, name)
-            self.preset.setItemData(self.preset.count() - 1, title, Qt.ItemDataRole.ToolTipRole)
+        self.list_presets(presets)
         self.preset.activated.connect(
             lambda index: self.preset_chosen.emit(self.preset.itemData(index))
         )
@@ -95,6 +95,14 @@ class ControlPanel(QWidget):
             scroll.setMinimumWidth(panel.minimumSizeHint().width() + 20)
             pages.addTab(scroll, title)
         layout.addWidget(pages, 1)
+
+    def list_presets(self, presets: Sequence[tuple[str, str]]) -> None:
+        """Offer these presets, given by their names and titles, in place of the last ones."""
+        self.preset.clear()
+        for name, title in presets:
+            self.preset.addItem(name, name)
+            self.preset.setItemData(self.preset.count() - 1, title, Qt.ItemDataRole.ToolTipRole)
+        self.preset.setCurrentIndex(-1)
 
     def show_scene(self, scene: Scene) -> None:
         """Show a scene's values without telling of them."""

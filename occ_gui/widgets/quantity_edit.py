@@ -40,7 +40,7 @@ class QuantityEdit(QAbstractSpinBox):
         self.setKeyboardTracking(False)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.lineEdit().textEdited.connect(self._note_typing)
-        self.editingFinished.connect(self._read)
+        self.editingFinished.connect(self.take_typed)
         self._typed = False
         self._show()
 
@@ -60,7 +60,8 @@ class QuantityEdit(QAbstractSpinBox):
     def _note_typing(self) -> None:
         self._typed = True
 
-    def _read(self) -> None:
+    def take_typed(self) -> None:
+        """Take what has been typed so far, as leaving the field does."""
         if not self._typed:  # leaving the field must not round the value to what is shown
             return
         plain = self._quantity.unit.display(self._value)[1]
@@ -75,7 +76,7 @@ class QuantityEdit(QAbstractSpinBox):
 
     def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
         """Move along the slider's scale, which is logarithmic where the slider is."""
-        self._read()  # what has been typed so far counts
+        self.take_typed()  # what has been typed so far counts
         fraction = self._quantity.fraction(self._value) + steps * _STEP
         self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
         self.edited.emit(self._value)

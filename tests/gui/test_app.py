@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from occ_gui.app import main
+from occ_gui.app import OVERLAYS, main
+from occ_gui.views.photo_overlay import MODES
 
 PROJECT = Path(__file__).resolve().parents[2]
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
@@ -23,7 +24,8 @@ NOISE = (0xCC, 0x79, 0xA7)
 
 COLD_START = """
 import sys
-from occ_gui.app import main
+from occ_gui.app import OVERLAYS, main
+from occ_gui.views.photo_overlay import MODES
 code = main(["--screenshot", sys.argv[1]])
 heavy = {"matplotlib", "scipy", "skimage"} & set(sys.modules)
 sys.exit(f"imported at start: {heavy}" if heavy else code)
@@ -65,6 +67,36 @@ def test_a_screenshot_of_the_accuracy_pane_waits_for_the_study(tmp_path: Path) -
     with Image.open(tmp_path / "w.png") as image:
         colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
     assert NOISE in colours, "the picture was taken before the last points were shown"
+
+
+def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
+    tmp_path: Path, photo_file: Path
+) -> None:
+    blinking = ["--set=pattern=10", "--set=switching_frequency=4kHz"]
+    ended = occ_gui(
+        "--screenshot", tmp_path / "w.png", "--photo", photo_file, "--match",
+        "--overlay", "split", "--dock", "photo", *blinking,
+    )  # fmt: skip
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert (tmp_path / "w.png").is_file()
+
+
+def test_a_photo_that_cannot_be_matched_is_answered_in_a_sentence(tmp_path: Path) -> None:
+    flat = tmp_path / "flat.png"
+    Image.new("L", (100, 60), 90).save(flat)
+    ended = occ_gui("--screenshot", tmp_path / "w.png", "--photo", flat, "--match")
+    assert ended.returncode == 2
+    assert is_one_sentence(ended.stderr)
+    assert not (tmp_path / "w.png").exists()
+
+
+def test_a_match_without_a_photo_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--match"]) == 2
+    assert is_one_sentence(capsys.readouterr().err)
+
+
+def test_the_ways_of_showing_a_photo_are_those_of_the_window() -> None:
+    assert OVERLAYS == MODES
 
 
 def test_the_first_picture_is_shown_without_importing_what_is_slow(tmp_path: Path) -> None:
@@ -148,7 +180,7 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
     assert ended.value.code == 0
     told = capsys.readouterr().out
     scene = ("--preset", "--scene", "--set", "--photo", "--tolerance", "--on", "--off")
-    for option in (*scene, "--screenshot", "--size", "--dock"):
+    for option in (*scene, "--screenshot", "--size", "--dock", "--match", "--overlay"):
         assert option in told
 
 

@@ -36,18 +36,23 @@ def test_the_menu_turns_the_photo_and_lays_it_over_the_simulation(
     user.rest()
     user.choose("&Line by line")
     assert "its lines shown as columns" in application.image.photo.caption.toolTip()
-    user.choose("Photo &over")
+    assert application.photo.facts.scan_axis.key() == "lines"
+    user.choose("&Blended over")
     assert application.image.opacity.isVisible()
     assert not application.image.photo.isVisible()
 
 
-def test_the_photos_profile_is_drawn_beside_the_simulations(
+def test_the_photos_profile_is_drawn_beside_the_simulations_with_what_is_left(
     application: Application, user: User, photo_file: Path
 ) -> None:
+    assert not application.profile.residual.isVisible()
     application.open_photo(photo_file)
     user.rest()
-    _, levels = application.profile.photo.getOriginalDataset()
-    assert np.array_equal(levels, occ.load_photo(photo_file).profile)
+    columns, levels = application.profile.photo.getOriginalDataset()
+    _, residual = application.profile.residual.curve.getOriginalDataset()
+    profile = application.profile.simulation.getOriginalDataset()[1]
+    assert np.allclose(levels - profile[columns.astype(int)], residual)
+    assert "correlation" in application.profile.residual.numbers.toolTip()
 
 
 def test_the_picture_on_the_screen_is_the_one_that_is_saved(

@@ -119,3 +119,15 @@ def test_the_preset_shown_is_the_scenes_or_none(panel: ControlPanel) -> None:
 def test_presets_are_explained_by_their_titles(panel: ControlPanel) -> None:
     tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
     assert tips == [title for _, title in PRESETS]
+
+
+def test_other_presets_take_the_place_of_the_last_ones_and_tell_nothing(
+    panel: ControlPanel,
+) -> None:
+    told: list[str] = []
+    panel.preset_chosen.connect(told.append)
+    panel.list_presets([("mine", "My own"), *PRESETS])
+    texts = [panel.preset.itemText(place) for place in range(panel.preset.count())]
+    assert texts == ["mine", "small", "large"]
+    assert panel.preset.currentIndex() == -1
+    assert told == []

@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.controllers.files import FileController
 from occ_gui.controllers.photo import PhotoController
+from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.output import PICTURE_ENDINGS
@@ -23,7 +24,8 @@ class Bench:
     def __init__(self, scene: Scene) -> None:
         self.store = SceneStore(scene)
         self.photos = PhotoController([])
-        self.files = FileController(None, self.store, self.photos)  # type: ignore[arg-type]
+        self.memory = Memory()
+        self.files = FileController(None, self.store, self.photos, self.memory)  # type: ignore[arg-type]
         self.said: list[str] = []
         self.files.said.connect(self.said.append)
 
@@ -154,7 +156,7 @@ def test_the_dialogs_offer_the_pictures_that_can_be_written_and_read(
     written = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
     assert offered == [
         f"Pictures ({written})",
-        f"Photos ({written} *.heic *.heif);;All files (*)",
+        f"Photos ({written} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2);;All files (*)",
     ]
 
 
@@ -173,3 +175,43 @@ def test_a_cancelled_dialog_does_nothing(
     assert bench.said == []
     assert bench.photos.runner.is_idle
     assert bench.store.scene == small_scene
+
+
+def test_dialogs_begin_in_the_folder_of_the_last_file(
+    bench: Bench, tmp_path: Path, photo_file: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    asked: list[str] = []
+    for ask in ("getOpenFileName", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, ask, lambda *words: (asked.append(words[2]), ""))
+    dialogs = (
+        bench.files.ask_for_photo,
+        bench.files.ask_for_scene,
+        bench.files.ask_to_save_scene,
+        bench.files.ask_to_save_picture,
+    )
+    for ask_user in dialogs:
+        ask_user()
+    assert asked == ["", "", "scene.toml", "simulation.png"]
+    with qtbot.waitSignal(bench.photos.opened):
+        bench.photos.open(photo_file)
+    asked.clear()
+    for ask_user in dialogs:
+        ask_user()
+    folder = photo_file.parent
+    saved = [str(folder / "scene.toml"), str(folder / "simulation.png")]
+    assert asked == [str(folder), str(folder), *saved]
+    (tmp_path / "deeper").mkdir()
+    bench.files.save_scene(tmp_path / "deeper" / "scene.toml")
+    bench.files.ask_for_scene()
+    assert asked[-1] == str(tmp_path / "deeper")
+
+
+def test_only_what_was_opened_is_a_recent_file(
+    bench: Bench, tmp_path: Path, small_scene: Scene
+) -> None:
+    bench.files.save_scene(tmp_path / "a.toml")
+    assert bench.memory.files == ()
+    bench.files.open_scene(tmp_path / "missing.toml")
+    assert bench.memory.files == ()
+    bench.files.open_scene(tmp_path / "a.toml")
+    assert bench.memory.files == (tmp_path / "a.toml",)

@@ -6,13 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QWidget
 from pytestqt.qtbot import QtBot
 
+from occ_gui.state.placement import Placement
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.averaged_image import AveragedImage
-from occ_gui.views.image_view import ImageView, PicturePane
+from occ_gui.views.image_view import ImageView
+from occ_gui.views.photo_overlay import MODES
+from occ_gui.views.picture_pane import PicturePane
 from occ_model.photo.load import Photo
 from occ_model.results import DecodeResult, Region
 
@@ -68,9 +71,9 @@ def test_without_a_photo_the_simulation_stands_alone(
     view: ImageView, snapshot_of: SnapshotOf
 ) -> None:
     view.show_snapshot(snapshot_of())
-    view.set_over(True)
+    view.set_mode("blend")
     assert not view.photo.isVisible()
-    assert not view.opacity.isVisible()
+    assert not view.mode.isVisible()
     assert len(pictures(view.simulation)) == 1
 
 
@@ -96,20 +99,21 @@ def test_the_caption_tells_when_the_photos_lines_are_shown_as_columns(
     assert "its lines shown as columns" in view.photo.caption.toolTip()
 
 
-def test_a_photo_over_the_simulation_lies_pixel_on_pixel_from_the_panels_corner(
+def test_a_photo_over_the_simulation_lies_where_it_is_placed(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.set_over(True)
+    view.set_mode("blend")
     view.show_photo(photo)
-    for distance in (1.2, 2.0):
-        snapshot = snapshot_of(distance=distance)
-        view.show_snapshot(snapshot)
-        assert not view.photo.isVisible()
-        assert view.opacity.isVisible()
+    view.show_snapshot(snapshot_of())
+    assert not view.photo.isVisible()
+    assert view.opacity.isVisible()
+    rows, columns = photo.image.shape
+    for placement in (Placement(), Placement(12.25, 40.0), Placement(3.0, 4.0, 2.5)):
+        view.show_placement(placement)
         _, over = pictures(view.simulation)
-        left, top = snapshot.panel_origin
-        rows, columns = photo.image.shape
-        assert over.boundingRect() == QRectF(left - 0.5, top - 0.5, columns, rows)
+        left, top = placement.column - placement.scale / 2, placement.row - placement.scale / 2
+        size = (columns * placement.scale, rows * placement.scale)
+        assert over.boundingRect() == QRectF(left, top, *size)
 
 
 def test_closing_the_photo_takes_it_away_from_over_the_simulation(
@@ -117,7 +121,7 @@ def test_closing_the_photo_takes_it_away_from_over_the_simulation(
 ) -> None:
     view.show_snapshot(snapshot_of())
     view.show_photo(photo)
-    view.set_over(True)
+    view.set_mode("blend")
     assert len(pictures(view.simulation)) == 2
     view.show_photo(None)
     assert len(pictures(view.simulation)) == 1
@@ -133,7 +137,8 @@ def test_the_opacity_slider_goes_from_the_simulation_to_the_photo(
     view.show_snapshot(snapshot_of())
     view.simulation.box.setRange(QRectF(1210, 1, 40, 40), padding=0)
     alone = grey_picture(view.simulation).astype(int)
-    view.set_over(True)
+    view.set_mode("blend")
+    view.show_placement(Placement(1200.0, 0.0))
     view.show_photo(replace(photo, image=np.full((200, 200), 255, dtype=np.uint8)))
     distances = []
     for percent in (0, 50, 100):
@@ -177,3 +182,44 @@ def test_fit_without_any_picture_does_not_raise(view: ImageView) -> None:
 def test_both_pictures_are_named_for_who_cannot_see_them(view: ImageView) -> None:
     names = [child.accessibleName() for child in view.findChildren(QWidget)]
     assert {"Simulated picture", "Photo"} <= set(names)
+
+
+def test_what_a_mode_does_not_need_is_not_there(
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_snapshot(snapshot_of())
+    view.show_photo(photo)
+    controls = {"blend": view.opacity, "difference": view.gain}
+    for mode in MODES:
+        view.set_mode(mode)
+        assert view.mode.key() == mode
+        assert view.mode.isVisible()
+        assert view.photo.isVisible() == (mode == "beside")
+        assert [m for m, control in controls.items() if control.isVisible()] == [
+            m for m in controls if m == mode
+        ]
+        assert view.overlay.line.isVisible() == (mode == "split")
+        assert view.overlay.difference.isVisible() == (mode == "difference")
+
+
+def test_choosing_a_mode_tells_it_and_shows_nothing_by_itself(
+    view: ImageView, photo: Photo, qtbot: QtBot
+) -> None:
+    told: list[str] = []
+    view.mode_chosen.connect(told.append)
+    view.show_photo(photo)
+    view.mode.setFocus()
+    qtbot.keyClick(view.mode, Qt.Key.Key_Down)
+    assert told == ["blend"]
+    assert view.photo.isVisible()
+
+
+def test_the_caption_says_how_many_times_the_difference_is_drawn(
+    view: ImageView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.set_mode("difference")
+    for times in ("4", "8"):
+        assert view.gain.key() == times
+        assert f"× {times}:" in view.simulation.caption.toolTip()  # noqa: RUF001
+        qtbot.keyClick(view.gain, Qt.Key.Key_Down)

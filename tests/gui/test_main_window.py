@@ -2,12 +2,14 @@
 
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
-from PySide6.QtCore import SIGNAL
-from PySide6.QtGui import QAction
+from PySide6.QtCore import SIGNAL, QMimeData, Qt, QUrl
+from PySide6.QtGui import QAction, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
+    QApplication,
     QCheckBox,
     QComboBox,
     QGraphicsView,
@@ -15,11 +17,13 @@ from PySide6.QtWidgets import (
     QMenu,
     QPushButton,
     QSlider,
+    QTabBar,
     QWidget,
 )
 
 from occ_gui.app import PANES
 from occ_gui.application import Application
+from occ_gui.views.photo_overlay import MODES
 
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
@@ -41,7 +45,7 @@ def listeners(action: QAction) -> int:
 
 def test_every_menu_entry_is_connected(application: Application) -> None:
     found = list(menus(application.window.menuBar()))
-    assert len(found) == 5
+    assert len(found) == 8
     for menu in found:
         dead = menu.addAction("an entry that does nothing")
         alone = listeners(dead)
@@ -109,13 +113,14 @@ def test_quit_closes_the_window(application: Application) -> None:
 
 def test_what_cannot_be_done_is_not_offered(application: Application) -> None:
     by_text = {a.text(): a for menu in menus(application.window.menuBar()) for a in entries(menu)}
-    for text in ("&Close photo", "&Undo", "&Redo"):
+    with_photo = ("&Close photo", "&Match", "&Apply", "Save match", "&Use this")
+    for text in (*with_photo, "&Undo", "&Redo"):
         (found,) = [action for key, action in by_text.items() if key.startswith(text)]
         assert not found.isEnabled(), text
 
 
 def test_one_scan_axis_is_chosen_at_a_time(application: Application) -> None:
-    axes = application.window.scan_axes.actions()
+    axes = application.window.menus.scan_axes.actions()
     assert [axis.data() for axis in axes if axis.isChecked()] == ["auto"]
     axes[2].trigger()
     assert [axis.data() for axis in axes if axis.isChecked()] == ["lines"]
@@ -142,3 +147,64 @@ def test_every_picture_and_plot_has_a_name(application: Application) -> None:
     assert len(graphics) >= 3
     for view in graphics:
         assert view.accessibleName(), view
+
+
+def test_the_photos_pane_shares_its_place_with_the_decoding_which_is_in_front(
+    application: Application,
+) -> None:
+    docks = application.window.docks
+    assert application.window.tabifiedDockWidgets(docks["decode"]) == [docks["photo"]]
+    assert not docks["decode"].visibleRegion().isEmpty()
+    assert docks["photo"].visibleRegion().isEmpty()
+
+
+def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(application: Application) -> None:
+    window = application.window
+    bars = [bar for bar in window.findChildren(QTabBar) if bar.parent() is window]
+    tabs = [[bar.tabText(place) for place in range(bar.count())] for bar in bars]
+    assert sorted(tabs) == [["Column profile", "Accuracy and time"], ["Decoding", "Photo"]]
+
+
+def test_one_way_of_showing_the_photo_is_chosen_at_a_time(application: Application) -> None:
+    modes = application.window.menus.modes.actions()
+    assert [mode.data() for mode in modes] == list(MODES)
+    for action in (*modes, modes[0]):
+        action.trigger()
+        assert [mode.data() for mode in modes if mode.isChecked()] == [action.data()]
+        assert application.image.mode.key() == action.data()
+
+
+def drop(application: Application, *urls: QUrl) -> None:
+    """Let go of something over the middle of the window."""
+    data = QMimeData()
+    data.setUrls(list(urls))
+    place = application.window.rect().center()
+    actions, button = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton
+    no_key = Qt.KeyboardModifier.NoModifier
+    enter = QDragEnterEvent(place, actions, data, button, no_key)
+    QApplication.sendEvent(application.window, enter)
+    assert enter.isAccepted()
+    QApplication.sendEvent(application.window, QDropEvent(place, actions, data, button, no_key))
+
+
+def test_what_is_dropped_is_told_and_nothing_but_the_window_takes_it(
+    application: Application, tmp_path: Path
+) -> None:
+    told: list[list[Path]] = []
+    application.window.dropped.connect(told.append)
+    drop(application, QUrl.fromLocalFile(str(tmp_path / "a.png")), QUrl("https://example.org/b"))
+    assert told == [[tmp_path / "a.png"]]
+    takers = [w for w in application.window.findChildren(QWidget) if w.acceptDrops()]
+    assert takers == []
+
+
+def test_text_is_not_taken_for_files(application: Application) -> None:
+    data = QMimeData()
+    data.setText("a.png")
+    enter = QDragEnterEvent(
+        application.window.rect().center(), Qt.DropAction.CopyAction, data,
+        Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
+    )  # fmt: skip
+    enter.ignore()
+    QApplication.sendEvent(application.window, enter)
+    assert not enter.isAccepted()

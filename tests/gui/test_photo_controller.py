@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.controllers import photo as photo_room
-from occ_gui.controllers.photo import PhotoController
+from occ_gui.controllers.photo import PhotoController, PhotoReading
 from occ_model.photo.load import Photo
 
 Grey = NDArray[np.uint8]
@@ -36,10 +36,10 @@ class Bench:
         self._load = occ.photo.load.load_photo
         self._qtbot = qtbot
 
-    def _read(self, path: Path, scan_axis: str) -> Photo:
+    def _read(self, path: Path, scan_axis: str, *, channel: str) -> Photo:
         self.begun.set()
         assert self.go_on.wait(PATIENCE_S)
-        return self._load(path, scan_axis)
+        return self._load(path, scan_axis, channel=channel)
 
     def show_photo(self, photo: Photo | None) -> None:
         self.shown.append(photo)
@@ -173,3 +173,34 @@ def test_after_closing_another_scan_axis_opens_nothing(bench: Bench, photo_file:
     bench.controller.scan_along("lines")
     bench.rest()
     assert bench.shown[-1] is None
+
+
+@pytest.fixture
+def coloured_file(tmp_path: Path) -> Path:
+    path = tmp_path / "coloured.png"
+    pixels = np.zeros((8, 9, 3), dtype=np.uint8)
+    pixels[:] = (10, 20, 30)
+    Image.fromarray(pixels).save(path)
+    return path
+
+
+def test_another_channel_is_taken_of_the_open_photo_and_of_the_next(
+    bench: Bench, coloured_file: Path, photo_file: Path
+) -> None:
+    bench.open(coloured_file)
+    assert bench.image.max() == 30
+    bench.controller.take_channel("green")
+    bench.rest()
+    assert bench.image.max() == 20
+    bench.open(photo_file)
+    bench.open(coloured_file)
+    assert bench.image.max() == 20
+
+
+def test_how_photos_are_read_is_told_at_every_change(bench: Bench) -> None:
+    told: list[object] = []
+    bench.controller.reading_changed.connect(told.append)
+    bench.controller.scan_along("lines")
+    bench.controller.take_channel("red")
+    assert told == [PhotoReading("lines", "brightest"), PhotoReading("lines", "red")]
+    assert bench.controller.reading == told[-1]

@@ -1,19 +1,22 @@
 """The column profile beside the band model's and a photo's, and what part of it is in view."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
+from occ_gui.state.photo_profile import PhotoProfile
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views import profile_view
 from occ_gui.views.profile_view import ProfileView
 from occ_model.photo.load import Photo
-from occ_model.results import DecodeResult
+from occ_model.results import Comparison, DecodeResult
 
 SnapshotOf = Callable[..., Snapshot]
 
@@ -81,20 +84,55 @@ def test_where_the_band_model_is_undefined_a_sentence_takes_its_place(
     assert "band model" not in legend_texts(view)
 
 
-def test_a_photo_is_drawn_from_the_panels_first_column_and_taken_away(
+def test_a_photo_that_cannot_be_compared_is_drawn_as_it_is_with_the_reason_and_taken_away(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.show_photo(photo)
-    for distance in (1.2, 2.0):
-        snapshot = snapshot_of(distance=distance)
-        view.show_snapshot(snapshot)
-        x, y = drawn(view.photo)
-        assert x[0] == round(snapshot.frame.corners[:, 0].min()) > 0
-        assert y == photo.profile.tolist()
-    assert any(text.startswith("photo") for text in legend_texts(view))
-    view.show_photo(None)
+    view.show_snapshot(snapshot_of())
+    view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0, "No stripes."))
+    x, y = drawn(view.photo)
+    assert x[:3] == [12.5, 14.5, 16.5]
+    assert y == photo.profile.tolist()
+    assert view.residual.numbers.text() == "No stripes."
+    assert not view.residual.plot.isVisible()
+    assert "photo" in legend_texts(view)
+    view.show_photo_profile(None)
     assert drawn(view.photo) == ([], [])
-    assert not any(text.startswith("photo") for text in legend_texts(view))
+    assert not view.residual.isVisible()
+    assert "photo" not in legend_texts(view)
+
+
+def test_a_compared_photo_is_drawn_in_the_simulations_levels_with_the_rest_under_it(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_snapshot(snapshot_of())
+    seen, simulated = np.array([1.0, 5.0, 9.0]), np.array([2.0, 5.0, 6.0])
+    comparison = Comparison(900, seen, simulated, 0.91234)
+    view.show_photo_profile(PhotoProfile(comparison, photo.profile))
+    assert drawn(view.photo) == ([900, 901, 902], seen.tolist())
+    assert drawn(view.residual.curve) == ([900, 901, 902], [-1.0, 0.0, 3.0])
+    assert view.residual.plot.isVisible()
+    assert "0.9123" in view.residual.numbers.toolTip()
+    assert f"{math.sqrt(10 / 3):.2f} grey levels" in view.residual.numbers.toolTip()
+    low, high = view.residual.plot.getViewBox().viewRange()[1]
+    assert low < -3.0
+    assert high > 3.0
+
+
+def test_the_rest_stands_under_the_profiles_column_by_column_however_either_is_moved(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_snapshot(snapshot_of())
+    comparison = Comparison(0, np.ones(5), np.ones(5), 0.0)
+    view.show_photo_profile(PhotoProfile(comparison, photo.profile))
+    boxes = [plot.getViewBox() for plot in (view.plot, view.residual.plot)]
+    for one, other in (boxes, boxes[::-1]):
+        one.setXRange(10, 20 + len(boxes), padding=0)
+        assert other.viewRange()[0] == pytest.approx(one.viewRange()[0])
+        one.setXRange(50, 90, padding=0)
+        assert other.viewRange()[0] == pytest.approx((50, 90))
+    QApplication.processEvents()
+    lefts = [plot.getAxis("left").width() for plot in (view.plot, view.residual.plot)]
+    assert lefts[0] == lefts[1]
 
 
 def test_after_enhancement_shows_the_pictures_values_and_the_threshold(
@@ -124,7 +162,7 @@ def test_without_a_threshold_none_is_shown(view: ProfileView, snapshot_of: Snaps
 def test_whatever_is_drawn_lies_within_the_levels_in_view(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.show_photo(photo)
+    view.show_photo_profile(PhotoProfile(None, photo.profile))
     for changes in ({}, {"iso": 6400.0}, {"luminance": 0.0}):
         view.show_snapshot(snapshot_of(**changes))
         low, high = view.plot.getViewBox().viewRange()[1]
@@ -196,15 +234,6 @@ def test_a_panel_hardly_or_not_in_the_picture_leaves_a_range_to_look_at(
     first, last = columns_in_view(view)
     assert last - first >= 1.0
     assert drawn(view.simulation)[0]
-
-
-def test_a_photo_before_any_result_waits_for_it(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
-) -> None:
-    view.show_photo(photo)
-    assert drawn(view.photo) == ([], [])
-    view.show_snapshot(snapshot_of())
-    assert drawn(view.photo)[1] == photo.profile.tolist()
 
 
 def test_before_any_result_the_legend_names_no_line_that_is_not_there(view: ProfileView) -> None:

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.application import Application
+from occ_gui.views.photo_overlay import MODES
 
 User = Any  # the fixture of that name
 
@@ -128,6 +129,16 @@ def pages(application: Application) -> Iterator[str]:
         yield tabs.tabText(place)
 
 
+def show_everything_about_the_photo(application: Application) -> None:
+    """Show a match being worked on, its failure, and the result of the one before."""
+    photo = application.photo
+    photo.form.sent.show_key("square")
+    photo.form.sent.chosen.emit("square")
+    photo.result.show()
+    photo.show_match_failed("No scene explains the stripes of this photo at all. " * 4)
+    photo.form.show_running(True)
+
+
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
 def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
     qtbot: QtBot, application: Application, user: User, photo_file: Path, size: QSize
@@ -143,8 +154,12 @@ def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
     application.profile.enhanced.setChecked(True)
     user.rest()
     assert_faultless(qtbot, application.window, "photo beside")
-    application.window.actions_by_name["photo_over"].trigger()
-    assert_faultless(qtbot, application.window, "photo over")
+    for mode in MODES:
+        application.show_mode(mode)
+        assert_faultless(qtbot, application.window, mode)
+    show_everything_about_the_photo(application)
+    assert_faultless(qtbot, application.window, "photo matched")
+    assert application.window.size() == size
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")

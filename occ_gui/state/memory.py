@@ -1,0 +1,81 @@
+"""What the window remembers from one start to the next."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QSettings, Signal
+
+MOST_RECENT = 8
+"""Files that are remembered."""
+
+_FILES, _FOLDER = "files/recent", "files/folder"
+
+
+class Memory(QObject):
+    """The files that were opened last, and the folder that they were in.
+
+    Parameters
+    ----------
+    settings
+        Where it is kept; None to keep it only while the window is open.
+    """
+
+    changed = Signal()
+    """Other files are the recent ones now."""
+
+    def __init__(self, settings: QSettings | None = None) -> None:
+        super().__init__()
+        self._settings = settings
+        self._files = _paths(self._value(_FILES))
+        folders = _paths(self._value(_FOLDER))
+        self._folder = folders[0] if folders else None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The files that were opened last, the latest first."""
+        return self._files
+
+    @property
+    def folder(self) -> str:
+        """The folder that a dialog begins in, empty for the system's own choice."""
+        return str(self._folder) if self._folder is not None and self._folder.is_dir() else ""
+
+    def add(self, path: Path) -> None:
+        """Remember a file that was opened, and its folder."""
+        path = path.absolute()
+        self.visit(path)
+        others = (other for other in self._files if other != path)
+        self._keep((path, *others)[:MOST_RECENT])
+
+    def drop(self, path: Path) -> None:
+        """Forget a file."""
+        self._keep(tuple(other for other in self._files if other != path))
+
+    def clear(self) -> None:
+        """Forget all files."""
+        self._keep(())
+
+    def visit(self, path: Path) -> None:
+        """Remember a file's folder only."""
+        self._folder = path.absolute().parent
+        self._write(_FOLDER, str(self._folder))
+
+    def _keep(self, files: tuple[Path, ...]) -> None:
+        if files != self._files:
+            self._files = files
+            self._write(_FILES, [str(path) for path in files])
+            self.changed.emit()
+
+    def _value(self, key: str) -> object:
+        return None if self._settings is None else self._settings.value(key)
+
+    def _write(self, key: str, value: str | list[str]) -> None:
+        if self._settings is not None:
+            self._settings.setValue(key, value)
+
+
+def _paths(value: object) -> tuple[Path, ...]:
+    """Read what was remembered, leaving out what is no path of a file."""
+    texts = value if isinstance(value, list) else [value]
+    paths = [Path(text) for text in texts if isinstance(text, str) and "\0" not in text]
+    absolute = [path for path in paths if path.is_absolute()]
+    return tuple(dict.fromkeys(absolute))[:MOST_RECENT]

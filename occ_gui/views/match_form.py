@@ -1,0 +1,166 @@
+"""What a match is asked for, and how far it is."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.state.match_choice import MatchChoice
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.quantity_edit import QuantityEdit
+from occ_gui.widgets.word_choice import WordChoice
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+from occ_model.units import HERTZ
+
+SQUARE_FREQUENCY = Quantity(
+    "square_frequency",
+    "Frequency of the square wave",
+    "",
+    "Cycles per second of a blinking LED, each of two chips: one lit, one dark.",
+    unit=HERTZ, low=0.5, high=5e8, slider=(50.0, 2e4), scale="log", default=1000.0,
+)  # fmt: skip
+
+_STEPS = 1000
+"""Steps of the progress bar."""
+
+
+class MatchForm(QWidget):
+    """The choices of a match, the button that starts it, and its progress."""
+
+    asked = Signal(object)
+    """A match is wanted: a MatchChoice."""
+
+    cancelled = Signal()
+    refused = Signal(str)
+    """Why what was entered is not taken."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._scene: Scene | None = None
+        self.sent = WordChoice(
+            self.tr("What was sent"),
+            self.tr(
+                "What the LED in the photo sent: what the scene sends, a square wave of so many "
+                "cycles per second, or whatever can be read from the stripes.\n"
+                "Find out: what the scene sends if that explains the stripes, else read."
+            ),
+            {
+                "auto": self.tr("Find out: as the scene, else read"),
+                "scene": self.tr("What the scene sends"),
+                "square": self.tr("Square wave of"),
+                "read": self.tr("Unknown: read it from the stripes"),
+            },
+        )
+        self.square = QuantityEdit(SQUARE_FREQUENCY)
+        self.square.setAccessibleName(SQUARE_FREQUENCY.label)
+        self.square.setToolTip(f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}")
+        self.estimate = WordChoice(
+            self.tr("What is estimated"),
+            self.tr(
+                "Stripes tell the product of readout time (in µs) and switching frequency "
+                "(in kHz): one of them has to be known, and is taken from the scene."
+            ),
+            {
+                "readout_time": self.tr("Readout time, frequency known"),
+                "switching_frequency": self.tr("Frequency, readout time known"),
+            },
+        )
+        self.known = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.gamma = QCheckBox(self.tr("Fit gamma too"))
+        self.gamma.setToolTip(
+            self.tr("Estimate the camera's gamma from the shape of the stripes' edges as well.")
+        )
+        self._make_run()
+        self._lay_out()
+        self.sent.chosen.connect(self._show_known)
+        self.estimate.chosen.connect(self._show_known)
+        self.square.edited.connect(self._show_known)
+        self.square.refused.connect(self.refused)
+        self._show_known()
+
+    def _make_run(self) -> None:
+        self.start = QPushButton(self.tr("&Match photo"))
+        self.start.setToolTip(self.tr("Find the settings that explain the photo's stripes."))
+        self.start.clicked.connect(lambda: self.asked.emit(self.choice()))
+        self.progress = QProgressBar()
+        self.progress.setRange(0, _STEPS)
+        self.progress.setAccessibleName(self.tr("Share of the match that is done, in percent"))
+        self.cancel = QPushButton(self.tr("&Cancel"))
+        self.cancel.setToolTip(self.tr("Give up this match; what was found before stays."))
+        self.cancel.clicked.connect(self.cancelled)
+        self.show_running(False)
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout()
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setVerticalSpacing(3)
+        grid.addWidget(QLabel(self.tr("Sent")), 0, 0)
+        grid.addWidget(self.sent, 0, 1)
+        grid.addWidget(self.square, 0, 2)
+        grid.addWidget(QLabel(self.tr("Estimate")), 1, 0)
+        grid.addWidget(self.estimate, 1, 1, 1, 2)
+        grid.addWidget(self.known, 2, 1, 1, 2)
+        grid.setColumnStretch(1, 1)
+        run = QHBoxLayout()
+        run.addWidget(self.gamma)
+        run.addStretch()
+        for widget in (self.start, self.progress, self.cancel):
+            run.addWidget(widget)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(3)
+        layout.addLayout(grid)
+        layout.addLayout(run)
+
+    def choice(self) -> MatchChoice:
+        """Give what is chosen, and typed so far."""
+        self.square.take_typed()
+        return MatchChoice(
+            sent=self.sent.key(),
+            square_frequency=self.square.value(),
+            estimate=self.estimate.key(),
+            fit_gamma=self.gamma.isChecked(),
+        )
+
+    def show_scene(self, scene: Scene) -> None:
+        """Say what is known from this scene."""
+        self._scene = scene
+        self._show_known()
+
+    def show_running(self, running: bool) -> None:
+        """Show the progress and a way out of it, or the button that starts a match."""
+        self.start.setVisible(not running)
+        self.gamma.setEnabled(not running)
+        for widget in (self.progress, self.cancel):
+            widget.setVisible(running)
+        self.progress.setValue(0)
+
+    def show_progress(self, share: float) -> None:
+        """Show which share of the work is done, from 0 to 1."""
+        self.progress.setValue(round(_STEPS * share))
+
+    def _show_known(self) -> None:
+        square = self.sent.key() == "square"
+        self.square.setVisible(square)
+        of_frequency = self.estimate.key() == "readout_time"
+        name = "switching_frequency" if of_frequency else "readout_time"
+        declared = PARAMETERS[name]
+        if self._scene is None or not isinstance(declared, Quantity):
+            return
+        value = float(self._scene.value(name))
+        if of_frequency and square:
+            value = 2.0 * self.square.value()
+        self.known.set_full_text(
+            self.tr("known: {label} {value}").format(
+                label=declared.label.lower(), value=declared.format(value)
+            )
+        )

@@ -1,0 +1,127 @@
+"""What a match has found, with how sure it is."""
+
+import math
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFontDatabase
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
+from occ_model.results import Match
+
+_ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+
+
+def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
+    """Write a value with its standard deviation, as many digits of it as that leaves sure."""
+    if spread is None or not 0.0 < spread < math.inf:
+        return quantity.format(value)
+    symbol, worth = quantity.unit.display(value)
+    # Two digits of the uncertainty, and the value as far as these reach.
+    decimals = min(max(0, 1 - math.floor(math.log10(spread / worth))), 12)
+    number = f"{value / worth:.{decimals}f} ± {spread / worth:.{decimals}f}"
+    return f"{number} {symbol}".rstrip()
+
+
+class MatchResult(QWidget):
+    """The estimates of a match as a table, how well they explain the photo, and their use."""
+
+    apply_asked = Signal()
+    """The scene is to become the one that was found."""
+
+    save_asked = Signal()
+    """What was found is to be kept as a preset."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._form = QFormLayout()
+        self._form.setContentsMargins(0, 0, 0, 0)
+        self._form.setVerticalSpacing(2)
+        self.values: dict[str, QLabel] = {}
+        for name, title in self._titles().items():
+            # A pattern can be as long as it likes.
+            label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            label.setAccessibleName(title)
+            self.values[name] = label
+            self._form.addRow(title, label)
+        fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        self.values["pattern"].setFont(fixed)
+        self.apply = QPushButton(self.tr("&Apply to the scene"))
+        self.apply.setToolTip(
+            self.tr(
+                "Put what was found into the scene, as one step that can be undone: its picture "
+                "then lies on the photo."
+            )
+        )
+        self.apply.clicked.connect(self.apply_asked)
+        self.save = QPushButton(self.tr("&Save as preset…"))
+        self.save.setToolTip(
+            self.tr(
+                "Keep what was measured as a preset of your own, with the photo and the "
+                "uncertainties as its sources."
+            )
+        )
+        self.save.clicked.connect(self.save_asked)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.apply)
+        buttons.addWidget(self.save)
+        buttons.addStretch()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(self._form)
+        layout.addLayout(buttons)
+
+    def _titles(self) -> dict[str, str]:
+        estimates = {name: PARAMETERS[name].label for name in _ESTIMATES}
+        return {
+            **estimates,
+            "others": self.tr("or exposed for"),
+            "chip": self.tr("Chip length"),
+            "correlation": self.tr("Correlation"),
+            "saturated": self.tr("Saturated"),
+            "pattern": self.tr("Pattern"),
+        }
+
+    def show_match(self, match: Match) -> None:
+        """Show what was found."""
+        for name, text in (self._estimates(match) | self._quality(match)).items():
+            label = self.values[name]
+            if isinstance(label, ElidedLabel):
+                label.set_full_text(text)
+            else:
+                label.setText(text)
+            self._form.setRowVisible(label, bool(text))
+
+    def _estimates(self, match: Match) -> dict[str, str]:
+        """Write the estimates, and what was known beside them; nothing for a gamma not fitted."""
+        texts = {}
+        for name in _ESTIMATES:
+            declared, spread = PARAMETERS[name], match.uncertainties.get(name)
+            if isinstance(declared, Quantity):
+                texts[name] = with_uncertainty(declared, getattr(match, name), spread)
+            if spread is None:
+                known = name != "gamma"
+                texts[name] = self.tr("{value} (known)").format(value=texts[name]) if known else ""
+        exposure = PARAMETERS["exposure_time"]
+        others = (exposure.format(t, 4) for t in match.other_exposures)  # type: ignore[arg-type, call-arg]
+        return {**texts, "others": self.tr(" or ").join(others)}
+
+    def _quality(self, match: Match) -> dict[str, str]:
+        columns = 1.0 / (match.switching_frequency * match.readout_time)
+        how = self.tr("read") if match.pattern_was_read else self.tr("known")
+        return {
+            "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
+                columns=columns, chips=len(match.pattern)
+            ),
+            "correlation": self.tr("{correlation:.4f}, RMSE {rmse:.2f} grey levels").format(
+                correlation=match.correlation, rmse=match.rmse
+            ),
+            "saturated": self.tr("{share:.1f} % of the region's pixels").format(
+                share=100 * match.stripes.saturated
+            ),
+            "pattern": self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how),
+        }

@@ -1,0 +1,315 @@
+"""A photo from opening it to the scene that explains it, with the real widgets."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from PySide6.QtCore import QSettings
+from PySide6.QtWidgets import QApplication, QMenu
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_gui.controllers import files as files_room
+from occ_gui.state.placement import Placement
+from occ_model.scene import Scene
+
+User = Any  # the fixture of that name
+
+SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
+"""What the simulated photo was taken with."""
+
+
+@pytest.fixture
+def camera_scene(small_scene: Scene) -> Scene:
+    """Fill a small picture with a panel that blinks."""
+    small = small_scene.replace(pattern="10", rows=120, columns=700, enhancement="none")
+    return small.replace(distance=0.05, **SENT)
+
+
+@pytest.fixture
+def taken(tmp_path: Path, camera_scene: Scene) -> Path:
+    """Take a photo of a known camera."""
+    path = tmp_path / "taken.png"
+    Image.fromarray(occ.render(camera_scene).image).save(path)
+    return path
+
+
+@pytest.fixture
+def matched(application: Application, user: User, taken: Path) -> Application:
+    application.open_photo(taken)
+    user.rest()
+    application.photo.form.sent.show_key("square")
+    application.photo.form.square.set_value(SENT["switching_frequency"] / 2)
+    user.choose("&Match photo")
+    return application
+
+
+def test_opening_a_photo_brings_its_pane_to_the_front_once(
+    qtbot: QtBot, application: Application, user: User, taken: Path
+) -> None:
+    docks = application.window.docks
+    application.open_photo(taken)
+    user.rest()
+    qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
+    docks["decode"].raise_()
+    user.choose("&Line by line")
+    QApplication.processEvents()
+    assert docks["photo"].visibleRegion().isEmpty()
+
+
+def test_a_match_finds_the_cameras_readout_time_and_one_step_applies_it(
+    matched: Application, user: User, small_scene: Scene
+) -> None:
+    assert matched.store.scene == small_scene
+    found = matched.desk.matching.match
+    assert found is not None
+    assert found.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
+    steps = matched.store.undo_stack.count()
+    user.choose("&Apply to the scene")
+    assert matched.store.undo_stack.count() == steps + 1
+    assert matched.store.scene == found.scene
+    user.choose("&Undo")
+    assert matched.store.scene == small_scene
+
+
+def test_after_applying_the_simulated_picture_lies_on_the_photo_pixel_on_pixel(
+    matched: Application, user: User
+) -> None:
+    corner = matched.desk.placements.placement
+    assert corner != Placement()
+    matched.photo.result.apply.click()
+    user.rest()
+    assert matched.desk.placements.placement == Placement()
+    found = matched.desk.matching.match
+    assert found is not None
+    columns, levels = matched.profile.photo.getOriginalDataset()
+    assert columns[0] == found.region.first_column
+    simulated = matched.profile.simulation.getOriginalDataset()[1][columns.astype(int)]
+    assert np.corrcoef(levels, simulated)[0, 1] > 0.98
+    user.choose("&Undo")
+    assert matched.desk.placements.placement == corner
+
+
+def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> None:
+    matched.photo.result.apply.click()
+    user.rest()
+    told = matched.profile.residual.numbers.toolTip()
+    user.enter("exposure_time", "40 us")
+    assert matched.profile.residual.numbers.toolTip() != told
+
+
+def test_moving_the_photo_by_hand_moves_it_in_picture_fields_and_profile_until_reset(
+    matched: Application, user: User
+) -> None:
+    before = matched.desk.placements.placement
+    matched.photo.placement.by_mouse.click()
+    assert matched.image.mode.key() == "blend"
+    assert matched.image.overlay.frame.isVisible()
+    matched.image.overlay.frame.setPos((199.5, 49.5))
+    assert matched.desk.placements.placement == Placement(200.0, 50.0)
+    assert matched.photo.placement.column.value() == 200.0
+    columns, _ = matched.profile.photo.getOriginalDataset()
+    found = matched.desk.matching.match
+    assert found is not None
+    assert columns[0] == 200 + found.region.first_column
+    matched.photo.placement.reset.click()
+    assert matched.desk.placements.placement == before
+
+
+def test_a_photo_that_shows_no_stripes_is_answered_by_a_sentence_everywhere(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    path = tmp_path / "flat.png"
+    Image.fromarray(np.full((60, 100), 90, dtype=np.uint8)).save(path)
+    application.open_photo(path)
+    user.rest()
+    sentence = application.profile.residual.numbers.toolTip()
+    assert sentence.endswith(".")
+    user.choose("&Match photo")
+    assert application.photo.failure.isVisible()
+    assert user.message == application.photo.failure.text()
+    application.photos.close()
+    assert user.message == ""
+
+
+def test_what_a_match_needs_is_offered_with_a_photo_and_what_uses_it_with_a_match(
+    application: Application, user: User, taken: Path
+) -> None:
+    actions = application.window.actions_by_name
+    with_photo, with_match = ("match", "use_settings"), ("apply_match", "save_match")
+    application.open_photo(taken)
+    user.rest()
+    assert all(actions[name].isEnabled() for name in with_photo)
+    assert not any(actions[name].isEnabled() for name in with_match)
+    application.photo.form.sent.show_key("square")
+    application.photo.form.square.set_value(SENT["switching_frequency"] / 2)
+    user.choose("&Match photo")
+    assert all(actions[name].isEnabled() for name in with_match)
+    application.photos.close()
+    assert not any(actions[name].isEnabled() for name in (*with_photo, *with_match))
+
+
+def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
+    application: Application, user: User, taken: Path
+) -> None:
+    application.store.change(pattern="10", switching_frequency=SENT["switching_frequency"])
+    application.open_photo(taken, match=True)
+    user.rest()
+    user.rest()
+    readout = application.store.scene.camera.readout_time
+    assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
+
+
+def entries(menu: QMenu) -> list[str]:
+    return [action.text() for action in menu.actions() if not action.isSeparator()]
+
+
+def test_files_that_were_opened_are_listed_and_opened_again(
+    application: Application, user: User, taken: Path, photo_file: Path, tmp_path: Path
+) -> None:
+    recent = application.window.menus.recent
+    assert not recent.isEnabled()
+    scene = tmp_path / "a&b.toml"
+    scene.write_text(Scene().to_toml(), encoding="utf-8")
+    for path in (taken, photo_file):
+        application.open_photo(path)
+        user.rest()
+    application.files.open_scene(scene)
+    user.rest()
+    assert entries(recent) == ["a&&b.toml", "stripes.png", "taken.png", "&Clear this list"]
+    application.store.change(iso=321.0)
+    for place, text in ((0, "a&&b.toml"), (2, "taken.png")):
+        assert entries(recent)[place] == text
+        recent.actions()[place].trigger()
+        user.rest()
+    assert application.store.scene == Scene()
+    assert application.window.windowTitle().startswith("taken.png")
+    user.choose("&Clear this list")
+    assert not recent.isEnabled()
+
+
+def test_what_was_opened_is_listed_at_the_next_start(
+    qtbot: QtBot, small_scene: Scene, tmp_path: Path
+) -> None:
+    settings = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+    scene = tmp_path / "mine.toml"
+    scene.write_text(small_scene.to_toml(), encoding="utf-8")
+    listed = []
+    for _ in range(2):
+        application = Application(small_scene, memory=settings)
+        qtbot.addWidget(application.window)
+        listed.append(entries(application.window.menus.recent)[:1])
+        application.files.open_scene(scene)
+        application.window.close()
+    assert listed == [[], ["mine.toml"]]
+
+
+def test_a_recent_file_that_has_gone_is_told_and_dropped(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    application.open_photo(photo_file)
+    user.rest()
+    photo_file.unlink()
+    application.window.menus.recent.actions()[0].trigger()
+    assert user.message == f"{photo_file} is no longer there."
+    assert application.memory.files == ()
+
+
+def test_a_photo_that_could_not_be_read_is_not_remembered(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    application.open_photo(tmp_path / "missing.png")
+    user.rest()
+    assert application.memory.files == ()
+
+
+def test_a_dropped_photo_and_scene_are_opened(
+    application: Application, user: User, photo_file: Path, tmp_path: Path
+) -> None:
+    scene = tmp_path / "mine.toml"
+    scene.write_text(Scene().to_toml(), encoding="utf-8")
+    application.window.dropped.emit([photo_file, scene])
+    user.rest()
+    assert application.store.scene == Scene()
+    assert application.window.windowTitle().startswith("stripes.png")
+
+
+def test_what_was_dropped_but_is_not_shown_is_told(
+    application: Application, user: User, photo_file: Path, taken: Path
+) -> None:
+    application.window.dropped.emit([photo_file, taken])
+    assert "only stripes.png" in user.message
+    user.rest()
+
+
+@pytest.mark.parametrize("what", ["nothing", "folder"])
+def test_what_is_nothing_usable_is_answered_by_a_sentence(
+    application: Application, user: User, tmp_path: Path, what: str
+) -> None:
+    application.window.dropped.emit([] if what == "nothing" else [tmp_path])
+    assert user.message.endswith("; drop a photo or a scene (.toml).")
+    assert ("computer" in user.message) == (what == "nothing")
+
+
+def test_a_dropped_file_that_is_no_photo_is_answered_by_a_sentence(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    path = tmp_path / "letter.txt"
+    path.write_text("no photo")
+    application.window.dropped.emit([path])
+    user.rest()
+    assert "letter.txt" in user.message
+    assert user.message.endswith(".")
+
+
+@pytest.fixture
+def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Iterator[Path]:
+    """Put a sample photo with its scene where the program's are looked for."""
+    folder = tmp_path / "resources" / "photos"
+    folder.mkdir(parents=True)
+    Image.fromarray(occ.render(camera_scene).image).save(folder / "led-1khz-panel.jpg")
+    (folder / "led-1khz-panel.toml").write_text(camera_scene.to_toml(), encoding="utf-8")
+    monkeypatch.setattr(files_room, "resource_path", tmp_path.joinpath("resources").joinpath)
+    return folder
+
+
+def test_a_sample_is_opened_with_its_scene_and_not_remembered(
+    samples: Path, user: User, application: Application, camera_scene: Scene
+) -> None:
+    menu = application.window.menus.samples
+    assert entries(menu) == ["LED 1 kHz panel (simulated)"]
+    menu.actions()[0].trigger()
+    user.rest()
+    assert application.store.scene == camera_scene
+    assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
+    assert application.memory.files == ()
+
+
+def test_without_samples_none_are_offered(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, application: Application
+) -> None:
+    monkeypatch.setattr(files_room, "resource_path", tmp_path.joinpath)
+    application.window.menus.show_samples(files_room.sample_photos(), application.open_photo)
+    assert not application.window.menus.samples.isEnabled()
+
+
+@pytest.mark.photos
+def test_of_a_real_camera_that_saw_a_led_of_1_khz_the_readout_time_is_measured(
+    application: Application, user: User, photos: Path
+) -> None:
+    application.open_photo(photos / "led_1khz_frame.png")
+    user.rest()
+    assert application.photos.reading.scan_axis == "auto"
+    application.photo.form.sent.show_key("square")
+    user.choose("&Match photo")
+    found = application.desk.matching.match
+    assert found is not None
+    assert found.readout_time == pytest.approx(14.565e-6, rel=3e-3)
+    user.choose("&Apply to the scene")
+    assert application.desk.placements.placement == Placement()
+    told = application.profile.residual.numbers.toolTip()
+    assert float(told.split("correlation ")[1].split(",")[0]) >= 0.99

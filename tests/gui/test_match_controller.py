@@ -1,0 +1,283 @@
+"""A match: asked for in the user's words, cancelled, applied as one step, kept as a preset."""
+
+import threading
+from collections.abc import Iterator
+from dataclasses import replace
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.controllers import matching as matching_room
+from occ_gui.controllers.matching import SQUARE_WAVE, MatchController
+from occ_gui.state.match_choice import MatchChoice
+from occ_gui.state.scene_store import SceneStore
+from occ_model.errors import MatchError
+from occ_model.photo.load import Photo
+from occ_model.presets import USER_FOLDER, preset_named, user_presets
+from occ_model.results import Match, Region, Stripes
+from occ_model.scene import Scene
+
+PATIENCE_S = 10.0
+DAY = date(2026, 1, 31)
+
+
+def match_of(scene: Scene, **changes: Any) -> Match:
+    """Make up a match that found a scene."""
+    profile = np.array([1.0, 2.0])
+    stripes = Stripes(Region(0, 5, 0, 2), profile, profile, profile + 1, 2.0, 0.1, 0.25)
+    return Match(
+        scene=scene, stripes=stripes, readout_time=scene.camera.readout_time,
+        switching_frequency=scene.transmitter.switching_frequency,
+        exposure_time=scene.camera.exposure_time, start_time=0.0, gamma=2.22,
+        uncertainties={"readout_time": 2e-9, "exposure_time": 3e-7}, pattern="10",
+        pattern_was_read=changes.pop("pattern_was_read", False), profile=profile,
+        correlation=0.99, **changes,
+    )  # fmt: skip
+
+
+class Bench:
+    """A controller on a mock pane, and a model that finds what it is told to."""
+
+    def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, scene: Scene) -> None:
+        self.told: list[object] = []
+        self.used: list[Match] = []
+        self.failures: list[str] = []
+        self.asked: list[dict[str, Any]] = []
+        self.begun, self.go_on = threading.Event(), threading.Event()
+        self.go_on.set()
+        self.refusal = ""
+        monkeypatch.setattr(matching_room, "match_photo", self._match)
+        self.store = SceneStore(scene)
+        self.controller = MatchController(self.store, self, [_User(self.used)])
+        self.controller.failed.connect(self.failures.append)
+        self._qtbot = qtbot
+
+    def _match(self, photo: Photo, scene: Scene, *, progress: Any, **asked: Any) -> Match:
+        self.asked.append({"photo": photo, "scene": scene, **asked})
+        self.begun.set()
+        assert self.go_on.wait(PATIENCE_S)
+        progress(0.5)
+        if self.refusal:
+            raise MatchError(self.refusal)
+        return match_of(scene.replace(readout_time=9e-6))
+
+    def start(self, **choice: Any) -> None:
+        self.controller.start(MatchChoice(**choice))
+        self._qtbot.waitUntil(lambda: not self.controller.runner.is_running)
+
+    def show_match_begun(self) -> None:
+        self.told.append("begun")
+
+    def show_progress(self, share: float) -> None:
+        self.told.append(share)
+
+    def show_match(self, match: Match | None) -> None:
+        self.told.append(match)
+
+    def show_match_failed(self, sentence: str) -> None:
+        self.told.append(sentence)
+
+    def show_match_cancelled(self) -> None:
+        self.told.append("cancelled")
+
+
+class _User:
+    def __init__(self, used: list[Match]) -> None:
+        self._used = used
+
+    def show_match(self, match: Match) -> None:
+        self._used.append(match)
+
+
+@pytest.fixture
+def bench(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, small_scene: Scene, photo: Photo
+) -> Iterator[Bench]:
+    bench = Bench(qtbot, monkeypatch, small_scene)
+    bench.controller.show_photo(photo)
+    bench.told.clear()
+    yield bench
+    bench.go_on.set()
+    bench.controller.stop()
+
+
+def test_a_match_is_told_from_its_beginning_to_what_it_found(bench: Bench) -> None:
+    bench.start()
+    assert bench.told == ["begun", 0.0, 0.5, bench.controller.match]
+    assert bench.used == [bench.controller.match]
+    assert bench.failures == []
+
+
+def test_the_model_is_asked_for_what_was_chosen(
+    bench: Bench, photo: Photo, small_scene: Scene
+) -> None:
+    bench.start(sent="read", estimate="switching_frequency", fit_gamma=True)
+    assert bench.asked == [
+        {
+            "photo": photo,
+            "scene": small_scene,
+            "estimate": "switching_frequency",
+            "sent": "read",
+            "fit_gamma": True,
+        }
+    ]
+
+
+def test_a_square_wave_is_two_chips_a_cycle(bench: Bench, small_scene: Scene) -> None:
+    bench.start(sent="square", square_frequency=1234.5)
+    (asked,) = bench.asked
+    assert asked["sent"] == "scene"
+    assert asked["scene"] == small_scene.replace(pattern=SQUARE_WAVE, switching_frequency=2469.0)
+
+
+def test_a_square_wave_that_cannot_be_is_refused_with_a_sentence(bench: Bench) -> None:
+    bench.start(sent="square", square_frequency=1e12)
+    (sentence,) = bench.failures
+    assert "switching_frequency" in sentence
+    assert bench.told == [sentence]
+
+
+def test_a_failure_is_a_sentence_and_the_last_match_stays(bench: Bench) -> None:
+    bench.start()
+    found = bench.controller.match
+    bench.refusal = "No scene explains these stripes."
+    bench.start()
+    assert bench.failures == [bench.refusal]
+    assert bench.told[-1] == bench.refusal
+    assert bench.controller.match is found
+
+
+def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:
+    bench.start()
+    found = bench.controller.match
+    bench.begun.clear()
+    bench.go_on.clear()
+    bench.controller.start(MatchChoice())
+    assert bench.begun.wait(PATIENCE_S)
+    bench.controller.cancel()
+    bench.go_on.set()
+    qtbot.wait(20)
+    assert bench.told[-1] == "cancelled"
+    assert bench.controller.match is found
+    bench.controller.cancel()
+    assert bench.told.count("cancelled") == 1
+
+
+def test_another_photo_ends_the_match_and_forgets_what_was_found(
+    bench: Bench, photo: Photo, small_scene: Scene
+) -> None:
+    bench.start()
+    bench.go_on.clear()
+    bench.controller.start(MatchChoice())
+    bench.controller.show_photo(replace(photo))
+    assert bench.told[-2:] == ["cancelled", None]
+    bench.go_on.set()
+    bench.controller.apply()
+    assert bench.controller.match is None
+    assert bench.store.scene == small_scene
+
+
+def test_without_a_photo_nothing_is_matched(bench: Bench) -> None:
+    bench.controller.show_photo(None)
+    bench.told.clear()
+    bench.start()
+    assert bench.told == []
+
+
+def test_applying_puts_what_was_found_into_the_scene_as_one_step(
+    bench: Bench, small_scene: Scene
+) -> None:
+    bench.start(sent="square")
+    assert bench.store.scene == small_scene
+    bench.controller.apply()
+    assert bench.controller.match is not None
+    assert bench.store.scene == bench.controller.match.scene
+    assert bench.store.undo_stack.count() == 1
+    assert "stripes.png" in bench.store.undo_stack.undoText()
+    bench.store.undo_stack.undo()
+    assert bench.store.scene == small_scene
+
+
+def test_what_the_camera_noted_goes_into_the_scene_as_one_step(
+    bench: Bench, photo: Photo, small_scene: Scene
+) -> None:
+    bench.controller.show_photo(replace(photo, exposure_time=1e-3, iso=800.0))
+    bench.controller.use_notes()
+    assert bench.store.scene == small_scene.replace(exposure_time=1e-3, iso=800.0)
+    assert bench.store.undo_stack.count() == 1
+    assert "stripes.png" in bench.store.undo_stack.undoText()
+
+
+def test_a_note_that_cannot_be_is_refused_with_a_sentence(
+    bench: Bench, photo: Photo, small_scene: Scene
+) -> None:
+    bench.controller.show_photo(replace(photo, iso=1e12, exposure_time=1e-3))
+    bench.controller.use_notes()
+    (sentence,) = bench.failures
+    assert sentence.startswith("iso is ")
+    assert bench.store.scene == small_scene
+
+
+def test_a_photo_without_notes_changes_nothing(bench: Bench, small_scene: Scene) -> None:
+    bench.controller.use_notes()
+    assert bench.store.scene == small_scene
+    assert bench.store.undo_stack.count() == 0
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv(USER_FOLDER, str(tmp_path / "own"))
+    return tmp_path / "own"
+
+
+def test_a_saved_match_says_what_was_measured_from_which_photo_when_and_how_surely(
+    bench: Bench, own: Path
+) -> None:
+    told: list[str] = []
+    bench.controller.saved.connect(told.append)
+    bench.start(sent="square", square_frequency=1000.0)
+    bench.controller.save("my phone", "Measured from stripes.png", DAY)
+    assert told == ["my phone"]
+    assert (own / "my phone.toml").is_file()
+    preset = preset_named("my phone")
+    assert bench.controller.match is not None
+    assert preset.scene == bench.controller.match.scene
+    source = preset.sources["readout_time"]
+    for part in ("±2 ns", "photo stripes.png", "2026-01-31", "switching frequency being 2 kHz"):
+        assert part in source
+    assert "±300 ns" in preset.sources["exposure_time"]
+    assert "pattern" not in preset.sources
+
+
+def test_what_was_known_is_that_of_the_match_and_not_of_what_is_chosen_by_now(
+    bench: Bench, own: Path
+) -> None:
+    bench.start(estimate="readout_time")
+    bench.refusal = "No."
+    bench.start(estimate="switching_frequency")
+    bench.controller.save("mine", "", DAY)
+    assert "switching frequency being 10 kHz" in preset_named("mine").sources["readout_time"]
+
+
+def test_a_name_that_cannot_be_is_refused_with_a_sentence(bench: Bench, own: Path) -> None:
+    bench.start()
+    for name in ("phone-136us", "a/b"):
+        bench.controller.save(name, "", DAY)
+        assert repr(name) in bench.failures[-1]
+    assert user_presets() == ()
+
+
+def test_without_a_match_nothing_is_saved(bench: Bench, own: Path) -> None:
+    bench.controller.save("mine", "", DAY)
+    assert user_presets() == ()
+    assert not own.exists()
+
+
+def test_the_words_of_the_choice_are_those_of_the_model(bench: Bench) -> None:
+    assert occ.photo.match.ESTIMATES == ("readout_time", "switching_frequency")
+    assert set(occ.photo.match.SENT) == {"auto", "scene", "read"}

@@ -1,0 +1,242 @@
+"""A photo on the simulated picture: what each way of showing it draws, and where."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pyqtgraph as pg
+import pytest
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from occ_gui.state.placement import Placement
+from occ_gui.views.averaged_image import AveragedImage
+from occ_gui.views.photo_overlay import PhotoOverlay, rect_of
+
+Grey = NDArray[np.uint8]
+SIDE = 200
+
+
+class Screen:
+    """A picture of one grey level with a photo over it, a pixel of either a pixel of the screen."""
+
+    def __init__(self, qtbot: QtBot, picture: Callable[[pg.GraphicsView], Grey]) -> None:
+        self._picture = picture
+        self.view = pg.GraphicsView()
+        self.box = pg.ViewBox(invertY=True, enableMenu=False)
+        self.view.setCentralItem(self.box)
+        self.simulated = AveragedImage()
+        self.box.addItem(self.simulated)
+        self.overlay = PhotoOverlay(self.box)
+        self.overlay.set_opacity(1.0)
+        self.simulate(np.full((SIDE, SIDE), 60, dtype=np.uint8))
+        self.view.resize(SIDE, SIDE)
+        qtbot.addWidget(self.view)
+        self.view.show()
+        self.box.setRange(QRectF(-0.5, -0.5, SIDE, SIDE), padding=0)
+
+    def simulate(self, image: Grey) -> None:
+        self.simulated.set_image(image)
+        self.overlay.set_simulated(image)
+
+    def shown(self) -> NDArray[np.int64]:
+        return self._picture(self.view)[:SIDE, :SIDE].astype(np.int64)
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, grey_picture: Callable[[pg.GraphicsView], Grey]) -> Screen:
+    return Screen(qtbot, grey_picture)
+
+
+def even(level: int, rows: int = SIDE, columns: int = SIDE) -> Grey:
+    return np.full((rows, columns), level, dtype=np.uint8)
+
+
+def test_beside_nothing_lies_on_the_picture(screen: Screen) -> None:
+    screen.overlay.set_photo(even(200))
+    assert (screen.shown()[5:-5, 5:-5] == 60).all()
+
+
+@pytest.mark.parametrize("opacity", [0.0, 0.25, 1.0])
+def test_a_blended_photo_hides_as_much_as_it_is_opaque(screen: Screen, opacity: float) -> None:
+    screen.overlay.set_photo(even(200))
+    screen.overlay.set_mode("blend")
+    screen.overlay.set_opacity(opacity)
+    assert np.abs(screen.shown()[5:-5, 5:-5] - (60 + 140 * opacity)).max() <= 2
+
+
+def test_split_shows_the_simulation_above_the_line_and_the_photo_below(screen: Screen) -> None:
+    screen.overlay.set_photo(even(200))
+    screen.overlay.set_mode("split")
+    assert screen.overlay.line.value() == pytest.approx(SIDE / 2, abs=1)
+    for place in (100, 40, 150):
+        screen.overlay.line.setValue(place)
+        shown = screen.shown()
+        assert (shown[5 : place - 5, 5:-5] == 60).all()
+        assert (shown[place + 5 : -5, 5:-5] == 200).all()
+
+
+def test_the_line_stays_where_it_was_dragged_until_another_photo_comes(screen: Screen) -> None:
+    screen.overlay.set_photo(even(200))
+    screen.overlay.set_mode("split")
+    screen.overlay.line.setValue(30)
+    screen.overlay.line.sigDragged.emit(screen.overlay.line)
+    screen.overlay.set_placement(Placement(4.0, 0.0))
+    assert screen.overlay.line.value() == 30
+    screen.overlay.set_photo(even(100))
+    assert screen.overlay.line.value() == pytest.approx(SIDE / 2, abs=1)
+
+
+def test_the_difference_is_drawn_as_grey_levels_where_both_lie(screen: Screen) -> None:
+    screen.overlay.set_photo(even(75, 100, 100))
+    screen.overlay.set_placement(Placement(50.0, 50.0))
+    screen.overlay.set_mode("difference")
+    for gain in (1, 4):
+        screen.overlay.difference.set_gain(gain)
+        assert (screen.shown()[55:145, 55:145] == 15 * gain).all()
+    assert screen.overlay.difference.boundingRect() == QRectF(49.5, 49.5, 100, 100)
+
+
+def test_the_difference_follows_the_simulation_and_ends_at_white(screen: Screen) -> None:
+    screen.overlay.set_photo(even(255))
+    screen.overlay.set_mode("difference")
+    assert (screen.shown()[5:-5, 5:-5] == 195).all()
+    screen.simulate(even(250))
+    assert (screen.shown()[5:-5, 5:-5] == 5).all()
+    screen.overlay.difference.set_gain(8)
+    screen.simulate(even(10))
+    assert (screen.shown()[5:-5, 5:-5] == 255).all()
+
+
+@pytest.mark.parametrize("placement", [Placement(), Placement(0.25, 0.0), Placement(3.0, 2.0)])
+def test_alike_pictures_differ_by_nothing_however_fine_their_stripes(
+    screen: Screen, placement: Placement
+) -> None:
+    stripes = np.where(np.arange(3 * SIDE) % 5 < 2, 20, 220).astype(np.uint8)
+    image = np.tile(stripes, (3 * SIDE, 1))
+    screen.simulate(image)
+    screen.box.setRange(QRectF(-0.5, -0.5, 3 * SIDE, 3 * SIDE), padding=0)
+    screen.overlay.set_photo(image)
+    screen.overlay.set_placement(placement)
+    screen.overlay.set_mode("difference")
+    shown = screen.shown()[5:-5, 5:-5]
+    if placement == Placement():
+        assert shown.max() == 0
+    else:  # never more than what one picture differs from itself by, so far moved
+        assert 0 < shown.max() < 200
+
+
+def test_a_difference_is_drawn_after_every_zoom(screen: Screen) -> None:
+    screen.overlay.set_photo(even(80))
+    screen.overlay.set_mode("difference")
+    for side in (SIDE, 20, 3, 5 * SIDE):
+        screen.box.setRange(QRectF(50, 50, side, side), padding=0)
+        assert screen.shown()[20, 20] == 20
+
+
+def test_pictures_that_do_not_meet_have_no_difference(screen: Screen) -> None:
+    screen.overlay.set_photo(even(200))
+    screen.overlay.set_placement(Placement(5000.0, 5000.0))
+    screen.overlay.set_mode("difference")
+    assert screen.overlay.difference.boundingRect().isEmpty()
+    assert (screen.shown()[5:-5, 5:-5] == 60).all()
+
+
+def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) -> None:
+    frame = screen.overlay.frame
+    screen.overlay.set_photo(even(200, 50, 80))
+    screen.overlay.set_mode("blend")
+    assert not frame.isVisible()
+    screen.overlay.set_movable(True)
+    screen.overlay.set_placement(Placement(10.0, 20.0, 0.5))
+    assert frame.isVisible()
+    assert QRectF(frame.pos(), frame.pos() + frame.size()) == QRectF(9.75, 19.75, 40, 25)
+    screen.overlay.set_mode("beside")
+    assert not frame.isVisible()
+
+
+def test_moving_and_scaling_the_frame_tells_where_the_photo_is_to_lie(screen: Screen) -> None:
+    told: list[Placement] = []
+    screen.overlay.placed.connect(told.append)
+    screen.overlay.set_photo(even(200, 50, 80))
+    screen.overlay.set_mode("blend")
+    screen.overlay.set_movable(True)
+    assert told == []
+    screen.overlay.frame.setPos(QPointF(29.5, 39.5))
+    assert told == [Placement(30.0, 40.0, 1.0)]
+    screen.overlay.frame.setSize((160, 100))
+    assert told[-1] == Placement(30.5, 40.5, 2.0)
+    rect = rect_of(even(200, 50, 80), told[-1])
+    assert rect == QRectF(29.5, 39.5, 160, 100)
+
+
+def drag(screen: Screen, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Drag with the left button from one pixel of the picture to another."""
+    viewport, kinds = screen.view.viewport(), QEvent.Type
+    left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+
+    def send(kind: QEvent.Type, share: float, button: Qt.MouseButton, held: bool) -> None:
+        place = QPointF(*(a + (b - a) * share for a, b in zip(start, end, strict=True)))
+        everywhere = QPointF(viewport.mapToGlobal(place))
+        buttons = left if held else none
+        no_key = Qt.KeyboardModifier.NoModifier
+        event = QMouseEvent(kind, place, everywhere, button, buttons, no_key)
+        QApplication.sendEvent(viewport, event)
+
+    send(kinds.MouseMove, 0.0, none, held=False)
+    send(kinds.MouseButtonPress, 0.0, left, held=True)
+    for step in range(1, 6):
+        send(kinds.MouseMove, step / 5, none, held=True)
+    send(kinds.MouseButtonRelease, 1.0, left, held=False)
+
+
+@pytest.fixture
+def unhurried(screen: Screen, monkeypatch: pytest.MonkeyPatch) -> Screen:
+    """Let no movement of the mouse be left out, as is done to keep up with a hand."""
+    monkeypatch.setitem(pg.CONFIG_OPTIONS, "mouseRateLimit", 0)
+    return screen
+
+
+def test_the_mouse_moves_the_photo_by_its_frame_and_not_the_view(unhurried: Screen) -> None:
+    overlay = unhurried.overlay
+    overlay.placed.connect(overlay.set_placement)
+    overlay.set_photo(even(200, 50, 80))
+    overlay.set_placement(Placement(20.0, 20.0))
+    overlay.set_mode("blend")
+    overlay.set_movable(True)
+    told: list[Placement] = []
+    overlay.placed.connect(told.append)
+    before = unhurried.box.viewRect()
+    drag(unhurried, (60, 45), (90, 65))
+    assert told[-1].column == pytest.approx(50.0, abs=1.5)
+    assert told[-1].row == pytest.approx(40.0, abs=1.5)
+    assert told[-1].scale == pytest.approx(1.0)
+    assert unhurried.box.viewRect() == before
+
+
+def test_the_mouse_scales_the_photo_by_a_corner_of_its_frame(unhurried: Screen) -> None:
+    overlay = unhurried.overlay
+    overlay.placed.connect(overlay.set_placement)
+    overlay.set_photo(even(200, 50, 80))
+    overlay.set_placement(Placement(20.0, 20.0))
+    overlay.set_mode("blend")
+    overlay.set_movable(True)
+    told: list[Placement] = []
+    overlay.placed.connect(told.append)
+    drag(unhurried, (100, 70), (140, 95))
+    assert told[-1].scale == pytest.approx(1.5, abs=0.05)
+    rect = rect_of(even(200, 50, 80), told[-1])
+    assert (rect.left(), rect.top()) == pytest.approx((19.5, 19.5), abs=1.0)
+
+
+def test_the_mouse_drags_the_line(unhurried: Screen) -> None:
+    unhurried.overlay.set_photo(even(200))
+    unhurried.overlay.set_mode("split")
+    line = unhurried.overlay.line
+    drag(unhurried, (50, round(line.value())), (50, 160))
+    assert line.value() == pytest.approx(160, abs=3)
+    shown = unhurried.shown()
+    assert (shown[5:150, 5:-5] == 60).all()
+    assert (shown[170:-5, 5:-5] == 200).all()

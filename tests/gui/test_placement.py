@@ -1,0 +1,62 @@
+"""Where a photo lies: as it suits the pictures, until the user moves it."""
+
+import pytest
+
+from occ_gui.state.placement import LARGEST_SCALE, LEAST_SCALE, Placement, PlacementStore
+
+
+@pytest.fixture
+def told() -> list[Placement]:
+    return []
+
+
+@pytest.fixture
+def store(told: list[Placement]) -> PlacementStore:
+    store = PlacementStore()
+    store.changed.connect(told.append)
+    return store
+
+
+def test_what_suits_holds_and_is_told_once(store: PlacementStore, told: list[Placement]) -> None:
+    store.suggest(Placement(3.0, 4.0))
+    store.suggest(Placement(3.0, 4.0))
+    assert store.placement == Placement(3.0, 4.0)
+    assert told == [Placement(3.0, 4.0)]
+    assert not store.is_by_hand
+
+
+def test_what_the_user_chose_holds_whatever_suits(
+    store: PlacementStore, told: list[Placement]
+) -> None:
+    store.move(Placement(1.0, 2.0, 0.5))
+    store.suggest(Placement(3.0, 4.0))
+    assert store.placement == Placement(1.0, 2.0, 0.5)
+    assert told == [Placement(1.0, 2.0, 0.5)]
+    assert store.is_by_hand
+
+
+def test_reset_goes_back_to_what_suits_by_now(store: PlacementStore, told: list[Placement]) -> None:
+    store.move(Placement(1.0, 2.0, 0.5))
+    store.suggest(Placement(3.0, 4.0))
+    store.reset()
+    assert told[-1] == store.placement == Placement(3.0, 4.0)
+    assert not store.is_by_hand
+    told.clear()
+    store.reset()
+    assert told == []
+
+
+def test_moving_by_hand_to_where_it_is_is_told_since_it_now_stays(
+    store: PlacementStore, told: list[Placement]
+) -> None:
+    store.move(Placement())
+    assert told == [Placement()]
+    assert store.is_by_hand
+
+
+@pytest.mark.parametrize(("scale", "kept"), [(0.0, LEAST_SCALE), (1e9, LARGEST_SCALE)])
+def test_the_scale_stays_within_its_limits(
+    store: PlacementStore, scale: float, kept: float
+) -> None:
+    store.move(Placement(scale=scale))
+    assert store.placement.scale == kept

@@ -1,0 +1,148 @@
+"""Presets of the user's own in the window: kept, listed, replaced and deleted."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PySide6.QtWidgets import QInputDialog, QMessageBox
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_model.presets import USER_FOLDER, delete_preset, preset_named, save_preset, user_presets
+from occ_model.scene import Scene
+
+User = Any  # the fixture of that name
+Answer = Callable[[str, bool], None]
+
+
+@pytest.fixture(autouse=True)
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Keep the user's own presets in an empty folder, with one file of rubbish."""
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "rubbish.toml").write_bytes(b"\xff no preset")
+    monkeypatch.setenv(USER_FOLDER, str(folder))
+    return folder
+
+
+@pytest.fixture
+def answer(monkeypatch: pytest.MonkeyPatch) -> Answer:
+    """Answer the dialog that asks for a name, and the one that asks whether to replace."""
+
+    def give(name: str, replace: bool = False) -> None:
+        yes, no = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
+        for ask in ("getText", "getItem"):
+            monkeypatch.setattr(QInputDialog, ask, lambda *_: (name, bool(name)))
+        monkeypatch.setattr(QMessageBox, "question", lambda *_: yes if replace else no)
+
+    return give
+
+
+@pytest.fixture
+def matched(application: Application, user: User, photo_file: Path) -> Application:
+    """Open a photo and match it, as if with a known LED."""
+    application.open_photo(photo_file)
+    user.rest()
+    application.photo.form.sent.show_key("square")
+    application.desk.match()
+    user.rest()
+    assert application.desk.matching.match is not None, application.photo.failure.text()
+    return application
+
+
+def names(application: Application) -> list[str]:
+    combo = application.controls.preset
+    return [combo.itemText(place) for place in range(combo.count())]
+
+
+def test_rubbish_in_the_folder_does_not_keep_the_window_from_starting(
+    application: Application,
+) -> None:
+    assert names(application) == list(occ.presets())
+    assert "rubbish" not in names(application)
+
+
+def test_a_saved_match_is_listed_after_the_programs_presets_and_loaded(
+    matched: Application, user: User, answer: Answer
+) -> None:
+    answer("my phone", False)
+    before = names(matched)
+    matched.photo.result.save.click()
+    assert names(matched) == [*before, "my phone"]
+    assert user.message == "Saved the preset my phone"
+    assert preset_named("my phone").title == "Measured from stripes.png"
+    matched.controls.preset_chosen.emit("my phone")
+    user.rest()
+    assert matched.desk.matching.match is not None
+    assert matched.store.scene == matched.desk.matching.match.scene
+    assert matched.controls.preset.currentText() == "my phone"
+
+
+def test_the_preset_that_the_scene_is_stays_shown_when_another_is_saved(
+    matched: Application, user: User, answer: Answer
+) -> None:
+    shown = user.choose_next_preset()
+    answer("mine", False)
+    matched.photo.result.save.click()
+    assert matched.controls.preset.currentText() == shown
+
+
+def test_a_preset_is_replaced_only_if_the_user_says_so(
+    matched: Application, answer: Answer
+) -> None:
+    save_preset("mine", Scene())
+    for replace in (False, True):
+        answer("mine", replace)
+        matched.photo.result.save.click()
+        assert (preset_named("mine").scene != Scene()) == replace
+
+
+def test_a_name_that_cannot_be_is_answered_by_a_sentence(
+    matched: Application, user: User, answer: Answer
+) -> None:
+    answer("phone-136us", False)
+    matched.photo.result.save.click()
+    assert user.message == "'phone-136us' is a preset of the program; choose another name."
+    assert user_presets() == ()
+
+
+def test_a_cancelled_dialog_saves_and_deletes_nothing(
+    matched: Application, user: User, answer: Answer
+) -> None:
+    save_preset("mine", Scene())
+    answer("", False)
+    matched.photo.result.save.click()
+    user.choose("&Delete preset")
+    assert user_presets() == ("mine",)
+
+
+def test_a_deleted_preset_is_listed_no_more(
+    matched: Application, user: User, answer: Answer
+) -> None:
+    answer("mine", False)
+    matched.photo.result.save.click()
+    assert "mine" in names(matched)
+    user.choose("&Delete preset")
+    assert "mine" not in names(matched)
+    assert user.message == "Deleted the preset mine"
+    user.choose("&Delete preset")
+    assert user.message == "There is no preset of your own."
+
+
+def test_a_preset_that_has_gone_is_answered_by_a_sentence_and_listed_no_more(
+    matched: Application, user: User, answer: Answer
+) -> None:
+    answer("mine", False)
+    matched.photo.result.save.click()
+    scene = matched.store.scene
+    delete_preset("mine")
+    matched.controls.preset_chosen.emit("mine")
+    assert user.message.startswith("There is no preset 'mine'.")
+    assert "mine" not in names(matched)
+    assert matched.store.scene == scene
+
+
+def test_without_a_match_there_is_nothing_to_save(application: Application, user: User) -> None:
+    application.presets.ask_to_save_match()
+    assert user.message == "There is no match yet that could be saved."

@@ -1,0 +1,27 @@
+"""A pane that is lower than its content scrolls, and is no higher than it is given."""
+
+import pytest
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.scroll_pane import ScrollPane
+
+
+@pytest.mark.parametrize(("height", "asked"), [(500, 120), (70, 70)])
+def test_the_pane_asks_for_what_its_content_needs_and_no_more_than_it_was_told(
+    qtbot: QtBot, height: int, asked: int
+) -> None:
+    content = QWidget()
+    layout = QVBoxLayout(content)
+    layout.setContentsMargins(0, 0, 0, 0)
+    label = QLabel("text")
+    label.setMinimumHeight(height)
+    layout.addWidget(label)
+    pane = ScrollPane(content, QSize(200, 120))
+    qtbot.addWidget(pane)
+    pane.resize(200, 120)
+    pane.show()
+    assert pane.minimumSizeHint() == QSize(200, asked)
+    assert pane.verticalScrollBar().isVisible() == (height > 120)
+    assert not pane.horizontalScrollBar().isVisible()

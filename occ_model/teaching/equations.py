@@ -1,0 +1,212 @@
+"""The paper's equations with the numbers of a scene in them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.band_model import band_lengths
+from occ_model.camera.photometry import WHITE, level_values, luminance_levels
+from occ_model.errors import BandModelUndefined
+from occ_model.parameters import PARAMETERS
+from occ_model.scene import Scene
+from occ_model.units import HERTZ, NIT, SECOND
+
+_LIGHT = ("luminance", "illuminance", "reflectance")
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A part of an equation.
+
+    Parameters
+    ----------
+    text
+        As HTML with ``sub`` and ``sup`` only.
+    parameters
+        The parameters that it depends on, by name.
+    """
+
+    text: str
+    parameters: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """An equation, in symbols and in numbers.
+
+    Parameters
+    ----------
+    source
+        Its number in the paper, or where else it is from.
+    meaning
+        What it gives, in a few words.
+    symbols, numbers
+        Its right side in symbols and with the scene's numbers.
+    result
+        What comes out, with its unit, or why nothing does.
+    """
+
+    source: str
+    meaning: str
+    symbols: tuple[Term, ...]
+    numbers: tuple[Term, ...]
+    result: str
+
+    @property
+    def parameters(self) -> frozenset[str]:
+        """All parameters that it depends on."""
+        return frozenset(name for term in self.numbers for name in term.parameters)
+
+
+def equations(scene: Scene) -> tuple[Equation, ...]:
+    """Give the equations that tell how a scene's stripes look, with its numbers in them.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+
+    Returns
+    -------
+    tuple of Equation
+        The paper's equations (1) to (3), the band model's lengths, the columns of a chip, and the
+        frequency at which an alternating pattern has no stripes.
+    """
+    return (
+        *_pixel_values(scene),
+        _column_value(scene),
+        *_band_lengths(scene),
+        _chip_columns(scene),
+        _null(scene),
+    )
+
+
+def _shown(scene: Scene, name: str) -> Term:
+    """Give a parameter's value as a term."""
+    return Term(PARAMETERS[name].format(scene.value(name)), (name,))  # type: ignore[arg-type]
+
+
+def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
+    dark, lit = luminance_levels(scene).tolist()
+    low, high = level_values(scene).tolist()
+    found = []
+    for source, meaning, symbol, light, depends, value in (
+        ("(1)", "Pixel value of the lit panel, PV<sub>max</sub>",
+         "L<sub>v</sub> + E<sub>v</sub>R/π", lit, _LIGHT, high),
+        ("(2)", "Pixel value of the dark panel, PV<sub>min</sub>",
+         "E<sub>v</sub>R/π", dark, _LIGHT[1:], low),
+    ):  # fmt: skip
+        symbols = (
+            Term("118 ("),
+            Term("S", ("iso",)),
+            Term("t", ("exposure_time",)),
+            Term(f"({symbol})", depends),
+            Term("/ ("),
+            Term("K", ("meter_constant",)),
+            Term("N<sup>2</sup>", ("f_number",)),
+            Term(")"),
+            Term(")<sup>1/γ</sup>", ("gamma",)),  # noqa: RUF001 - the equation's own letter
+        )
+        numbers = (
+            Term("118 ("),
+            _shown(scene, "iso"),
+            Term("×"),  # noqa: RUF001 - a multiplication sign
+            _shown(scene, "exposure_time"),
+            Term("×"),  # noqa: RUF001 - a multiplication sign
+            Term(NIT.format(light, 4), depends),
+            Term("/ ("),
+            _shown(scene, "meter_constant"),
+            Term("×"),  # noqa: RUF001 - a multiplication sign
+            Term(f"{scene.camera.f_number:g}<sup>2</sup>", ("f_number",)),
+            Term(")"),
+            Term(f")<sup>1/{scene.camera.gamma:g}</sup>", ("gamma",)),
+        )
+        said = f"{value:.1f} grey levels"
+        if value > WHITE:
+            said += ": more than white"
+        found.append(Equation(source, meaning, symbols, numbers, said))
+    return found[0], found[1]
+
+
+def _column_value(scene: Scene) -> Equation:
+    low, high = level_values(scene).tolist()
+    light = (*_LIGHT, "iso", "f_number", "gamma", "meter_constant", "exposure_time")
+    exposure = ("exposure_time",)
+    symbols = (
+        Term("("),
+        Term("PV<sub>max</sub>", light),
+        Term("t<sub>on</sub> +"),
+        Term("PV<sub>min</sub>", light),
+        Term("t<sub>off</sub>) /"),
+        Term("t", exposure),
+    )
+    numbers = (
+        Term("("),
+        Term(f"{high:.1f}", light),
+        Term("t<sub>on</sub> +"),
+        Term(f"{low:.1f}", light),
+        Term("t<sub>off</sub>) /"),
+        _shown(scene, "exposure_time"),
+    )
+    said = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
+    if scene.model.averaging == "light":
+        said += "; here light is averaged, not pixel values"
+    meaning = "Pixel value of a column, PV<sub>sim</sub>"
+    return Equation("(3)", meaning, symbols, numbers, said)
+
+
+def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
+    period = Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
+    exposure, readout = _shown(scene, "exposure_time"), _shown(scene, "readout_time")
+    try:
+        complete, transition = (f"{length:.2f} columns" for length in band_lengths(scene))
+    except BandModelUndefined:
+        complete = transition = (
+            "undefined: the exposure is longer than the switching period; the simulation goes on"
+        )
+    led, own = Term("t<sub>LED</sub>", ("switching_frequency",)), Term("t", ("exposure_time",))
+    column = Term("t<sub>r</sub>", ("readout_time",))
+    return (
+        Equation(
+            "band model", "Columns of one state, h<sub>c</sub>",
+            (Term("("), led, Term("-"), own, Term(") /"), column),
+            (Term("("), period, Term("-"), exposure, Term(") /"), readout), complete,
+        ),
+        Equation(
+            "band model", "Columns of a transition, h<sub>t</sub>",
+            (own, Term("/"), column), (exposure, Term("/"), readout), transition,
+        ),
+    )  # fmt: skip
+
+
+def _chip_columns(scene: Scene) -> Equation:
+    period, readout = scene.transmitter.switching_period, scene.camera.readout_time
+    return Equation(
+        "readout",
+        "Columns of a chip",
+        (
+            Term("t<sub>LED</sub>", ("switching_frequency",)),
+            Term("/"),
+            Term("t<sub>r</sub>", ("readout_time",)),
+        ),
+        (
+            Term(SECOND.format(period), ("switching_frequency",)),
+            Term("/"),
+            _shown(scene, "readout_time"),
+        ),
+        f"{period / readout:.2f} columns",
+    )
+
+
+def _null(scene: Scene) -> Equation:
+    exposure = scene.camera.exposure_time
+    in_chips = exposure * scene.transmitter.switching_frequency
+    contrast = abs(float(np.sinc(0.5 * in_chips)))
+    return Equation(
+        "exposure",
+        "Frequency at which an alternating pattern has no stripes",
+        (Term("2 /"), Term("t", ("exposure_time",))),
+        (Term("2 /"), _shown(scene, "exposure_time")),
+        f"{HERTZ.format(2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
+        f"{100.0 * contrast:.0f} % of its contrast are left",
+    )

@@ -62,6 +62,4 @@ def scenes_in(text: str) -> dict[str, Scene]:
         A value in one is out of range.
     """
     _before, *parts = _SCENE.split(text)  # names and texts in turn
-    return {
-        name: Scene.from_toml(toml) for name, toml in zip(parts[::2], parts[1::2], strict=True)
-    }
+    return {name: Scene.from_toml(toml) for name, toml in zip(parts[::2], parts[1::2], strict=True)}

@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables one of which says where a window can be drawn."""
 
-PANES = ("controls", "decode", "photo", "profile", "accuracy")
+PANES = (
+    "controls", "decode", "photo", "profile", "accuracy", "map",
+    "equations", "compare", "explorations",
+)  # fmt: skip
 """The docks, by their names in the window."""
 
 OVERLAYS = ("beside", "blend", "split", "difference")
@@ -204,7 +207,7 @@ def wait_until_shown(application: "Application") -> None:
 
 
 def _is_at_rest(application: "Application") -> bool:
-    return application.is_idle and application.study.is_idle
+    return application.is_idle and application.study.is_idle and application.reach.is_idle
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:

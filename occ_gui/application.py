@@ -11,6 +11,7 @@ from occ_gui.controllers.accuracy import AccuracyController
 from occ_gui.controllers.files import FileController, sample_photos
 from occ_gui.controllers.photo_desk import PhotoDesk
 from occ_gui.controllers.presets import PresetController
+from occ_gui.controllers.reach_desk import ReachDesk
 from occ_gui.controllers.simulation import SimulationController
 from occ_gui.main_window import MainWindow
 from occ_gui.state.memory import Memory
@@ -20,12 +21,15 @@ from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
+from occ_gui.views.map_view import MapView
+from occ_gui.views.margin_strips import MarginStrips
 from occ_gui.views.photo_view import PhotoView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
 from occ_model.declarations import ParameterValue
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.load import Photo
+from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Match
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
@@ -60,9 +64,11 @@ class Application(QObject):
         self.controls = ControlPanel([], effects)
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
         self.accuracy, self.photo = AccuracyView(), PhotoView()
+        self.detection = MapView(tuple(DECODERS))
+        self.margins = MarginStrips(self.controls.main_rows())
         self.window = MainWindow(
             self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
-            undo_stack=self.store.undo_stack,
+            self.detection, undo_stack=self.store.undo_stack,
         )  # fmt: skip
         self.desk = PhotoDesk(self.store, self.image, self.profile, self.photo)
         self.photos = self.desk.photos
@@ -74,12 +80,14 @@ class Application(QObject):
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
+        self.reach = ReachDesk(self.store, self.settings, self.detection, self.margins)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
         self._connect_scene()
         self._connect_settings()
         self._connect_photo()
         self._connect_menus()
+        self._connect_margins()
         self._list_presets()
         self._list_recent()
         self.window.menus.show_samples(sample_photos(), self.files.open_sample)
@@ -144,6 +152,14 @@ class Application(QObject):
         )
         menus.modes.triggered.connect(self._show_mode)
         self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
+
+    def _connect_margins(self) -> None:
+        shown = self.window.actions_by_name["margins"]
+        shown.toggled.connect(self.margins.set_shown)
+        shown.triggered.connect(self.memory.keep_margins)
+        self.margins.set_shown(self.memory.margins)
+        shown.setChecked(self.memory.margins)
+        self.decode.decoder_chosen.connect(self.reach.margins.choose_decoder)
 
     @property
     def is_idle(self) -> bool:
@@ -262,3 +278,4 @@ class Application(QObject):
         self.simulation.stop()
         self.study.stop()
         self.desk.stop()
+        self.reach.stop()

@@ -10,6 +10,7 @@ from occ_gui.menus import Menus
 from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
+from occ_gui.views.map_view import MapView
 from occ_gui.views.photo_view import PhotoView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
@@ -25,7 +26,7 @@ class MainWindow(QMainWindow):
 
     Parameters
     ----------
-    controls, image, profile, decode, photo, accuracy
+    controls, image, profile, decode, photo, accuracy, detection
         The panes.
     undo_stack
         The steps that the edit menu undoes.
@@ -37,7 +38,7 @@ class MainWindow(QMainWindow):
     dropped = Signal(list)
     """The paths of what was dropped on the window; none where nothing of it is a file."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913, PLR0917 - one a pane
         self,
         controls: ControlPanel,
         image: ImageView,
@@ -45,6 +46,7 @@ class MainWindow(QMainWindow):
         decode: DecodeView,
         photo: PhotoView,
         accuracy: AccuracyView,
+        detection: MapView,
         *,
         undo_stack: QUndoStack,
     ) -> None:
@@ -62,11 +64,14 @@ class MainWindow(QMainWindow):
             "photo": self._dock("photo", self.tr("Photo"), photo, right),
             "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
             "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
+            "map": self._dock("map", self.tr("Detection map"), detection, bottom),
         }
         self.tabifyDockWidget(self.docks["profile"], self.docks["accuracy"])
+        self.tabifyDockWidget(self.docks["accuracy"], self.docks["map"])
         self.docks["profile"].raise_()
         self.docks["photo"].hide()  # so that until it has its place it needs no room
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
+        self.docks["map"].visibilityChanged.connect(detection.set_seen)
         self.resizeDocks([self.docks["profile"]], [308], Qt.Orientation.Vertical)
         self.resizeDocks(
             [self.docks["controls"], self.docks["decode"]], [340, 360], Qt.Orientation.Horizontal
@@ -78,6 +83,7 @@ class MainWindow(QMainWindow):
             widget.setAcceptDrops(False)  # a file can be dropped anywhere
         self._said_until = ""
         self._is_arranged = False
+        self._behind = {"photo": "decode"}
         self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._timing = QLabel()
         self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
@@ -91,6 +97,35 @@ class MainWindow(QMainWindow):
         dock.setObjectName(name)
         dock.setWidget(content)
         self.addDockWidget(area, dock)
+        return dock
+
+    def add_pane(
+        self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
+    ) -> QDockWidget:
+        """Add a pane before the window is shown, and an entry of the view menu for it.
+
+        Parameters
+        ----------
+        name, title
+            Its name in the program and on the screen.
+        content
+            What it shows.
+        behind
+            The pane whose place it shares.
+        below
+            Or the pane under which it appears when it is asked for.
+        """
+        place = self.docks[behind or below]
+        dock = self._dock(name, title, content, self.dockWidgetArea(place))
+        self.docks[name] = dock
+        dock.hide()  # so that until it has its place it needs no room
+        if behind:
+            self._behind[name] = behind
+        else:
+            self.splitDockWidget(place, dock, Qt.Orientation.Vertical)
+        for widget in dock.findChildren(QWidget):
+            widget.setAcceptDrops(False)  # the window takes files
+        self.menus.add_dock(dock)
         return dock
 
     def bring_to_front(self, name: str) -> None:
@@ -137,15 +172,16 @@ class MainWindow(QMainWindow):
             self.statusBar().clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Put the photo's pane behind the decoding, once they have been laid out."""
+        """Put panes behind those that they share a place with, once these have been laid out."""
         super().showEvent(event)
-        decode, photo = self.docks["decode"], self.docks["photo"]
         # Earlier, beside the other group, Qt would leave a bar of tabs behind that belongs to none.
         if not self._is_arranged:
             self._is_arranged = True
-            self.tabifyDockWidget(decode, photo)
-            photo.show()
-            decode.raise_()
+            for name, front in self._behind.items():
+                self.tabifyDockWidget(self.docks[front], self.docks[name])
+                self.docks[name].show()
+            for front in set(self._behind.values()):
+                self.docks[front].raise_()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         """Take what may be files."""

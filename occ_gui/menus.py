@@ -37,18 +37,27 @@ class Menus(QObject):
         super().__init__(window)
         self._bar = window.menuBar()
         self.actions: dict[str, QAction] = {}
+        self.tops: dict[str, QMenu] = {}
         self._make_file_menu(window)
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
-        menu = self._bar.addMenu(self.tr("&View"))
+        menu = self._top("view", self.tr("&View"))
         self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
+        margins = self._add(menu, "margins", self.tr("Reading &margins under the sliders"))
+        margins.setCheckable(True)
         menu.addSeparator()
+        self._view = menu
         for dock in docks:
-            menu.addAction(dock.toggleViewAction())
-        menu = self._bar.addMenu(self.tr("&Help"))
+            self.add_dock(dock)
+        menu = self._top("help", self.tr("&Help"))
+        self._add(menu, "explorations", self.tr("&Explorations"))
         self._add(menu, "about", self.tr("&About"))
         self.show_photo_open(False)
         self.show_match_there(False)
+
+    def _top(self, name: str, text: str) -> QMenu:
+        self.tops[name] = self._bar.addMenu(text)
+        return self.tops[name]
 
     def _add(
         self,
@@ -65,7 +74,7 @@ class Menus(QObject):
 
     def _make_file_menu(self, window: QMainWindow) -> None:
         keys = QKeySequence.StandardKey
-        menu = self._bar.addMenu(self.tr("&File"))
+        menu = self._top("file", self.tr("&File"))
         self._add(menu, "open_photo", self.tr("Open &photo…"), keys.Open)
         self.recent = menu.addMenu(self.tr("Open &recent"))
         self.samples = menu.addMenu(self.tr("Open sa&mple photo"))
@@ -74,8 +83,9 @@ class Menus(QObject):
             submenu.setEnabled(False)
         self._add(menu, "close_photo", self.tr("&Close photo"))
         menu.addSeparator()
-        self._add(menu, "open_scene", self.tr("Open sc&ene…"))
-        self._add(menu, "save_scene", self.tr("&Save scene as…"), keys.Save)
+        self._add(menu, "open_scene", self.tr("Open sc&ene…"), self.tr("Ctrl+Shift+O"))
+        self._add(menu, "save_scene", self.tr("&Save scene"), keys.Save)
+        self._add(menu, "save_scene_as", self.tr("Save scene &as…"), self.tr("Ctrl+Shift+S"))
         self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
         menu.addSeparator()
         self._add(menu, "delete_preset", self.tr("&Delete preset…"))
@@ -83,15 +93,28 @@ class Menus(QObject):
         self._add(menu, "quit", self.tr("&Quit"), keys.Quit).triggered.connect(window.close)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
-        menu = self._bar.addMenu(self.tr("&Edit"))
+        menu = self._top("edit", self.tr("&Edit"))
         undo = undo_stack.createUndoAction(self, self.tr("&Undo"))
         redo = undo_stack.createRedoAction(self, self.tr("&Redo"))
         undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
         redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
         menu.addActions([undo, redo])
+        self._make_pin_menu(menu)
+
+    def add_dock(self, dock: QDockWidget) -> None:
+        """Let the view menu show and hide a dock."""
+        self._view.addAction(dock.toggleViewAction())
+
+    def _make_pin_menu(self, edit: QMenu) -> None:
+        menu = edit.addMenu(self.tr("Pin and &compare"))
+        self._add(menu, "pin_a", self.tr("Pin as &A"), self.tr("Ctrl+Shift+A"))
+        self._add(menu, "pin_b", self.tr("Pin as &B"), self.tr("Ctrl+Shift+B"))
+        self._add(menu, "go_to_a", self.tr("Take me &to A"))
+        self._add(menu, "go_to_b", self.tr("Take me t&o B"))
+        self._add(menu, "clear_pins", self.tr("C&lear both"))
 
     def _make_photo_menu(self) -> None:
-        menu = self._bar.addMenu(self.tr("&Photo"))
+        menu = self._top("photo", self.tr("&Photo"))
         self._add(menu, "match", self.tr("&Match photo"), self.tr("Ctrl+M"))
         self._add(menu, "apply_match", self.tr("&Apply to the scene"), self.tr("Ctrl+Shift+M"))
         self._add(menu, "save_match", self.tr("Save match as &preset…"))

@@ -10,11 +10,12 @@ from occ_gui.state.photo_profile import PhotoProfile
 from occ_gui.state.placement import Placement, PlacementStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.tasks.latest_wins import LatestWins
+from occ_model.arrays import FloatArray
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
 from occ_model.photo.load import Photo
 from occ_model.photo.stripes import find_stripes
-from occ_model.results import Match, Stripes
+from occ_model.results import Comparison, Match, Stripes
 
 
 class ProfilePane(Protocol):
@@ -117,19 +118,34 @@ class ComparisonController(QObject):
         if photo is None or snapshot is None:
             self._pane.show_photo_profile(None)
             return
-        placement, stripes = self._placements.placement, self._stripes
+        placement = self._placements.placement
         comparison, sentence = None, self._sentence
-        if stripes is not None:
-            frame = snapshot.frame
-            simulated = frame.enhanced.astype(np.float64) if self._enhanced else frame.profile
-            first = placement.column + stripes.region.first_column * placement.scale
-            try:
-                comparison = compare(stripes.evened, simulated, first, placement.scale)
-            except MatchError as error:
-                sentence = str(error)
+        frame = snapshot.frame
+        simulated = frame.enhanced.astype(np.float64) if self._enhanced else frame.profile
+        try:
+            comparison = self._beside(simulated)
+        except MatchError as error:
+            sentence = str(error)
         self._pane.show_photo_profile(
             PhotoProfile(comparison, photo.profile, placement.column, placement.scale, sentence)
         )
+
+    def _beside(self, simulated: FloatArray) -> Comparison | None:
+        """Compare with some simulated columns; None where no stripes are known."""
+        placement, stripes = self._placements.placement, self._stripes
+        if stripes is None:
+            return None
+        first = placement.column + stripes.region.first_column * placement.scale
+        return compare(stripes.evened, simulated, first, placement.scale)
+
+    def comparison(self) -> Comparison | None:
+        """Compare with the simulated columns before enhancement; None where that cannot be."""
+        if self._photo is None or self._snapshot is None:
+            return None
+        try:
+            return self._beside(self._snapshot.frame.profile)
+        except MatchError:
+            return None
 
     def stop(self) -> None:
         """Look for no more stripes."""

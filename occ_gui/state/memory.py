@@ -8,10 +8,11 @@ MOST_RECENT = 8
 """Files that are remembered."""
 
 _FILES, _FOLDER = "files/recent", "files/folder"
+_MARGINS, _NO = "view/margins", "no"
 
 
 class Memory(QObject):
-    """The files that were opened last, and the folder that they were in.
+    """The files that were opened last, the folder that they were in, and what is shown.
 
     Parameters
     ----------
@@ -39,6 +40,15 @@ class Memory(QObject):
         """The folder that a dialog begins in, empty for the system's own choice."""
         return str(self._folder) if self._folder is not None and self._folder.is_dir() else ""
 
+    @property
+    def margins(self) -> bool:
+        """Whether strips under the sliders show how well a decoder would read."""
+        return self._value(_MARGINS) != _NO
+
+    def keep_margins(self, shown: bool) -> None:
+        """Remember whether the strips are shown."""
+        self._write(_MARGINS, "yes" if shown else _NO)
+
     def add(self, path: Path) -> None:
         """Remember a file that was opened, and its folder."""
         path = path.absolute()
@@ -64,6 +74,15 @@ class Memory(QObject):
             self._files = files
             self._write(_FILES, [str(path) for path in files])
             self.changed.emit()
+
+    def recall(self, key: str) -> str:
+        """Give the text that was kept under a key; empty where there is none."""
+        value = self._value(key)
+        return value if isinstance(value, str) else ""
+
+    def keep(self, key: str, text: str) -> None:
+        """Remember a text."""
+        self._write(key, text)
 
     def _value(self, key: str) -> object:
         return None if self._settings is None else self._settings.value(key)

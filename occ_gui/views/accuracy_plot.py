@@ -135,6 +135,11 @@ class AccuracyPlot(QWidget):
         layout.addLayout(body, 1)
         layout.addWidget(self.legend, 0, Qt.AlignmentFlag.AlignLeft)
 
+    @property
+    def measured(self) -> tuple[AccuracyPoint, ...]:
+        """All points of the scene as it is; none while they are not complete."""
+        return () if self._measuring or self._outdated else self._complete
+
     def show_study_begun(self) -> None:
         """Tell that points of the scene as it is are on their way."""
         self._measuring, self._outdated, self._points = True, False, []

@@ -1,6 +1,6 @@
 """What the receiver read: the verdict, the bits, and the steps behind them."""
 
-from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
 
 from occ_gui.state.snapshot import Snapshot
@@ -14,6 +14,9 @@ _STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "conf
 class DecodeView(QWidget):
     """The decode result in words, sent and received bits, and what was measured on the way."""
 
+    decoder_chosen = Signal(str)
+    """The decoder whose result is shown."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
@@ -21,7 +24,7 @@ class DecodeView(QWidget):
         self.decoders.setDrawBase(False)
         self.decoders.setAccessibleName(self.tr("Decoder"))
         self.decoders.setToolTip(self.tr("Whose result and steps are shown."))
-        self.decoders.currentChanged.connect(self._show_chosen)
+        self.decoders.currentChanged.connect(self._choose)
         self.verdict = QLabel()
         self.verdict.setWordWrap(True)
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
@@ -82,11 +85,19 @@ class DecodeView(QWidget):
         self.strip.setVisible(bool(snapshot.sent))
         self._show_chosen()
 
+    def _chosen(self, snapshot: Snapshot) -> DecodeResult:
+        return (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
+
+    def _choose(self) -> None:
+        self._show_chosen()
+        if self._snapshot is not None:
+            self.decoder_chosen.emit(self._chosen(self._snapshot).decoder)
+
     def _show_chosen(self) -> None:
         snapshot = self._snapshot
         if snapshot is None:
             return
-        decoded = (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
+        decoded = self._chosen(snapshot)
         self.strip.show_bits(snapshot.sent, decoded.bits.tolist())
         self.verdict.setText(self._verdict(decoded))
         self.reason.setText(decoded.failure or "")

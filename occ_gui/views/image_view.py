@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.state.placement import Placement
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.before_wipe import BeforeWipe
 from occ_gui.views.photo_overlay import MODES, PhotoOverlay
 from occ_gui.views.picture_pane import PicturePane
 from occ_gui.widgets.word_choice import WordChoice
@@ -35,6 +36,8 @@ class ImageView(QWidget):
         self.simulation = PicturePane(self.tr("Simulated picture"))
         self.photo = PicturePane(self.tr("Photo"))
         self.overlay = PhotoOverlay(self.simulation.box)
+        self.before = BeforeWipe(self.simulation.box)
+        self.simulation.caption_row.addWidget(self.before.controls)
         panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.simulation)
         panes.addWidget(self.photo)

@@ -2,7 +2,7 @@
 
 import pyqtgraph as pg
 from PySide6.QtCore import QRectF
-from PySide6.QtWidgets import QGraphicsRectItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
 
 from occ_gui.views.averaged_image import AveragedImage
 from occ_gui.views.plots import REGION
@@ -41,7 +41,9 @@ class PicturePane(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
-        layout.addWidget(self.caption)
+        self.caption_row = QHBoxLayout()
+        self.caption_row.addWidget(self.caption, 1)
+        layout.addLayout(self.caption_row)
         layout.addWidget(self._graphics, 1)
 
     def show_picture(self, image: ByteArray) -> None:

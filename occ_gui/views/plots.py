@@ -14,6 +14,8 @@ PHOTO = QColor(colours.PHOTO)
 THRESHOLD = QColor(colours.THRESHOLD)
 REGION = QColor(colours.REGION)
 NOISE = QColor(colours.NOISE)
+BEFORE = QColor("#8A8A8A")
+"""What was there before the latest change: grey, and so nothing else's colour."""
 
 PACKETS_IN_VIEW = 2
 """Packets that a plot over columns shows at first; the rest can be panned to."""

@@ -18,6 +18,7 @@ from occ_gui.state.photo_profile import PhotoProfile
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.plots import (
     BAND,
+    BEFORE,
     PACKETS_IN_VIEW,
     PHOTO,
     REGION,
@@ -54,6 +55,8 @@ class ProfileView(QWidget):
         self._snapshot: Snapshot | None = None
         self._photo: PhotoProfile | None = None
         self._photo_levels: FloatArray | None = None
+        self._before: Snapshot | None = None
+        self._before_levels: FloatArray | None = None
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
         self.plot = new_plot(
             self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
@@ -78,6 +81,7 @@ class ProfileView(QWidget):
         line = Qt.PenStyle
         pens = {
             "simulation": (self.tr("simulation"), thin(SIMULATION)),
+            "before": (self.tr("before"), thin(BEFORE)),
             "band": (self.tr("band model"), thin(BAND, line.DashLine)),
             "photo": (self.tr("photo"), thin(PHOTO)),
             "threshold": (self.tr("threshold"), thin(THRESHOLD, line.DashDotLine)),
@@ -85,6 +89,7 @@ class ProfileView(QWidget):
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
             self.legend.show_line(key, key == "simulation")
+        self.before = self.plot.plot(pen=pens["before"][1])  # under all others
         self.simulation = self.plot.plot(pen=pens["simulation"][1])
         self.band = self.plot.plot(pen=pens["band"][1])
         self.photo = self.plot.plot(pen=pens["photo"][1])
@@ -102,6 +107,7 @@ class ProfileView(QWidget):
         self.enhanced.setToolTip(
             self.tr("Show the simulated column values as they stand in the picture.")
         )
+        self.enhanced.toggled.connect(self._draw_before)
         self.enhanced.toggled.connect(self._redraw)
         self.enhanced.toggled.connect(self.enhanced_chosen)
         self._packets = self._range_button(
@@ -176,7 +182,7 @@ class ProfileView(QWidget):
             return
         frame, decoded = snapshot.frame, snapshot.decoded
         enhanced = self.enhanced.isChecked()
-        profile = frame.enhanced.astype(np.float64) if enhanced else frame.profile
+        profile = _levels(snapshot, enhanced)
         _draw(self.simulation, profile)
         _draw(self.band, snapshot.band)
         self.reason.setText(snapshot.band_undefined)
@@ -196,9 +202,21 @@ class ProfileView(QWidget):
         self._fit_levels()
         self._fit_columns(snapshot)
 
+    def show_before(self, snapshot: Snapshot) -> None:
+        """Show the profile of these results, in grey, as that before the latest change."""
+        self._before = snapshot
+        self.legend.show_line("before", True)
+        self._draw_before()
+        self._fit_levels()
+
+    def _draw_before(self) -> None:
+        if self._before is not None:
+            self._before_levels = _levels(self._before, self.enhanced.isChecked())
+            _draw(self.before, self._before_levels)
+
     def _fit_levels(self) -> None:
         """Show from black to the largest value, in steps, so that the axis does not tremble."""
-        profiles = (*self._simulated_levels, self._photo_levels)
+        profiles = (*self._simulated_levels, self._before_levels, self._photo_levels)
         largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
@@ -215,6 +233,13 @@ class ProfileView(QWidget):
             last = min(last, first + PACKETS_IN_VIEW * snapshot.packet_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
+    def columns_in_view(self) -> tuple[int, int]:
+        """Give the first column that is seen, and the one behind the last."""
+        columns = 0 if self._snapshot is None else len(self._snapshot.frame.profile)
+        low, high = self.plot.viewRange()[0]
+        first = min(max(int(np.ceil(low)), 0), max(columns - 2, 0))
+        return first, min(max(int(high) + 1, first + 2), columns)
+
     def _stop_following(self) -> None:
         for button in (self._packets, self._panel):
             button.setChecked(False)
@@ -223,6 +248,12 @@ class ProfileView(QWidget):
         self._stop_following()
         clicked.setChecked(True)
         self._redraw()
+
+
+def _levels(snapshot: Snapshot, enhanced: bool) -> FloatArray:
+    """Give the column values, as they stand in the picture if they are wanted enhanced."""
+    frame = snapshot.frame
+    return frame.enhanced.astype(np.float64) if enhanced else frame.profile
 
 
 def _draw(

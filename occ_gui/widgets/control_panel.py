@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.widgets.code_entry import CodeEntry
 from occ_gui.widgets.parameter_panel import ParameterPanel
+from occ_gui.widgets.parameter_rows import QuantityRow
 from occ_model.parameters import PARAMETERS
 from occ_model.scene import GROUPS, Scene
 
@@ -103,6 +104,11 @@ class ControlPanel(QWidget):
             self.preset.addItem(name, name)
             self.preset.setItemData(self.preset.count() - 1, title, Qt.ItemDataRole.ToolTipRole)
         self.preset.setCurrentIndex(-1)
+
+    def main_rows(self) -> dict[str, QuantityRow]:
+        """Give the rows of the main sliders, by the names of their parameters."""
+        rows = {name: row for panel in self.panels.values() for name, row in panel.rows.items()}
+        return {name: row for name in MAIN if isinstance(row := rows[name], QuantityRow)}
 
     def show_scene(self, scene: Scene) -> None:
         """Show a scene's values without telling of them."""

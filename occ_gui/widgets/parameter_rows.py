@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
+    QGridLayout,
     QLineEdit,
     QSlider,
     QSpinBox,
@@ -60,10 +60,12 @@ class QuantityRow(ParameterRow):
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setPageStep(_SLIDER_STEPS // 20)
         self.field = QuantityEdit(quantity)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.slider, 1)
-        layout.addWidget(self.field)
+        self._layout = QGridLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setVerticalSpacing(1)
+        self._layout.setColumnStretch(0, 1)
+        self._layout.addWidget(self.slider, 0, 0)
+        self._layout.addWidget(self.field, 0, 1)
         for control in (self.slider, self.field):
             _name(control, quantity)
             keep_wheel_for_scrolling(control)
@@ -80,6 +82,10 @@ class QuantityRow(ParameterRow):
         number = float(value)
         self.field.set_value(number)
         self._place_slider(number)
+
+    def add_below(self, widget: QWidget) -> None:
+        """Put a widget under the slider, as wide as it."""
+        self._layout.addWidget(widget, 1, 0)
 
     def _place_slider(self, value: float) -> None:
         self.slider.blockSignals(True)

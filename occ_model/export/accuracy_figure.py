@@ -1,6 +1,6 @@
 """What accuracy costs in time, drawn: error over time, both on a logarithmic scale."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isclose
 from pathlib import Path
 from typing import Any
@@ -10,14 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterMathtext
 
 from occ_model import colours
-from occ_model.export.drawing import house_style, save_figure
-from occ_model.export.tables import write_table
+from occ_model.export.drawn import Drawing
+from occ_model.export.notes import settings_notes
 from occ_model.provenance import Provenance
 from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
-
-_NAME = "accuracy"
 
 _MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "D"), strict=True))
 _COLOURS = dict(
@@ -48,19 +46,29 @@ def write_accuracy_figure(
     OutputError
         A file cannot be written.
     """
-    forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
-    notes = (
-        f"tolerance {settings.tolerance:g} levels of the {settings.observable}",
-        f"noise {settings.noise}",
-        f"by hand: {forced or 'nothing'}",
-    )
-    title = "Accuracy and time: error over time"
-    provenance = Provenance(title, {"at hand": scene}, settings.seed, notes)
-    with house_style():
-        save_figure(_draw(points), folder, _NAME, provenance)
+    drawing = accuracy_drawing(points)
+    notes = settings_notes(settings)
+    provenance = Provenance(drawing.title, {"at hand": scene}, settings.seed, notes)
+    for ending in (".pdf", ".png", ".csv"):
+        drawing.write(folder / f"{drawing.name}{ending}", provenance)
+
+
+def accuracy_drawing(points: Sequence[AccuracyPoint]) -> Drawing:
+    """Draw error over time.
+
+    Parameters
+    ----------
+    points
+        As :func:`occ_model.study.accuracy.accuracy` gives them.
+    """
     header = ("part", "name", "time (ms)", "error (levels)", "current")
-    rows = [(p.part, p.name, 1e3 * p.seconds, p.error, int(p.current)) for p in points]
-    write_table(folder / f"{_NAME}.csv", header, rows, provenance)
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        for p in points:
+            yield (p.part, p.name, 1e3 * p.seconds, p.error, int(p.current))
+
+    title = "Accuracy and time: error over time"
+    return Drawing("accuracy", title, lambda: _draw(points), header, rows)
 
 
 def _draw(points: Sequence[AccuracyPoint]) -> Figure:

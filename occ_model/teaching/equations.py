@@ -1,61 +1,23 @@
 """The paper's equations with the numbers of a scene in them."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from occ_model.band_model import band_lengths
 from occ_model.camera.photometry import WHITE, level_values, luminance_levels
 from occ_model.errors import BandModelUndefined
 from occ_model.parameters import PARAMETERS
+from occ_model.results.teaching import Equation, Term
 from occ_model.scene import Scene
 from occ_model.units import HERTZ, NIT, SECOND
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 
+_ON = (
+    "code", "bits", "pattern", "switching_frequency", "readout_time", "exposure_time", "start_time",
+)  # fmt: skip
+"""What the time depends on in which the LED is on while a column is exposed."""
 
-@dataclass(frozen=True, slots=True)
-class Term:
-    """A part of an equation.
-
-    Parameters
-    ----------
-    text
-        As HTML with ``sub`` and ``sup`` only.
-    parameters
-        The parameters that it depends on, by name.
-    """
-
-    text: str
-    parameters: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Equation:
-    """An equation, in symbols and in numbers.
-
-    Parameters
-    ----------
-    source
-        Its number in the paper, or where else it is from.
-    meaning
-        What it gives, in a few words.
-    symbols, numbers
-        Its right side in symbols and with the scene's numbers.
-    result
-        What comes out, with its unit, or why nothing does.
-    """
-
-    source: str
-    meaning: str
-    symbols: tuple[Term, ...]
-    numbers: tuple[Term, ...]
-    result: str
-
-    @property
-    def parameters(self) -> frozenset[str]:
-        """All parameters that it depends on."""
-        return frozenset(name for term in self.numbers for name in term.parameters)
+_MINUS = Term("−")  # noqa: RUF001 - a minus sign
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
@@ -135,17 +97,21 @@ def _column_value(scene: Scene) -> Equation:
     symbols = (
         Term("("),
         Term("PV<sub>max</sub>", light),
-        Term("t<sub>on</sub> +"),
+        Term("t<sub>on</sub>", _ON),
+        Term("+"),
         Term("PV<sub>min</sub>", light),
-        Term("t<sub>off</sub>) /"),
+        Term("t<sub>off</sub>", _ON),
+        Term(") /"),
         Term("t", exposure),
     )
     numbers = (
         Term("("),
         Term(f"{high:.1f}", light),
-        Term("t<sub>on</sub> +"),
+        Term("t<sub>on</sub>", _ON),
+        Term("+"),
         Term(f"{low:.1f}", light),
-        Term("t<sub>off</sub>) /"),
+        Term("t<sub>off</sub>", _ON),
+        Term(") /"),
         _shown(scene, "exposure_time"),
     )
     said = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
@@ -169,8 +135,8 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
     return (
         Equation(
             "band model", "Columns of one state, h<sub>c</sub>",
-            (Term("("), led, Term("-"), own, Term(") /"), column),
-            (Term("("), period, Term("-"), exposure, Term(") /"), readout), complete,
+            (Term("("), led, _MINUS, own, Term(") /"), column),
+            (Term("("), period, _MINUS, exposure, Term(") /"), readout), complete,
         ),
         Equation(
             "band model", "Columns of a transition, h<sub>t</sub>",

@@ -2,7 +2,6 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -10,57 +9,10 @@ from typing import Any
 from occ_model.errors import SceneFileError
 from occ_model.presets import load_preset
 from occ_model.resource_files import resource_path
-from occ_model.scene import Scene
+from occ_model.results.teaching import Exploration, Step
 from occ_model.settings import with_settings
 
 _FOLDER = "explorations"
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One step of an exploration.
-
-    Parameters
-    ----------
-    text
-        What there is to see.
-    question
-        What to find out.
-    answer
-        What one finds, for whoever wants to compare.
-    scene
-        What the window shows.
-    pane
-        The pane that it is best seen in, empty for whichever is at the front.
-    photo
-        The sample photo to open, by its name, empty for none.
-    """
-
-    text: str
-    question: str
-    answer: str
-    scene: Scene
-    pane: str = ""
-    photo: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Exploration:
-    """A guided exploration.
-
-    Parameters
-    ----------
-    name
-        The file's name.
-    title
-        What it is about.
-    steps
-        One after the other.
-    """
-
-    name: str
-    title: str
-    steps: tuple[Step, ...]
 
 
 @lru_cache(maxsize=1)

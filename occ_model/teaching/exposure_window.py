@@ -1,50 +1,19 @@
 """One column's exposure: which chips it sees."""
 
 import math
-from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import on_time
 from occ_model.checks import check_count
 from occ_model.errors import ParameterError
+from occ_model.results.teaching import ExposureWindow
 from occ_model.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
 _MOST_CHIPS = 400
 """Chips that a drawing can tell apart."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ExposureWindow:
-    """One column's exposure on the waveform of the LED.
-
-    Times are in seconds from the start of the first chip that is drawn.
-
-    Parameters
-    ----------
-    column
-        Its number.
-    start, end
-        When the exposure begins and ends.
-    edges : ndarray of float64, shape (chips + 1,)
-        When the chips about it begin, and the last one ends.
-    lit : ndarray of uint8, shape (chips,)
-        Whether the LED is on in each.
-    on_time
-        How long it is on within the exposure.
-    shortened
-        Whether the exposure holds more chips than are drawn; these are its first ones.
-    """
-
-    column: int
-    start: float
-    end: float
-    edges: FloatArray
-    lit: np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
-    on_time: float
-    shortened: bool
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
@@ -75,17 +44,22 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
         )
     chips = sent_chips(scene.transmitter)
     period = scene.transmitter.switching_period
-    begins = scene.model.start_time + column * scene.camera.readout_time
-    first = math.floor(begins / period) - 1
-    needed = math.floor((begins + scene.camera.exposure_time) / period) - first + 2
+    # Exact, for a column's exposure may begin any number of chips after time zero, or before it.
+    begins = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
+    begins *= Fraction(scene.transmitter.switching_frequency)
+    first = math.floor(begins)
+    within = float(begins - first)
+    needed = math.ceil(within + scene.camera.exposure_time / period) + 2
     count = min(needed, _MOST_CHIPS)
-    start = begins - first * period
+    start = (1.0 + within) * period
+    # In Python's whole numbers: the first chip's number can be larger than an array's can be.
+    places = (first - 1) % len(chips) + np.arange(count)
     return ExposureWindow(
         column=column,
         start=start,
         end=start + scene.camera.exposure_time,
         edges=np.arange(count + 1, dtype=np.float64) * period,
-        lit=chips[(first + np.arange(count)) % len(chips)],
+        lit=chips[places % len(chips)],
         on_time=float(on_time(scene)[column]),
         shortened=needed > count,
     )

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from pathlib import Path
 
 import numpy as np
@@ -15,14 +16,69 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.application import Application
+from occ_gui.controllers import reach_desk
 from occ_gui.controllers.simulation import simulate
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.tasks.parcel import Outcome, Task
 from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
 from occ_model.photo.load import Photo
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
 
 Grey = NDArray[np.uint8]
+
+
+class InlineWorkers:
+    """Workers in this process: what they are given is done when they are given it."""
+
+    count = 2
+
+    def __init__(self) -> None:
+        self.tasks: list[Task] = []
+        self.closed = self.renewed = 0
+
+    def submit(self, task: Task) -> "Future[Outcome]":
+        self.tasks.append(task)
+        future: Future[Outcome] = Future()
+        try:
+            future.set_result(self.outcome(task))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def outcome(self, task: Task) -> Outcome:
+        return Outcome(task.parcel.function(*task.parcel.arguments, lambda: None))
+
+    def abandon(self, lane: int, run: int) -> None:
+        pass
+
+    def counted(self, slot: int) -> int:
+        return 0
+
+    def renew(self) -> None:
+        self.renewed += 1
+
+    def close(self) -> None:
+        self.closed += 1
+
+
+class LazyWorkers(InlineWorkers):
+    """Workers that do nothing, at once."""
+
+    def outcome(self, task: Task) -> Outcome:
+        return Outcome(None, abandoned=True)
+
+
+@pytest.fixture(autouse=True)
+def lazy_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Measure nothing beside the window, where a test does not ask for it."""
+    monkeypatch.setattr(reach_desk, "new_workers", LazyWorkers)
+
+
+@pytest.fixture
+def inline_workers() -> InlineWorkers:
+    """Give workers that need no processes."""
+    return InlineWorkers()
 
 
 @pytest.fixture

@@ -38,7 +38,12 @@ def compare(
     MatchError
         Fewer than two of the simulation's columns are under the photo.
     """
-    first = max(0, int(np.ceil(first_column)))
+    if not (np.isfinite(first_column) and np.isfinite(scale) and scale > 0.0):
+        raise MatchError(
+            f"The photo is to lie at column {first_column:g}, scaled by {scale:g}; allowed: "
+            "numbers, and a scale above 0."
+        )
+    first = max(0, int(np.ceil(min(first_column, len(simulated)))))
     last = min(len(simulated) - 1, int(np.floor(first_column + (len(evened) - 1) * scale)))
     if last <= first:
         raise MatchError("The photo lies beside the simulated picture; move it over the panel.")

@@ -19,8 +19,8 @@ _SURELY = 0.9
 _PROMISING = 0.85
 """Share of the best candidate's correlation from which another is fitted too."""
 
-_MOST_FITS = 6
-_MOST_REFITS = 3
+_BEST, _SHORTEST = 4, 4
+"""How many of the best candidates are fitted, and of the shortest exposures."""
 
 _AROUND = (0.85, 0.93, 1.07, 1.15)
 """Shares of an exposure that a fit is tried again with."""
@@ -101,7 +101,7 @@ def explain(
     Returns
     -------
     Explanation or None
-        None where the chips never change.
+        None where the chips never change, or no fit of them can be a picture.
     """
     if chips.min() == chips.max():
         return None
@@ -117,14 +117,13 @@ def explain(
             stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.grain
         )
         fits = _apart([model.fit(start, with_gamma) for start in starts])
-        if best is None or fits[0].rest < best[1][0].rest:
+        if fits and (best is None or fits[0].rest < best[1][0].rest):
             best = model, fits, camera
-        # What another camera makes of the light moves a fit a little, not to another exposure.
-        starts = [fit.timing for fit in fits[:_MOST_REFITS]]
-    assert best is not None  # noqa: S101 - there is a camera
+    if best is None:
+        return None
     model, fits, camera = best
     polished = _apart([_polished(model, fit, with_gamma) for fit in _as_good(fits)])
-    return Explanation(chips, tuple(_as_good(polished)), camera)
+    return Explanation(chips, tuple(_as_good(polished)), camera) if polished else None
 
 
 def _candidates(
@@ -135,15 +134,20 @@ def _candidates(
 
 
 def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
-    """Choose the timings that a fit may end well from, the best first."""
+    """Choose the timings that a fit may end well from: the best, and the shortest exposures.
+
+    Many exposures make much the same stripes, so that the search cannot tell which is best.
+    """
     enough = _PROMISING * candidates[0].correlation
-    return [one.timing for one in candidates if one.correlation >= enough][:_MOST_FITS]
+    good = [one.timing for one in candidates if one.correlation >= enough]
+    shortest = sorted(good, key=lambda timing: timing.exposure)
+    return list(dict.fromkeys([*good[:_BEST], *shortest[:_SHORTEST]]))
 
 
 def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep one fit of each exposure, the best first."""
+    """Keep one possible fit of each exposure, the best first."""
     kept: list[StripeFit] = []
-    for fit in sorted(fits, key=lambda fit: fit.rest):
+    for fit in sorted((one for one in fits if one.is_possible), key=lambda fit: fit.rest):
         exposures = [other.timing.exposure for other in kept]
         if all(abs(fit.timing.exposure - other) > _SAME_EXPOSURE for other in exposures):
             kept.append(fit)

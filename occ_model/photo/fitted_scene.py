@@ -4,17 +4,22 @@ import math
 
 import numpy as np
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import luminance_of
+from occ_model.camera.projection import image_rays
 from occ_model.declarations import ParameterValue
-from occ_model.errors import ParameterError
+from occ_model.effects.distortion import distorted
+from occ_model.errors import MatchError, ParameterError
 from occ_model.parameters import PARAMETERS
 from occ_model.photo.load import Photo
 from occ_model.photo.stripe_fit import StripeFit
 from occ_model.results import Region
-from occ_model.scene import Scene
+from occ_model.scene import Lens, Scene
 from occ_model.transmitter import line_code
 from occ_model.transmitter.packet import HEADER, code_of, packet_length, sent_chips
+
+_STRAIGHTENINGS = 40
+"""Steps to a ray that a lens bends by a few percent at most: each makes it so much more exact."""
 
 _NOTED = ("iso", "f_number")
 """What the camera notes in a photo besides the exposure time, which is fitted."""
@@ -49,18 +54,41 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
     The panel stands as far away as it did, level and upright.
     """
     rows, columns = photo.samples.shape
-    scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)
-    metres = scene.pose.distance / scene.camera.focal_length_pixels
-    # A pixel's centre is at a whole number, the picture's in the middle of them.
-    across = 0.5 * (region.first_column + region.last_column - columns)
-    down = 0.5 * (region.first_row + region.last_row - rows)
+    try:
+        scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)
+    except ParameterError as error:
+        raise MatchError(f"The photo is no picture of a scene's camera: {error}") from None
+    # A pixel's centre is at a whole number, a rim half a pixel beside it.
+    across = 0.5 * (region.first_column + region.last_column) - 0.5
+    down = 0.5 * (region.first_row + region.last_row) - 0.5
+    rims = np.array(
+        [
+            [region.first_column - 0.5, down],
+            [region.last_column - 0.5, down],
+            [across, region.first_row - 0.5],
+            [across, region.last_row - 0.5],
+        ]
+    )
+    rays = _straight(image_rays(rims, scene.camera), scene.lens) * scene.pose.distance
+    (left, _), (right, _), (_, top), (_, bottom) = rays.tolist()
     return with_allowed(
         scene,
-        panel_width=region.columns * metres,
-        panel_height=region.rows * metres,
-        offset_x=across * metres,
-        offset_y=down * metres,
+        panel_width=right - left,
+        panel_height=bottom - top,
+        offset_x=0.5 * (left + right),
+        offset_y=0.5 * (top + bottom),
     )
+
+
+def _straight(rays: FloatArray, lens: Lens) -> FloatArray:
+    """Give the rays that a lens pictures at some others; those it cannot stay as they are."""
+    if not lens.distorts:
+        return rays
+    straight = rays
+    for _ in range(_STRAIGHTENINGS):
+        straight = straight - (distorted(straight, lens) - rays)
+    off = np.abs(distorted(straight, lens) - rays)
+    return np.where(np.isfinite(off) & (off < 1e-6), straight, rays)
 
 
 def with_levels(scene: Scene, fit: StripeFit) -> Scene:

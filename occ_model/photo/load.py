@@ -1,5 +1,6 @@
 """Read a photograph as samples of one channel whose columns are the scan axis."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
@@ -17,6 +18,9 @@ from occ_model.photo.exif import CameraNotes, camera_notes, orientation_of, upri
 from occ_model.photo.file import open_picture
 
 __all__ = ["CHANNELS", "SCAN_AXES", "Photo", "column_means", "load_photo"]
+
+_USUAL = 0.97
+"""Share of the steps between neighbours that are not a panel's rims."""
 
 SCAN_AXES = ("auto", "columns", "lines")
 """Which axis of the file the rolling shutter scanned; ``"auto"`` takes the one with stripes."""
@@ -177,5 +181,12 @@ def _means(samples: Samples, axis: int) -> FloatArray:
 
 def _stripes_are_lines(samples: Samples) -> bool:
     """Whether the means of the lines differ more, from one to the next, than those of columns."""
-    columns, lines = (np.abs(np.diff(_means(samples, axis))) for axis in (0, 1))
-    return bool(lines.size and (not columns.size or lines.mean() > columns.mean()))
+    columns, lines = (_roughness(_means(samples, axis)) for axis in (0, 1))
+    return lines > columns
+
+
+def _roughness(means: FloatArray) -> float:
+    """Say how much neighbours differ, but for the greatest steps: those are the panel's rims."""
+    steps = np.sort(np.abs(np.diff(means)))
+    usual = steps[: math.ceil(_USUAL * len(steps))]
+    return float(usual.mean()) if usual.size else 0.0

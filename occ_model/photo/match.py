@@ -27,6 +27,9 @@ SENT = ("auto", "scene", "read")
 _EXPLAINS = 0.9
 """Correlation from which chips are taken as what was sent; those that were read need it."""
 
+_CLEARLY = 0.03
+"""By how much chips that were read must explain more than what was told, to take its place."""
+
 _LEAST = 0.8
 """Correlation below which nothing is explained."""
 
@@ -140,7 +143,7 @@ def _explanation(
     was_read = False
     if sent != "scene" and (found is None or found.correlation < _EXPLAINS):
         read = task.read()
-        if read is not None and (found is None or read.correlation > found.correlation):
+        if read is not None and (found is None or read.correlation > found.correlation + _CLEARLY):
             found, was_read = read, True
     if found is None or found.correlation < (_EXPLAINS if was_read else _LEAST):
         raise MatchError(_why_unexplained(task.stripes, sent, found))

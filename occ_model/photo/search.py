@@ -29,8 +29,8 @@ _STEPS_A_TURN = 4.0
 """Steps tried while the profile's last chip moves by one."""
 
 _BEST_STEPS = 24
-_AT_ONCE = 2048
-"""Steps tried at once, so that long profiles need no gigabytes."""
+_AT_ONCE = 2**19
+"""Numbers held at once, so that long chips need no gigabytes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +75,9 @@ class Search:
     def candidates(self, steps: FloatArray, gamma: float) -> list[Candidate]:
         """Find the best timing for each exposure, over some steps, best first."""
         rough = np.zeros(len(steps))
-        for first in range(0, len(steps), _AT_ONCE):
-            part = slice(first, first + _AT_ONCE)
+        together = max(1, _AT_ONCE // (_PHASES_A_CHIP * self._period))
+        for first in range(0, len(steps), together):
+            part = slice(first, first + together)
             seen = self._read(steps[part])
             for exposure in _ROUGHLY:
                 rough[part] = np.maximum(rough[part], self._scores(seen, exposure)[0])

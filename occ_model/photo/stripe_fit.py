@@ -6,6 +6,7 @@ the levels are a linear fit, so that only the times are searched (variable proje
 Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,12 +16,14 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
 from occ_model.photo.envelope import smooth_shapes
 from occ_model.photo.uncertainty import correlated_columns
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
-_SMALL = 1e-5
-"""Chips by which a timing is changed to see what the model makes of it."""
+_SMALL = 0.02
+"""Columns by which a timing is changed to see what the model makes of it."""
 
 Tone = Callable[[FloatArray, float], FloatArray]
 """From lit fractions and a gamma to pixel values between any two levels."""
@@ -28,6 +31,9 @@ Tone = Callable[[FloatArray, float], FloatArray]
 _FULL = WHITE - 0.5
 _LEAST_KEPT = 0.4
 """Share of the columns that must not be full for the full ones to be left out of the levels."""
+
+_UNSEEN = 1e-4
+"""Weight of not knowing: a parameter that no column tells is off by a hundred of its scales."""
 
 _LEAST_SWING = 0.05
 """Share of the largest swing below which a column tells nothing of the stripes."""
@@ -38,7 +44,12 @@ _MOST_FREEDOM = 8
 _SHORTEST = 1e-4
 """Chips: a shorter exposure looks like none."""
 
-_GAMMAS = (1.0, 4.0)
+_BLUR = 0.4
+"""Columns by which a lens and a camera's own processing may well soften stripes, unknown to the
+model: a standard deviation."""
+
+_DARKEST = -0.1
+"""How far the dark level may lie below black, as a share of the swing: dark columns are black."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +96,8 @@ class StripeFit:
     ----------
     timing
         The times.
-    deviations : ndarray of float64, shape (4,)
-        Standard deviations of the timing's fields in their order; 0 for gamma where it was given.
     covariance : ndarray of float64, shape (4, 4)
-        Of the same.
+        Of the timing's fields in their order; 0 for gamma where it was given.
     low, swing : ndarray of float64, shape (columns,)
         The levels in grey levels.
     profile : ndarray of float64, shape (columns,)
@@ -109,6 +118,12 @@ class StripeFit:
     correlation: float
     rest: float
     likely: float
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether its levels can be a picture's: lit above dark, and dark not below black."""
+        swing = float(np.median(self.swing))
+        return swing > 0.0 and float(np.median(self.low)) > _DARKEST * swing
 
 
 class StripeModel:
@@ -139,11 +154,11 @@ class StripeModel:
         self._profile = profile
         self._waveform = waveform
         self._tone = tone
-        self._change = max(_SMALL, grain * step)
+        self._change = max(_SMALL, grain) * step
         chips = step * len(profile)
         freedom = int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
+        # Both levels alike: or a faint tone would have more shapes for the mean than a clear one.
         self._shapes = smooth_shapes(len(profile), freedom)
-        self._low_freedom = max(1, freedom // 2)
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
 
@@ -157,15 +172,14 @@ class StripeModel:
         """
         lit = timing.lit_fraction(self._waveform, len(self._profile))
         tone = self._tone(lit, timing.gamma)[:, None]
-        few = self._shapes[:, : self._low_freedom]
-        parts = np.hstack([few, self._shapes * tone])
+        parts = np.hstack([self._shapes, self._shapes * tone])
         kept = parts[self._kept]
         products = kept.T @ kept
         # A tone that hardly varies leaves the levels open: keep them small rather than wild.
         products[np.diag_indices_from(products)] += 1e-9 * len(kept)
         weights = np.linalg.solve(products, kept.T @ self._profile[self._kept])
-        low = few @ weights[: self._low_freedom]
-        swing = self._shapes @ weights[self._low_freedom :]
+        freedom = self._shapes.shape[1]
+        low, swing = self._shapes @ weights[:freedom], self._shapes @ weights[freedom:]
         return low, swing, np.minimum(parts @ weights, WHITE)
 
     def fit(self, start: Timing, with_gamma: bool = False, spread: float = 0.0) -> StripeFit:
@@ -178,14 +192,16 @@ class StripeModel:
         with_gamma
             Whether gamma is fitted too.
         spread
-            Where it is above nothing the exposure is held, and known to within as many chips.
+            Where it is above nothing the exposure is held, evenly likely within as many chips.
         """
         # Slow to import, and only needed when a photo is really matched.
         from scipy.optimize import least_squares
 
         columns = len(self._profile)
-        low = np.array([0.5 * start.step, _SHORTEST, -np.inf, _GAMMAS[0]])
-        high = np.array([2.0 * start.step, np.inf, np.inf, _GAMMAS[1]])
+        gamma = PARAMETERS["gamma"]
+        assert isinstance(gamma, Quantity)  # noqa: S101 - it is one
+        low = np.array([0.5 * start.step, _SHORTEST, -np.inf, gamma.low])
+        high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
         # From well within the bounds, where a slope can be told.
         inside = np.array([0.0, 10.0 * _SHORTEST, 0.0, 0.05])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
@@ -213,8 +229,9 @@ class StripeModel:
         )  # fmt: skip
         covariance = np.zeros((4, 4))
         covariance[np.ix_(free, free)] = _covariance(found.jac, found.fun) * np.outer(scale, scale)
-        covariance[1, 1] += spread**2 / 3.0  # evenly likely within it
-        return self._described(timing_of(found.x), covariance)
+        timing = timing_of(found.x)
+        covariance[1, 1] += spread**2 / 3.0 + _blur_deviation(timing) ** 2
+        return self._described(timing, covariance)
 
     def _described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
         low, swing, profile = self.levels(timing)
@@ -227,11 +244,24 @@ class StripeModel:
         return StripeFit(timing, covariance, low, swing, profile, correlation, power, likely)
 
 
+def _blur_deviation(timing: Timing) -> float:
+    """Give the chips by which an unknown blur may make an exposure look longer.
+
+    An edge's slope is the exposure's box, of variance t^2/12, and the blur's; to second order a
+    blur of sigma makes t look longer by 6 sigma^2 / t, and never by more than its own width.
+    """
+    blur = _BLUR * timing.step
+    return min(6.0 * blur**2 / timing.exposure, math.sqrt(12.0) * blur)
+
+
 def _covariance(slopes: FloatArray, rest: FloatArray) -> FloatArray:
     """Give the covariance of fitted parameters from the model's slopes and the residual."""
     variance = float(rest @ rest) / max(1, len(rest) - slopes.shape[1])
     variance *= correlated_columns(rest)
-    return np.asarray(np.linalg.pinv(slopes.T @ slopes) * variance)
+    products = slopes.T @ slopes
+    # What no column sees a change of is not known for sure, but not known at all.
+    products[np.diag_indices_from(products)] += _UNSEEN * max(variance, 1e-12)
+    return np.asarray(np.linalg.inv(products) * variance)
 
 
 def _correlation(a: FloatArray, b: FloatArray) -> float:

@@ -54,3 +54,9 @@ def test_what_is_flat_correlates_with_nothing() -> None:
 def test_a_photo_beside_the_picture_is_refused(first: float) -> None:
     with pytest.raises(occ.MatchError, match="beside the simulated picture"):
         occ.compare(np.ones(300), SIMULATED, first)
+
+
+@pytest.mark.parametrize(("first", "scale"), [(np.nan, 1.0), (np.inf, 1.0), (0.0, 0.0), (0.0, -1)])
+def test_a_place_that_is_none_is_refused(first: float, scale: float) -> None:
+    with pytest.raises(occ.MatchError, match="allowed: "):
+        occ.compare(np.ones(300), SIMULATED, first, scale)

@@ -32,6 +32,15 @@ def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
     assert np.median(frame.profile[seen]) == pytest.approx(np.median(match.profile), rel=0.2)
 
 
+@pytest.mark.parametrize("k1", [-0.15, 0.15])
+def test_the_fitted_scene_lies_on_the_photo_through_a_lens_that_bends(k1: float) -> None:
+    scene = SCENE.replace(radial_k1=k1, tangential_p1=0.01)
+    match = occ.match_photo(take(scene), scene.replace(readout_time=1e-6))
+    again = occ.find_stripes(photo_of(occ.render(match.scene, tolerance=0.0).image)).region
+    for name in ("first_row", "last_row", "first_column", "last_column"):
+        assert getattr(again, name) == pytest.approx(getattr(match.region, name), abs=6)
+
+
 def test_the_residual_is_the_photo_less_the_aligned_profile() -> None:
     match = occ.match_photo(PHOTO, TOLD)
     assert np.allclose(match.residual, match.stripes.profile - match.profile)

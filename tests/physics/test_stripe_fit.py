@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from simulated_photos import photo_of
+from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.enhancement import to_bytes
+from occ_model.camera.photometry import luminance_of
 from occ_model.photo.search import Search
 from occ_model.photo.stripe_fit import StripeModel, Timing
 from occ_model.photo.tone import camera_tones
@@ -69,29 +70,59 @@ def test_a_square_wave_looks_the_same_at_exposures_that_add_up_to_its_periods(
     assert swing == pytest.approx(exposure / (2.0 * turns - exposure), rel=0.05)
 
 
-def square_wave_photo() -> tuple[occ.Photo, occ.Scene]:
+def square_wave_photo(illuminance: float) -> tuple[occ.Photo, occ.Scene]:
     scene = occ.Scene().replace(
         pattern="10", switching_frequency=5e3, exposure_time=60e-6, readout_time=11e-6,
         columns=1500, rows=60, panel_width=5.0, panel_height=5.0, enhancement="none",
+        luminance=1000.0, illuminance=illuminance,
     )  # fmt: skip
     return photo_of(occ.render(scene, tolerance=math.inf).image), scene
 
 
+IN_DAYLIGHT = 12_300.0
+"""Lux at which the dark panel is at four fifths of the lit one's pixel value."""
+
+
 def test_the_exposures_that_explain_a_square_wave_as_well_are_named() -> None:
-    photo, scene = square_wave_photo()
+    photo, scene = square_wave_photo(IN_DAYLIGHT)
     match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
-    assert match.exposure_time == pytest.approx(60e-6, rel=0.01)
-    assert match.other_exposures[0] == pytest.approx(2 * 200e-6 - 60e-6, rel=0.01)
+    # Eight bits hold little of so faint stripes.
+    assert abs(match.exposure_time - 60e-6) < 3.0 * match.uncertainties["exposure_time"]
+    assert match.exposure_time == pytest.approx(60e-6, rel=0.1)
+    assert match.other_exposures[0] == pytest.approx(2 * 200e-6 - 60e-6, rel=0.02)
 
 
 def test_what_the_camera_noted_decides_among_them() -> None:
-    photo, scene = square_wave_photo()
+    photo, scene = square_wave_photo(IN_DAYLIGHT)
     noted = occ.Photo(
         path=photo.path, samples=photo.samples, white=255, image=photo.image,
         profile=photo.profile, turned=False, channel="grey", exposure_time=1.0 / 3000.0,
     )  # fmt: skip
     match = occ.match_photo(noted, scene.replace(readout_time=1e-6))
     assert match.exposure_time == pytest.approx(340e-6, rel=0.01)
+
+
+def test_an_exposure_that_would_need_darker_than_black_is_none() -> None:
+    """A long one keeps the LED's light in every column: dark stripes tell that it was short."""
+    photo, scene = square_wave_photo(100.0)
+    match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
+    assert match.exposure_time == pytest.approx(60e-6, rel=0.02)
+    assert match.other_exposures == ()
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> None:
+    scene = random_scene(seed).replace(pattern="10", vignetting_exponent=4.0)
+    frequency = 1.0 / (spread(seed + 1, 8.0, 30.0) * scene.camera.readout_time)
+    exposure = spread(7 * seed + 3, 0.1, 0.8) / frequency
+    scene = scene.replace(switching_frequency=frequency, exposure_time=exposure)
+    white = float(luminance_of(np.array([180.0]), scene.camera)[0])
+    scene = scene.replace(luminance=white, illuminance=0.02 * white)
+    match = occ.match_photo(take(scene, seed), scene.replace(readout_time=1e-6))
+    assert match.readout_time == pytest.approx(scene.camera.readout_time, rel=1e-3)
+    off = abs(match.exposure_time - exposure)
+    assert off < max(0.05 * exposure, 3.0 * match.uncertainties["exposure_time"])
+    assert np.all(match.stripes.high > match.stripes.low)
 
 
 @pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import WHITE
+from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.declarations import Quantity
 from occ_model.parameters import PARAMETERS
 from occ_model.photo.envelope import smooth_shapes
@@ -108,6 +108,8 @@ class StripeFit:
         Sum of the squares of what the model leaves unexplained.
     likely
         A rest up to which another timing is about as likely: by two standard deviations.
+    is_possible
+        Whether the levels can be a picture's: lit above dark, and dark not below black.
     """
 
     timing: Timing
@@ -118,12 +120,7 @@ class StripeFit:
     correlation: float
     rest: float
     likely: float
-
-    @property
-    def is_possible(self) -> bool:
-        """Whether its levels can be a picture's: lit above dark, and dark not below black."""
-        swing = float(np.median(self.swing))
-        return swing > 0.0 and float(np.median(self.low)) > _DARKEST * swing
+    is_possible: bool
 
 
 class StripeModel:
@@ -235,13 +232,17 @@ class StripeModel:
 
     def _described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
         low, swing, profile = self.levels(timing)
-        least = _LEAST_SWING * float(np.abs(swing).max()) + 1e-12
-        safe = np.where(np.abs(swing) < least, least, swing)
-        correlation = _correlation((self._profile - low) / safe, (profile - low) / safe)
+        usual = float(np.median(swing))
+        possible = usual > 0.0 and float(np.median(low)) > _DARKEST * usual
+        # Never so faint that evening the light out would blow up what is left of it.
+        swing = np.maximum(swing, _LEAST_SWING * max(float(swing.max()), FLAT))
+        correlation = _evened_correlation(self._profile, profile, low, swing)
         rest = self._profile - profile
         power = float(rest @ rest)
         likely = power * (1.0 + 4.0 * correlated_columns(rest) / len(rest))
-        return StripeFit(timing, covariance, low, swing, profile, correlation, power, likely)
+        return StripeFit(
+            timing, covariance, low, swing, profile, correlation, power, likely, possible
+        )
 
 
 def _blur_deviation(timing: Timing) -> float:
@@ -264,7 +265,12 @@ def _covariance(slopes: FloatArray, rest: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.inv(products) * variance)
 
 
-def _correlation(a: FloatArray, b: FloatArray) -> float:
-    a, b = a - a.mean(), b - b.mean()
-    energy = float(np.sqrt((a @ a) * (b @ b)))
-    return float(a @ b) / energy if energy > 0.0 else 0.0
+def _evened_correlation(
+    data: FloatArray, model: FloatArray, low: FloatArray, swing: FloatArray
+) -> float:
+    """Correlate data and model without their uneven light; a column counts as its light swings."""
+    weight = swing**2 / float((swing**2).sum())
+    a, b = (data - low) / swing, (model - low) / swing
+    a, b = a - float(weight @ a), b - float(weight @ b)
+    energy = math.sqrt(float(weight @ a**2) * float(weight @ b**2))
+    return float(weight @ (a * b)) / energy if energy > 0.0 else 0.0

@@ -42,7 +42,7 @@ class InlineWorkers:
         future: Future[Outcome] = Future()
         try:
             future.set_result(self.outcome(task))
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - as an executor does
             future.set_exception(error)
         return future
 

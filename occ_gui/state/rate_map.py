@@ -1,0 +1,176 @@
+"""Success rates over two parameters, as far as they are known."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
+from occ_model.results import SweepPoint
+
+MAP_PARAMETERS = (
+    "switching_frequency", "distance", "exposure_time", "readout_time", "iso", "f_number",
+    "luminance", "illuminance", "reflectance", "panel_width", "panel_height",
+    "equivalent_focal_length", "offset_x", "gamma", "edge_time", "flicker_depth",
+    "flicker_frequency", "read_noise", "quantum_efficiency", "pixel_pitch", "full_well",
+    "gain_variation", "bright_fraction",
+)  # fmt: skip
+"""The parameters that a map can be over: those that have a slider, matter to a decoder, and leave
+all rows of the panel alike."""
+
+STRIDES = (6, 3, 1)
+"""Every how many points of the lattice are known, one after the other."""
+
+LINES = ("band", "null", "packets", "saturation")
+"""The limits that theory gives."""
+
+
+def quantity(name: str) -> Quantity:
+    """Give the declaration of a parameter that has a slider."""
+    declared = PARAMETERS[name]
+    if not isinstance(declared, Quantity):
+        raise TypeError(f"{name} has no slider")
+    return declared
+
+
+def lattice(name: str, count: int) -> tuple[float, ...]:
+    """Spread values over a slider's range, evenly on its scale."""
+    declared = quantity(name)
+    return tuple(declared.at(place / (count - 1)) for place in range(count))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class TheoryFields:
+    """On which side of each limit points lie.
+
+    Parameters
+    ----------
+    places : pair of ndarray of float64
+        The points' positions along both sliders, from 0 to 1.
+    sides : mapping of str to ndarray of float64, shape (points along x, points along y)
+        For each of :data:`LINES` a number that is 0 on the limit and changes its sign there; not a
+        number where there is none.
+    """
+
+    places: tuple[FloatArray, FloatArray]
+    sides: Mapping[str, FloatArray]
+
+
+@dataclass(frozen=True, slots=True)
+class PointFacts:
+    """What is known of one point.
+
+    Parameters
+    ----------
+    x, y
+        The parameters' values, in SI units.
+    counts
+        For each decoder its name, the bits read rightly, and both ends of the interval of the rate
+        behind them, percent.
+    sent
+        Bits sent; 0 where nothing is known.
+    images
+        Images that they were sent in.
+    note
+        Why the model refuses the point, empty where it does not.
+    """
+
+    x: float
+    y: float
+    counts: tuple[tuple[str, int, float, float], ...]
+    sent: int
+    images: int
+    note: str
+
+
+@dataclass(eq=False, slots=True)
+class RateMap:
+    """Success rates on a lattice that fills up.
+
+    Parameters
+    ----------
+    x, y
+        The parameters' names.
+    x_values, y_values
+        The lattice, in SI units.
+    decoders
+        The decoders' names.
+    """
+
+    x: str
+    y: str
+    x_values: tuple[float, ...]
+    y_values: tuple[float, ...]
+    decoders: tuple[str, ...]
+    sent: IndexArray = field(init=False)
+    right: IndexArray = field(init=False)
+    images: IndexArray = field(init=False)
+    notes: dict[int, str] = field(init=False, default_factory=dict)
+    theory: TheoryFields | None = field(init=False, default=None)
+
+    def __post_init__(self) -> None:
+        shape = (len(self.x_values), len(self.y_values))
+        self.sent = np.zeros(shape, dtype=np.int64)
+        self.images = np.zeros(shape, dtype=np.int64)
+        self.right = np.zeros((*shape, len(self.decoders)), dtype=np.int64)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """How many points there are along each axis."""
+        return len(self.x_values), len(self.y_values)
+
+    def enter(self, points: list[SweepPoint], images: int) -> None:
+        """Enter points that so many images were read at."""
+        for point in points:
+            place = divmod(point.index, len(self.y_values))
+            self.sent[place] = point.sent
+            self.right[place] = point.right
+            self.images[place] = images
+            if point.note:
+                self.notes[point.index] = point.note
+
+    @property
+    def known(self) -> int:
+        """How many points are known."""
+        return int(np.count_nonzero(self.images))
+
+    @property
+    def least_images(self) -> int:
+        """How many images every point has been read at."""
+        return int(self.images.min())
+
+    def rates(self, decoder: str) -> FloatArray:
+        """Give a decoder's rate at every point, in percent.
+
+        Returns
+        -------
+        ndarray of float64, shape (points along x, points along y)
+            Not a number where the rate is not known, or the model refuses the point.
+        """
+        rates = np.full(self.shape, np.nan)
+        right = 100.0 * self.right[..., self.decoders.index(decoder)]
+        np.divide(right, self.sent, out=rates, where=self.sent > 0)
+        return rates
+
+    def refused(self) -> IndexArray:
+        """Say where the model refuses, 1 for such points, shape (points along x, along y)."""
+        return np.where((self.images > 0) & (self.sent == 0), 1, 0)
+
+    def owners(self) -> tuple[IndexArray, IndexArray]:
+        """Give for every point the known one that it is drawn like: a coarse cell is a large one.
+
+        Returns
+        -------
+        ndarray of int64, shape (points along x, points along y)
+            Twice: places along x and along y; -1 where nothing near is known.
+        """
+        x, y = (np.full(self.shape, -1, dtype=np.int64) for _ in range(2))
+        for stride in STRIDES:
+            near = [np.rint(np.arange(n) / stride).astype(np.int64) * stride for n in self.shape]
+            near_x, near_y = (np.minimum(p, n - 1) for p, n in zip(near, self.shape, strict=True))
+            there = self.images[np.ix_(near_x, near_y)] > 0
+            x[there] = np.broadcast_to(near_x[:, None], self.shape)[there]
+            y[there] = np.broadcast_to(near_y, self.shape)[there]
+        return x, y

@@ -1,0 +1,79 @@
+"""Where an axis over a slider's range is numbered."""
+
+import math
+from dataclasses import dataclass
+
+from occ_model.declarations import Quantity
+
+_STEPS = (1.0, 2.0, 5.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """One number at an axis.
+
+    Parameters
+    ----------
+    place
+        Along the slider, from 0 to 1.
+    text
+        The number, in the axis's unit.
+    """
+
+    place: float
+    text: str
+
+
+def axis_unit(quantity: Quantity) -> tuple[str, float]:
+    """Choose the unit of an axis: its symbol and its worth in SI."""
+    low, high = quantity.slider
+    middle = math.sqrt(low * high) if quantity.scale == "log" else max(abs(low), abs(high))
+    return quantity.unit.display(middle)
+
+
+def axis_title(quantity: Quantity, short: bool = False) -> str:
+    """Name an axis, with its unit; where it must be short by its symbol, if it has one."""
+    symbol = axis_unit(quantity)[0]
+    name = quantity.symbol.replace("_", "") if short and quantity.symbol else quantity.label
+    return f"{name} ({symbol})" if symbol else name
+
+
+def ticks(quantity: Quantity, most: int) -> list[Tick]:
+    """Give round values over the slider's range.
+
+    Parameters
+    ----------
+    quantity
+        The declaration.
+    most
+        How many numbers there is room for.
+    """
+    factor = axis_unit(quantity)[1]
+    values = _log_values if quantity.scale == "log" else _linear_values
+    low, high = (end / factor for end in quantity.slider)
+    chosen = values(low, high, max(2, most))
+    return [Tick(quantity.fraction(value * factor), f"{value:g}") for value in chosen]
+
+
+def _log_values(low: float, high: float, most: int) -> list[float]:
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    found: list[float] = []
+    for steps in (_STEPS, (1.0, 3.0), (1.0,)):
+        # By way of the text: 2e-05 and not 2.0000000000000003e-05.
+        values = [float(f"{step}e{power}") for power in powers for step in steps]
+        found = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
+        if len(found) <= most:
+            break
+    return found[:: math.ceil(len(found) / most)] if found else [low, high]
+
+
+def _linear_values(low: float, high: float, most: int) -> list[float]:
+    rough = (high - low) / most
+    power = math.floor(math.log10(rough))
+    step = next(
+        size
+        for size in (s * 10.0**p for p in (power, power + 1) for s in _STEPS)
+        if size >= rough * (1 - 1e-9)
+    )
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return [float(f"{number * step:.12g}") for number in range(first, last + 1)]

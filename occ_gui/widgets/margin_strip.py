@@ -1,0 +1,110 @@
+"""Under a slider: how well a decoder would read along all of it."""
+
+from collections.abc import Callable
+
+import numpy as np
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette
+from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QWidget
+
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.arrays import ByteArray, FloatArray
+
+_HEIGHT = 6
+
+Colours = Callable[[FloatArray], ByteArray]
+"""Gives shares, from 0 to 1 or not a number, their colours: (positions,) in, (positions, 4) out."""
+
+
+class MarginStrip(QWidget):
+    """A thin bar as long as a slider's way; grey where nothing is known.
+
+    Parameters
+    ----------
+    slider
+        The slider that it lies under.
+    label
+        What the slider sets.
+    colours
+        How shares are coloured.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, slider: QSlider, label: str, colours: Colours, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._slider = slider
+        self._colours = colours
+        self._label = label
+        self.shares: tuple[float | None, ...] = ()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(self.tr("Reading along {label}").format(label=label.lower()))
+        self._explain()
+
+    def _explain(self) -> None:
+        known = [share for share in self.shares if share is not None]
+        text = self.tr(
+            "Share of the bits that the decoder shown reads rightly along this slider, "
+            "all else as it is: blue none, yellow all, grey not known."
+        )
+        self.setToolTip(text)
+        good = sum(share > 0.99 for share in known)
+        self.setAccessibleDescription(
+            self.tr("read at {good} of {all} positions").format(good=good, all=len(known))
+        )
+
+    def show_shares(self, shares: tuple[float | None, ...]) -> None:
+        """Show the shares at evenly spaced positions of the slider, None: not known."""
+        self.shares = shares
+        self._explain()
+        self.update()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """As long as there is room, and thin."""
+        return QSize(40, _HEIGHT)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Stay as thin."""
+        return QSize(20, _HEIGHT)
+
+    def span(self) -> tuple[float, float]:
+        """Give the pixels at which the handle's middle is at both ends of the slider."""
+        ends = []
+        for position in (self._slider.minimum(), self._slider.maximum()):
+            option = QStyleOptionSlider()
+            self._slider.initStyleOption(option)
+            option.sliderPosition = position
+            handle = self._slider.style().subControlRect(
+                QStyle.ComplexControl.CC_Slider,
+                option,
+                QStyle.SubControl.SC_SliderHandle,
+                self._slider,
+            )
+            ends.append(QRectF(handle).center().x() + self._slider.x() - self.x())
+        return ends[0], ends[1]
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the bar."""
+        painter = QPainter(self)
+        first, last = self.span()
+        count = max(2, len(self.shares))
+        half = (last - first) / (count - 1) / 2
+        whole = QRectF(first - half, 0, last - first + 2 * half, self.height())
+        painter.setClipRect(QRectF(first, 0, last - first, self.height()))
+        painter.fillRect(whole, self.palette().color(QPalette.ColorRole.Midlight))
+        if self.shares:
+            painter.drawImage(whole, self._image())
+        painter.setClipping(False)
+        painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(QRectF(first, 0, last - first, self.height() - 1))
+
+    def _image(self) -> QImage:
+        shares = np.array([np.nan if share is None else share for share in self.shares])
+        colours = np.ascontiguousarray(self._colours(shares))
+        size = len(shares)
+        image = QImage(colours.data, size, 1, 4 * size, QImage.Format.Format_RGBA8888)
+        return image.copy()  # the array's memory goes with it

@@ -1,0 +1,168 @@
+"""The advice says in sentences what the model's own search finds, and leads there."""
+
+from typing import Any
+
+import pytest
+from PySide6.QtWidgets import QPushButton
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers import advisor as module
+from occ_gui.controllers import map_work, reach_desk
+from occ_gui.state.advice import Advice, TheoryNumbers
+from occ_gui.views.advice_view import AdviceView
+from occ_gui.views.advice_words import AdviceWords
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results import Edge, Limits, Reach, Trial
+from occ_model.scene import Scene
+
+THEORY = TheoryNumbers(7353.0, 14706.0, 3468.0, 100e-6, 200e-6, 1.17e-3)
+GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0)
+BAD = Trial(14.73e3, 0, 200, 0.0, 1.9)
+SHORT = Trial(10e-6, 200, 200, 98.1, 100.0)
+LONG = Trial(196e-6, 200, 200, 98.1, 100.0)
+TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4)
+
+
+def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
+    frequency = Reach("switching_frequency", (500.0, 100e3), Edge(GOOD, None), Edge(GOOD, BAD))
+    exposure = Reach("exposure_time", (1e-5, 2e-3), Edge(SHORT, None), Edge(LONG, TOO_LONG))
+    return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> AdviceView:
+    view = AdviceView()
+    qtbot.addWidget(view)
+    view.show()
+    return view
+
+
+@pytest.fixture
+def advised(
+    qtbot: QtBot,
+    application: Application,
+    monkeypatch: pytest.MonkeyPatch,
+    inline_workers: Any,
+) -> Application:
+    """Ask for advice, and wait for it."""
+    monkeypatch.setattr(reach_desk, "new_workers", lambda: inline_workers)
+    monkeypatch.setattr(map_work, "limits", found)
+    application.window.docks["map"].raise_()
+    application.reach.map.set_seen(False)  # it is not what is looked at here
+    application.detection.advise.click()
+    qtbot.waitUntil(lambda: application.reach.advisor.is_idle)
+    return application
+
+
+def test_the_sentences_hold_value_bits_interval_and_what_lies_beyond(small_scene: Scene) -> None:
+    lines = [line.text for line in AdviceWords().lines(Advice(found(small_scene), THEORY))]
+    assert lines[1] == (
+        "The highest frequency that it reads is 14.7 kHz: there it read 200 of 200 bits "
+        "(98.1 to 100.0 %), at 14.73 kHz 0 of 200 bits (0.0 to 1.9 %)."
+    )
+    assert lines[3].startswith("The shortest exposure that it reads is 10 µs: ")
+    assert lines[3].endswith("beyond it was not tried.")
+    assert lines[4].startswith("The longest exposure that it reads is 196 µs: ")
+
+
+def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
+    lines = [line.text for line in AdviceWords().lines(Advice(found(small_scene), THEORY))]
+    assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[2]
+    assert "below 3.468 kHz no two packets" in lines[2]
+    assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[5]
+    assert "from 1.17 ms the panel is white" in lines[5]
+
+
+def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scene) -> None:
+    nowhere = Reach("switching_frequency", (500.0, 100e3), None, None, "It reads nowhere.")
+    limits = Limits(small_scene, "threshold", 99.0, 20, 1, nowhere, nowhere)
+    lines = AdviceWords().lines(Advice(limits, THEORY))
+    assert [line.text for line in lines].count("It reads nowhere.") == 2
+    assert all(line.way is None for line in lines)
+
+
+def test_every_decoder_is_asked_and_each_edge_has_its_way(advised: Application) -> None:
+    advice = advised.detection.advice
+    titles = [text for text in advice.sentences() if text.startswith("The ")]
+    for decoder in DECODERS:
+        assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
+    assert len(advice.ways) == 3 * len(DECODERS)
+    assert advice.again.isVisible()
+
+
+@pytest.mark.parametrize(
+    ("place", "name", "value"),
+    [(0, "switching_frequency", 14.7e3), (1, "exposure_time", 10e-6), (2, "exposure_time", 196e-6)],
+)
+def test_a_way_takes_the_scene_there_in_one_step(
+    advised: Application, place: int, name: str, value: float
+) -> None:
+    before = advised.store.scene
+    advised.detection.advice.ways[place].click()
+    assert advised.store.scene == before.replace(**{name: value})
+    assert advised.detection.advice.state.toolTip() == "This is of the scene as it was."
+    advised.store.undo_stack.undo()
+    assert advised.store.scene == before
+
+
+def test_a_refusal_of_the_model_is_said(
+    qtbot: QtBot, advised: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()
+    advised.store.change(pattern="1100")
+    advised.detection.advice.again.click()
+    qtbot.waitUntil(lambda: advised.reach.advisor.is_idle)
+    assert "A raw pattern holds no code" in advised.detection.advice.state.toolTip()
+
+
+@pytest.mark.parametrize("how", ["cancel", "change"])
+def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
+    qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch, how: str
+) -> None:
+    class Never:
+        count = 2
+
+        def submit(self, task: Any) -> Any:
+            from concurrent.futures import Future
+
+            return Future()
+
+        def abandon(self, lane: int, run: int) -> None:
+            pass
+
+        def counted(self, slot: int) -> int:
+            return 0
+
+        def close(self) -> None:
+            pass
+
+    monkeypatch.setattr(reach_desk, "new_workers", Never)
+    monkeypatch.setattr(module, "_LOOK_MS", 5)
+    application.detection.advise.click()
+    advice = application.detection.advice
+    assert not application.reach.advisor.is_idle
+    if how == "cancel":
+        advice.cancel.click()
+    else:
+        application.store.change(iso=200.0)
+    assert application.reach.advisor.is_idle
+    said = {"cancel": "Cancelled.", "change": "The scene has changed; ask again."}
+    assert advice.state.toolTip() == said[how]
+
+
+def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:
+    view.show_advice_begun()
+    view.show_advice_progress(0.4)
+    assert (view.progress.value(), view.progress.isVisible()) == (40, True)
+    view.show_advice_ended("")
+    assert not view.progress.isVisible()
+
+
+def test_every_button_has_a_name_and_says_what_it_does(
+    view: AdviceView, small_scene: Scene
+) -> None:
+    view.show_advice(Advice(found(small_scene), THEORY))
+    for button in view.findChildren(QPushButton):
+        assert button.accessibleName()
+        assert button.toolTip()

@@ -1,0 +1,284 @@
+"""The map is the sweep's, moves with the scene, and costs nothing while nobody looks."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.controllers import detection_map as module
+from occ_gui.controllers import lattice_stages
+from occ_gui.controllers.detection_map import DetectionMapController
+from occ_gui.controllers.map_work import IMAGE_EFFECTS
+from occ_gui.state.rate_map import PointFacts, RateMap
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.settings_store import SettingsStore
+from occ_gui.tasks.crew import Crew
+from occ_gui.tasks.parcel import Outcome, Task
+from occ_model.receiver.decoders import DECODERS
+from occ_model.scene import Scene
+
+SHAPE = (13, 7)
+IMAGES = (1, 2)
+FREQUENCY, DISTANCE = "switching_frequency", "distance"
+
+
+class RecordingPane:
+    """A pane that keeps all that it is told."""
+
+    def __init__(self) -> None:
+        self.known: list[int] = []
+        self.progress: list[tuple[int, int, int]] = []
+        self.failures: list[str] = []
+        self.left_out: tuple[str, ...] = ()
+        self.facts: PointFacts | None = None
+        self.axes: tuple[str, str] | None = None
+
+    def show_axes(self, x: str, y: str) -> None:
+        self.axes = (x, y)
+
+    def show_map(self, rates: RateMap) -> None:
+        self.known.append(rates.known)
+
+    def show_scene(self, scene: Scene) -> None:
+        pass
+
+    def show_progress(self, known: int, total: int, images: int) -> None:
+        self.progress.append((known, total, images))
+
+    def show_failure(self, sentence: str) -> None:
+        if sentence:
+            self.failures.append(sentence)
+
+    def show_left_out(self, effects: tuple[str, ...]) -> None:
+        self.left_out = effects
+
+    def show_facts(self, facts: PointFacts | None) -> None:
+        self.facts = facts
+
+
+class Bench:
+    """A controller with a small lattice whose workers need no processes."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
+        self._qtbot = qtbot
+        self.workers = workers
+        self.crew = Crew(1, lambda: workers)
+        self.scenes, self.settings = SceneStore(scene), SettingsStore()
+        self.pane = RecordingPane()
+        self.controller = DetectionMapController(
+            self.scenes, self.settings, self.crew.lanes[0], self.pane
+        )
+
+    def rest(self) -> RateMap:
+        self._qtbot.waitUntil(lambda: self.controller.is_idle)
+        assert self.controller.map is not None
+        return self.controller.map
+
+    def look(self) -> RateMap:
+        self.controller.set_seen(True)
+        return self.rest()
+
+
+@pytest.fixture
+def bench_of(
+    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, inline_workers: Any
+) -> Iterator[Callable[..., Bench]]:
+    benches: list[Bench] = []
+    for place in (lattice_stages, module):
+        monkeypatch.setattr(place, "SHAPE", SHAPE)
+        monkeypatch.setattr(place, "IMAGES", IMAGES)
+
+    def make(workers: Any = inline_workers, **changes: Any) -> Bench:
+        benches.append(Bench(qtbot, small_scene.replace(**changes), workers))
+        return benches[-1]
+
+    yield make
+    for bench in benches:
+        bench.crew.stop()
+
+
+def test_the_map_is_the_sweeps_table_of_the_same_points(bench_of: Callable[..., Bench]) -> None:
+    bench = bench_of()
+    found = bench.look()
+    axes = {FREQUENCY: found.x_values, DISTANCE: found.y_values}
+    table = occ.sweep(bench.scenes.scene, axes, images=IMAGES[-1], decoder=tuple(DECODERS))
+    assert found.least_images == IMAGES[-1]
+    for decoder in DECODERS:
+        np.testing.assert_array_equal(found.rates(decoder), table.rates(decoder))
+
+
+def test_the_lattice_spans_both_sliders(bench_of: Callable[..., Bench]) -> None:
+    found = bench_of().look()
+    assert (found.x_values[0], found.x_values[-1]) == (500.0, 100e3)
+    assert (found.y_values[0], found.y_values[-1]) == (0.2, 5.0)
+
+
+def test_a_coarse_map_comes_first_and_every_point_is_measured_once_a_number_of_images(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    bench.look()
+    points = [
+        (index, task.parcel.arguments[1].images)
+        for task in bench.workers.tasks
+        if task.parcel.function.__name__ == "measure_points"
+        for index, _ in task.parcel.arguments[2]
+    ]
+    assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(91))
+    assert {index for index, _ in points[:6]} == {7 * x + y for x in (0, 6, 12) for y in (0, 6)}
+
+
+def test_nothing_is_measured_while_nobody_looks(
+    bench_of: Callable[..., Bench], qtbot: QtBot
+) -> None:
+    bench = bench_of()
+    bench.scenes.change(iso=200.0)
+    qtbot.wait(30)
+    assert bench.workers.tasks == []
+    assert bench.crew.workers is None
+    bench.look()
+    bench.controller.set_seen(False)
+    before = len(bench.workers.tasks)
+    bench.scenes.change(iso=400.0)
+    qtbot.wait(30)
+    assert len(bench.workers.tasks) == before
+
+
+def test_what_is_known_is_not_measured_again_when_shown_again(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    bench.look()
+    before = len(bench.workers.tasks)
+    bench.controller.set_seen(False)
+    bench.look()
+    assert len(bench.workers.tasks) == before
+
+
+@pytest.mark.parametrize("change", [{FREQUENCY: 7e3}, {DISTANCE: 2.0}, {"start_time": 1e-3}])
+def test_what_the_map_does_not_depend_on_measures_nothing_anew(
+    bench_of: Callable[..., Bench], change: dict[str, float]
+) -> None:
+    bench = bench_of()
+    bench.look()
+    before = len(bench.workers.tasks)
+    bench.scenes.change(-1, **change)
+    bench.rest()
+    assert len(bench.workers.tasks) == before
+    assert bench.controller.is_full
+
+
+def test_a_change_of_the_scene_gives_the_map_of_the_new_one(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    before = bench.look()
+    bench.scenes.change(exposure_time=136e-6)
+    after = bench.rest()
+    assert bench.controller.is_full
+    assert not np.array_equal(after.rates("threshold"), before.rates("threshold"))
+
+
+def test_a_click_sets_both_parameters_and_is_one_step(bench_of: Callable[..., Bench]) -> None:
+    bench = bench_of()
+    found, before = bench.look(), bench.scenes.scene
+    bench.controller.go_to((3, 1))
+    scene = bench.scenes.scene
+    assert scene.value(FREQUENCY) == found.x_values[3]
+    assert scene.value(DISTANCE) == found.y_values[1]
+    bench.scenes.undo_stack.undo()
+    assert bench.scenes.scene == before
+
+
+def test_the_point_under_the_mouse_is_told_with_its_wilson_interval(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    found = bench.look()
+    bench.controller.point_at((6, 3))
+    facts = bench.pane.facts
+    assert facts is not None
+    assert (facts.x, facts.y, facts.sent) == (found.x_values[6], found.y_values[3], 20)
+    for name, right, low, high in facts.counts:
+        assert 100 * right / facts.sent == found.rates(name)[6, 3]
+        interval = occ.wilson_interval(right, facts.sent)
+        assert (low / 100, high / 100) == pytest.approx(interval)
+    bench.controller.point_at(None)
+    assert bench.pane.facts is None
+
+
+def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., Bench]) -> None:
+    # A panel as steep as this reaches behind a camera that is near.
+    bench = bench_of(yaw=1.0, panel_width=2.0)
+    found = bench.look()
+    refused = found.refused() != 0
+    assert refused[:, 0].all()
+    assert not refused[:, -1].any()
+    np.testing.assert_array_equal(np.isnan(found.rates("threshold")), refused)
+    bench.controller.point_at((0, 0))
+    assert bench.pane.facts is not None
+    assert bench.pane.facts.note
+
+
+def test_image_effects_are_left_out_said_and_taken_in_when_asked(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
+    bench.look()
+    assert bench.pane.left_out == ("Vignetting",)
+    settings = bench.workers.tasks[0].parcel.arguments[1]
+    assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
+    bench.workers.tasks.clear()
+    bench.controller.use_image_effects(True)
+    bench.rest()
+    assert bench.pane.left_out == ()
+    settings = bench.workers.tasks[0].parcel.arguments[1]
+    assert (settings.force, settings.path) == ({}, "auto")
+
+
+def test_a_failure_is_said_and_the_last_map_stays(bench_of: Callable[..., Bench]) -> None:
+    bench = bench_of()
+    before = bench.look()
+
+    def refuse(task: Task) -> Outcome:
+        raise MemoryError("no room")
+
+    bench.workers.outcome = refuse
+    bench.scenes.change(iso=200.0)
+    assert bench.rest() is before
+    assert bench.pane.failures == ["The work in the background failed: MemoryError: no room."]
+
+
+def test_choosing_one_parameter_twice_exchanges_both(bench_of: Callable[..., Bench]) -> None:
+    bench = bench_of()
+    bench.controller.choose_axes(DISTANCE, DISTANCE)
+    assert bench.pane.axes == (DISTANCE, FREQUENCY)
+    bench.controller.choose_axes(DISTANCE, DISTANCE)
+    assert bench.pane.axes == (FREQUENCY, DISTANCE)
+
+
+def test_the_map_of_other_parameters_is_theirs(bench_of: Callable[..., Bench]) -> None:
+    bench = bench_of()
+    bench.look()
+    bench.controller.choose_axes("exposure_time", "iso")
+    found = bench.rest()
+    assert (found.x, found.y) == ("exposure_time", "iso")
+    assert bench.controller.is_full
+
+
+def test_the_limits_of_theory_change_sides_where_theory_says(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    found = bench.look()
+    assert found.theory is not None
+    along, _ = found.theory.places
+    exposure = bench.scenes.scene.camera.exposure_time
+    frequencies = 500.0 * 200.0**along
+    for name, limit in (("band", 1 / exposure), ("null", 2 / exposure)):
+        np.testing.assert_array_equal(
+            found.theory.sides[name][:, 0] > 0, frequencies > limit, err_msg=name
+        )

@@ -1,0 +1,225 @@
+"""The map's pane: what is drawn where, what a click means, and nothing left when it closes."""
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers import reach_desk
+from occ_gui.controllers.map_work import PRELOAD
+from occ_gui.state.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice, quantity
+from occ_gui.tasks.worker_processes import WorkerProcesses
+from occ_gui.views.contours import zero_lines
+from occ_gui.views.map_colours import DIFFERENCES, RATES, painted
+from occ_gui.views.map_ticks import axis_title, ticks
+from occ_gui.views.map_view import MapView
+from occ_model.results import SweepPoint
+from occ_model.scene import Scene
+
+Picture = Callable[[QWidget], Any]
+DECODERS = ("threshold", "matched")
+SHAPE = (13, 7)
+FREQUENCY, DISTANCE = "switching_frequency", "distance"
+
+
+def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -> RateMap:
+    """Give a map of which some points are known."""
+    values = (
+        lattice(name, count) for name, count in zip((FREQUENCY, DISTANCE), SHAPE, strict=True)
+    )
+    rates = RateMap(FREQUENCY, DISTANCE, *values, DECODERS)
+    rates.enter([SweepPoint(index, 10, counts) for index, counts in right.items()], 1)
+    rates.enter([SweepPoint(index, 0, (0, 0), "It cannot be.") for index in refused], 1)
+    return rates
+
+
+def whole(count: tuple[int, int], refused: tuple[int, ...] = ()) -> RateMap:
+    points = SHAPE[0] * SHAPE[1]
+    return rates_of({i: count for i in range(points) if i not in refused}, refused)
+
+
+@pytest.fixture
+def view(qtbot: QtBot, small_scene: Scene) -> MapView:
+    view = MapView(DECODERS)
+    qtbot.addWidget(view)
+    view.resize(700, 300)
+    view.show_scene(small_scene)
+    view.show()
+    return view
+
+
+def test_a_known_point_is_drawn_over_all_cells_near_it_until_finer_ones_come() -> None:
+    rates = rates_of({0: (10, 10)})
+    x, _ = rates.owners()
+    assert (x[:3, :3] == 0).all()
+    assert (x[4:] == -1).all()
+    rates.enter([SweepPoint(SHAPE[1] + 1, 10, (0, 0))], 1)
+    x, y = rates.owners()
+    assert (x[1, 1], y[1, 1]) == (1, 1)
+    assert (x[2, 2], y[2, 2]) == (0, 0)
+
+
+def test_a_click_tells_the_cell_that_it_is_in(qtbot: QtBot, view: MapView) -> None:
+    view.show_map(whole((10, 10)))
+    plot, picked = view.plots.plots[0], []
+    view.picked.connect(picked.append)
+    for cell in ((0, 0), (12, 6), (5, 3)):
+        place = plot.place_of((cell[0] / 12, cell[1] / 6)).toPoint()
+        qtbot.mouseClick(plot, Qt.MouseButton.LeftButton, pos=place)
+        assert picked[-1] == cell
+    qtbot.mouseClick(plot, Qt.MouseButton.LeftButton, pos=QPoint(1, 1))
+    assert len(picked) == 3
+
+
+def test_arrows_and_enter_do_what_the_mouse_does(qtbot: QtBot, view: MapView) -> None:
+    view.show_map(whole((10, 10)))
+    plot, picked, pointed = view.plots.plots[0], [], []
+    view.picked.connect(picked.append)
+    view.pointed.connect(pointed.append)
+    qtbot.keyClick(plot, Qt.Key.Key_Right)
+    qtbot.keyClick(plot, Qt.Key.Key_Up)
+    qtbot.keyClick(plot, Qt.Key.Key_Return)
+    assert pointed[1] == (pointed[0][0], pointed[0][1] + 1)
+    assert picked == [pointed[-1]]
+
+
+def test_what_the_model_refuses_is_hatched_and_looks_like_no_rate(
+    view: MapView, grey_picture: Picture
+) -> None:
+    view.show_map(whole((10, 10), refused=(45,)))
+    plot = view.plots.plots[0]
+    plot.setting = None
+    plot.update()
+    picture = grey_picture(plot).astype(int)
+
+    def cell(x: int, y: int) -> Any:
+        at = plot.place_of((x / 12, y / 6)).toPoint()
+        return picture[at.y() - 8 : at.y() + 8, at.x() - 6 : at.x() + 6]
+
+    assert np.ptp(cell(*divmod(45, 7))) > 40  # stripes
+    assert np.ptp(cell(2, 2)) == 0
+
+
+def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
+    view.show_map(whole((2, 10)))
+    for what, titles in (
+        ("both", list(DECODERS)),
+        ("matched", ["matched"]),
+        ("difference", ["matched less threshold"]),
+    ):
+        view.what.show_key(what)
+        view.what.chosen.emit(what)
+        assert [plot.title for plot in view.plots.plots if plot.isVisible()] == titles
+    assert view.plots.bar.accessibleName().startswith("Difference")
+
+
+def test_rates_grow_lighter_evenly_and_differences_from_their_middle() -> None:
+    steps = painted(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
+    light = steps.astype(float) @ np.array([0.2126, 0.7152, 0.0722])
+    assert (np.diff(light) > 0).all()
+    middle = painted(np.zeros((1, 1)), -100.0, 100.0, DIFFERENCES)[0, 0, :3]
+    assert np.ptp(middle.astype(int)) < 12
+    assert painted(np.full((1, 1), np.nan), 0.0, 1.0, RATES)[0, 0, 3] == 0
+
+
+def test_a_line_runs_where_the_number_is_nothing() -> None:
+    places = (np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 5))
+    sides = places[0][:, None] + places[1] - 0.9
+    (line,) = zero_lines(places, sides)
+    assert all(x + y == pytest.approx(0.9) for x, y in line)
+    assert abs(line[0][0] - line[-1][0]) == pytest.approx(0.9)
+    sides[3] = np.nan
+    assert len(zero_lines(places, sides)) == 2
+
+
+@pytest.mark.parametrize("name", MAP_PARAMETERS)
+def test_every_axis_has_numbers_within_its_slider_and_a_title(name: str) -> None:
+    for most in (3, 8):
+        found = ticks(quantity(name), most)
+        assert 1 <= len(found) <= most + 1
+        places = [tick.place for tick in found]
+        assert places == sorted(places)
+        assert all(0.0 <= place <= 1.0 for place in places)
+    assert axis_title(quantity(name))
+
+
+def test_the_status_says_values_rate_bits_and_interval_or_why_there_are_none(
+    view: MapView,
+) -> None:
+    counts = (("threshold", 45, 78.6, 95.7),)
+    view.show_facts(PointFacts(10e3, 1.2, counts, 50, 5, ""))
+    said = "10 kHz, 1.2 m: threshold 90 %, 45 of 50 bits (79 to 96 %)"
+    assert view.status.toolTip() == said
+    view.show_facts(PointFacts(10e3, 1.2, (("threshold", 0, 0.0, 0.0),), 0, 1, "It cannot be."))
+    assert view.status.toolTip() == "10 kHz, 1.2 m: It cannot be."
+    view.show_progress(7, 91, 0)
+    view.show_facts(None)
+    assert view.status.toolTip() == "7 of 91 points measured"
+
+
+def test_every_control_has_a_name_and_says_what_it_does(view: MapView) -> None:
+    controls = [*view.findChildren(QComboBox), *view.findChildren(QAbstractButton)]
+    assert len(controls) >= 9
+    for control in (*controls, *view.plots.plots):
+        assert control.accessibleName(), control
+        assert control.toolTip(), control.accessibleName()
+
+
+def test_a_click_in_the_window_is_undone_as_one_step(
+    qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    controller = application.reach.map
+    controller.map = whole((10, 10))
+    before = application.store.scene
+    application.detection.picked.emit((2, 3))
+    scene = application.store.scene
+    assert scene.value(FREQUENCY) == controller.map.x_values[2]
+    assert scene.value(DISTANCE) == controller.map.y_values[3]
+    application.store.undo_stack.undo()
+    assert application.store.scene == before
+
+
+def test_closing_the_window_ends_its_processes(
+    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workers = WorkerProcesses(2, PRELOAD)
+    monkeypatch.setattr(reach_desk, "new_workers", lambda: workers)
+    application = Application(small_scene)
+    application.window.show()
+    application.window.docks["map"].raise_()
+    qtbot.waitUntil(lambda: bool(application.reach.map.map), timeout=20_000)
+    processes = workers.processes
+    assert processes
+    application.window.close()
+    application.window.deleteLater()
+    for number in processes:
+        with pytest.raises(ProcessLookupError):
+            os.kill(number, 0)
+
+
+@pytest.mark.parametrize("size", [(1000, 700), (1280, 800), (1920, 1080)])
+def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[int, int]) -> None:
+    application.window.resize(*size)
+    application.window.docks["map"].raise_()
+    view = application.detection
+    view.show_map(whole((10, 10)))
+    view.show_left_out(("Vignetting", "JPEG"))
+    QApplication.processEvents()
+    controls = [*view.findChildren(QComboBox), *view.findChildren(QAbstractButton)]
+    for control in (*controls, view.status, view.left_out, *view.plots.plots, view.plots.bar):
+        if control.isVisible():
+            least = control.minimumSizeHint()
+            assert control.visibleRegion().boundingRect() == control.rect(), control
+            assert control.width() >= least.width(), control
+            assert control.height() >= least.height(), control
+    plot = view.plots.plots[0]
+    assert plot.rect().toRectF().contains(plot.area())
+    assert plot.area().contains(plot.place_of((1.0, 1.0)))
+    assert isinstance(plot.place_of((0.0, 0.0)), QPointF)
+    assert (application.window.width(), application.window.height()) == size

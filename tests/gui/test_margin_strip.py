@@ -1,0 +1,185 @@
+"""Under each main slider lies what a decoder would read along it, in line with its handle."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QSettings
+from PySide6.QtWidgets import QApplication, QSlider, QStyle, QStyleOptionSlider
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_gui.controllers import margins as module
+from occ_gui.controllers.margins import MarginController
+from occ_gui.state.memory import Memory
+from occ_gui.state.rate_map import lattice
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.settings_store import SettingsStore
+from occ_gui.tasks.crew import Crew
+from occ_gui.widgets.control_panel import MAIN
+from occ_gui.widgets.margin_strip import MarginStrip
+from occ_model.scene import Scene
+
+POSITIONS = 9
+NAMES = ("switching_frequency", "iso")
+Shares = tuple[float | None, ...]
+
+
+class RecordingStrips:
+    """Strips that keep what they show."""
+
+    def __init__(self) -> None:
+        self.shares: dict[str, Shares] = {}
+
+    def show_shares(self, name: str, shares: Shares) -> None:
+        self.shares[name] = shares
+
+
+class Bench:
+    """A controller of few positions whose workers need no processes."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
+        self._qtbot = qtbot
+        self.workers, self.strips = workers, RecordingStrips()
+        self.crew = Crew(1, lambda: workers)
+        self.scenes = SceneStore(scene)
+        self.controller = MarginController(
+            self.scenes, SettingsStore(), self.crew.lanes[0], self.strips, NAMES
+        )
+
+    def rest(self) -> dict[str, Shares]:
+        self._qtbot.waitUntil(lambda: self.controller.is_idle)
+        return dict(self.strips.shares)
+
+    def measured(self) -> list[str]:
+        """Name the sliders along which was measured, and forget it."""
+        names = [str(task.parcel.arguments[2]) for task in self.workers.tasks]
+        self.workers.tasks.clear()
+        return names
+
+
+@pytest.fixture
+def bench(
+    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, inline_workers: Any
+) -> Iterator[Bench]:
+    monkeypatch.setattr(module, "POSITIONS", POSITIONS)
+    bench = Bench(qtbot, small_scene, inline_workers)
+    yield bench
+    bench.crew.stop()
+
+
+@pytest.mark.parametrize("decoder", ["threshold", "matched"])
+def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench, decoder: str) -> None:
+    bench.controller.choose_decoder(decoder)
+    bench.controller.set_seen(True)
+    shares = bench.rest()
+    scene = bench.scenes.scene
+    for name in NAMES:
+        rates = [
+            occ.success_rate(scene.replace(**{name: value}), module.IMAGES, decoder)
+            for value in lattice(name, POSITIONS)
+        ]
+        assert shares[name] == pytest.approx([rate / 100 for rate in rates])
+
+
+def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: QtBot) -> None:
+    bench.scenes.change(exposure_time=136e-6)
+    qtbot.wait(30)
+    assert bench.measured() == []
+    bench.controller.set_seen(True)
+    bench.rest()
+    assert set(bench.measured()) == set(NAMES)
+    bench.controller.set_seen(False)
+    bench.scenes.change(exposure_time=68e-6)
+    qtbot.wait(30)
+    assert bench.measured() == []
+
+
+def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
+    bench.controller.set_seen(True)
+    before = bench.rest()
+    bench.measured()
+    bench.scenes.change(switching_frequency=40e3)
+    after = bench.rest()
+    assert set(bench.measured()) == {"iso"}
+    assert after["switching_frequency"] == before["switching_frequency"]
+    assert after["iso"] != before["iso"]
+
+
+def test_a_scene_that_the_model_refuses_is_unknown(bench: Bench) -> None:
+    bench.scenes.change(pattern="10")
+    bench.controller.set_seen(True)
+    assert set(bench.rest()["iso"]) == {None}
+
+
+def handle_middle(slider: QSlider) -> float:
+    option = QStyleOptionSlider()
+    slider.initStyleOption(option)
+    control, part = QStyle.ComplexControl.CC_Slider, QStyle.SubControl.SC_SliderHandle
+    handle = slider.style().subControlRect(control, option, part, slider)
+    return float(slider.x() + handle.x() + handle.width() / 2)
+
+
+def test_a_strip_begins_and_ends_where_the_handle_does(application: Application) -> None:
+    strips = application.margins.strips
+    assert tuple(strips) == MAIN
+    for name, row in application.controls.main_rows().items():
+        strip = strips[name]
+        for end, position in enumerate((row.slider.minimum(), row.slider.maximum())):
+            row.slider.blockSignals(True)
+            row.slider.setValue(position)
+            assert strip.x() + strip.span()[end] == pytest.approx(handle_middle(row.slider), abs=1)
+        assert strip.y() >= row.slider.y() + row.slider.height()
+        assert strip.height() == 6
+
+
+def test_good_and_bad_positions_look_different_and_unknown_ones_like_none(
+    application: Application, grey_picture: Callable[..., Any]
+) -> None:
+    strip = application.margins.strips["iso"]
+    strip.show_shares((0.0, 0.0, None, 1.0, 1.0))
+    first, last = strip.span()
+    row = grey_picture(strip)[3].astype(int)
+    places = [round(first + share * (last - first)) for share in (0.05, 0.5, 0.95)]
+    bad, unknown, good = (int(row[place]) for place in places)
+    assert len({bad, unknown, good}) == 3
+    assert "read at 2 of 4" in strip.accessibleDescription()
+
+
+def test_every_strip_says_what_it_is(application: Application) -> None:
+    for strip in application.margins.strips.values():
+        assert strip.accessibleName().startswith("Reading along ")
+        assert "grey not known" in strip.toolTip()
+
+
+def test_the_view_menu_hides_the_strips_and_it_is_remembered(
+    qtbot: QtBot, small_scene: Scene, tmp_path: Path
+) -> None:
+    def settings() -> QSettings:
+        return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+
+    kept = settings()
+    application = Application(small_scene, memory=kept)
+    application.window.show()
+    strips = application.margins.strips.values()
+    assert all(strip.isVisible() for strip in strips)
+    application.window.actions_by_name["margins"].trigger()
+    QApplication.processEvents()
+    assert not any(strip.isVisible() for strip in strips)
+    assert application.reach.margins.is_idle
+    application.window.close()
+    application.window.deleteLater()
+    kept.sync()
+    assert not Memory(settings()).margins
+    assert Memory(None).margins
+
+
+def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
+    strip = application.margins.strips["iso"]
+    assert isinstance(strip, MarginStrip)
+    colours = strip._colours(np.array([0.0, np.nan, 1.0]))
+    assert colours.shape == (3, 4)
+    assert colours[:, 3].tolist() == [255, 0, 255]

@@ -1,6 +1,6 @@
 """Simulate the store's scene whenever it or the settings change, and hand the results over."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import Protocol
@@ -14,7 +14,7 @@ from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.tasks.latest_wins import LatestWins
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results import DecodeResult
+from occ_model.results import DecodeResult, Frame
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
 from occ_model.transmitter.packet import bits_of
@@ -27,7 +27,18 @@ class SnapshotView(Protocol):
         """Show these results in place of the last ones."""
 
 
-def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
+class FrameView(Protocol):
+    """A pane that shows a picture before it has been read."""
+
+    def show_frame(self, frame: Frame) -> None:
+        """Show this picture in place of the last one."""
+
+
+def simulate(
+    scene: Scene,
+    settings: SimulationSettings = FIRST_SETTINGS,
+    hand_over: Callable[[Frame], object] = lambda _frame: None,
+) -> Snapshot:
     """Make everything that the views show of a scene.
 
     Parameters
@@ -36,6 +47,8 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
         The scene.
     settings
         How it is simulated.
+    hand_over
+        Is given the picture before it is read, which takes longer than to simulate it.
 
     Raises
     ------
@@ -45,6 +58,7 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
         The panel has no picture in this pose.
     """
     frame = occ.render(scene, **settings.arguments())
+    hand_over(frame)
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)
     reading_seconds = perf_counter() - start
@@ -83,10 +97,6 @@ def _read_alike(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
             yield replace(result, region=decoded.region, location=decoded.location)
 
 
-def _simulate(request: SimulationRequest) -> Snapshot:
-    return simulate(request.scene, request.settings)
-
-
 class SimulationController(QObject):
     """Connects the stores, the simulation's thread and the views.
 
@@ -98,6 +108,8 @@ class SimulationController(QObject):
         How it is simulated.
     views
         The panes that show the results.
+    pictures
+        Those that show the picture while it is still being read.
     """
 
     shown = Signal(object)
@@ -107,13 +119,21 @@ class SimulationController(QObject):
     """Why the scene has no picture; the views keep the last one."""
 
     def __init__(
-        self, scenes: SceneStore, settings: SettingsStore, views: Sequence[SnapshotView]
+        self,
+        scenes: SceneStore,
+        settings: SettingsStore,
+        views: Sequence[SnapshotView],
+        pictures: Sequence[FrameView] = (),
     ) -> None:
         super().__init__()
         self._scenes = scenes
         self._settings = settings
         self._views = views
-        self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(_simulate, "simulation")
+        self._pictures = pictures
+        self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
+            self._simulate, "simulation"
+        )
+        self.runner.early.connect(self._show_frame)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         for store in (scenes, settings):
@@ -122,6 +142,13 @@ class SimulationController(QObject):
 
     def _submit(self) -> None:
         self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
+
+    def _simulate(self, request: SimulationRequest) -> Snapshot:
+        return simulate(request.scene, request.settings, self.runner.hand_over)
+
+    def _show_frame(self, frame: Frame) -> None:
+        for view in self._pictures:
+            view.show_frame(frame)
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:

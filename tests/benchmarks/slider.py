@@ -24,12 +24,13 @@ _WARM_UP = 20
 
 
 class _Painted(QObject):
-    """Notes when the snapshot of a scene has been shown, and then painted."""
+    """Notes when the picture of a scene has been given to its pane."""
 
     def __init__(self, application: Application) -> None:
         super().__init__()
         self.shown = False
-        application.simulation.shown.connect(self._note)
+        # The picture comes first, what was read from it a little later.
+        application.simulation.runner.early.connect(self._note)
 
     def _note(self) -> None:
         self.shown = True
@@ -52,6 +53,8 @@ def frame_times(settings: SimulationSettings, size: tuple[int, int]) -> list[flo
         application.store.change(1, exposure_time=exposure)
         _until_painted(qt, painted)
         times.append(perf_counter() - start)
+        while not application.is_idle:  # a hand moves no faster than what it moves is read
+            qt.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
     application.window.close()
     return times[_WARM_UP:]
 

@@ -16,7 +16,9 @@ from occ_gui.views.before_wipe import BeforeWipe
 from occ_gui.views.photo_overlay import MODES, PhotoOverlay
 from occ_gui.views.picture_pane import PicturePane
 from occ_gui.widgets.word_choice import WordChoice
+from occ_model.arrays import ByteArray
 from occ_model.photo.load import Photo
+from occ_model.results import Frame
 
 _GAINS = (1, 2, 4, 8)
 _FIRST_GAIN = 4
@@ -32,12 +34,15 @@ class ImageView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._photo: Photo | None = None
+        self._shown: ByteArray | None = None
         self._mode = MODES[0]
         self.simulation = PicturePane(self.tr("Simulated picture"))
         self.photo = PicturePane(self.tr("Photo"))
         self.overlay = PhotoOverlay(self.simulation.box)
         self.before = BeforeWipe(self.simulation.box)
         self.simulation.caption_row.addWidget(self.before.controls)
+        # So that both pictures begin at the same height.
+        self.photo.caption.setMinimumHeight(self.before.controls.sizeHint().height())
         panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.simulation)
         panes.addWidget(self.photo)
@@ -109,9 +114,15 @@ class ImageView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
-        self.simulation.show_picture(snapshot.frame.image)
+        self.show_frame(snapshot.frame)
         self.simulation.show_region(snapshot.decoded.region)
-        self.overlay.set_simulated(snapshot.frame.image)
+
+    def show_frame(self, frame: Frame) -> None:
+        """Show this picture in place of the last one; what was read from that stays."""
+        if frame.image is not self._shown:
+            self._shown = frame.image
+            self.simulation.show_picture(frame.image)
+            self.overlay.set_simulated(frame.image)
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the last one, or none."""

@@ -180,7 +180,7 @@ class ProfileView(QWidget):
         snapshot = self._snapshot
         if snapshot is None:
             return
-        frame, decoded = snapshot.frame, snapshot.decoded
+        decoded = snapshot.decoded
         enhanced = self.enhanced.isChecked()
         profile = _levels(snapshot, enhanced)
         _draw(self.simulation, profile)
@@ -239,6 +239,13 @@ class ProfileView(QWidget):
         low, high = self.plot.viewRange()[0]
         first = min(max(int(np.ceil(low)), 0), max(columns - 2, 0))
         return first, min(max(int(high) + 1, first + 2), columns)
+
+    def level_at(self, column: int) -> float | None:
+        """Give the simulated level of a column, None beside the picture."""
+        levels = self._simulated_levels[0] if self._simulated_levels else None
+        if levels is None or not 0 <= column < len(levels):
+            return None
+        return float(levels[column])
 
     def _stop_following(self) -> None:
         for button in (self._packets, self._panel):

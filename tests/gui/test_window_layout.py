@@ -175,6 +175,33 @@ def test_the_accuracy_pane_is_whole_at_every_size_and_its_plot_can_be_read(
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
+def test_the_panes_that_explain_and_compare_are_whole_at_every_size(
+    qtbot: QtBot, application: Application, user: User, size: QSize
+) -> None:
+    window, teaching = application.window, application.teaching
+    window.resize(size)
+    for changes in STATES[:2]:
+        teaching.pins.pin("A")
+        window.bring_to_front("equations")
+        window.bring_to_front("compare")
+        application.store.change(**changes)
+        user.rest()
+        teaching.pins.pin("B")
+        application.image.before.chosen.setChecked(True)
+        assert_faultless(qtbot, window, changes)
+        assert axis_labels_cut_off(window) == []
+    window.bring_to_front("explorations")
+    assert_faultless(qtbot, window, "list of explorations")
+    for place in (0, 2):
+        teaching.exploring.choices[place].click()
+        teaching.exploring.reveal.click()
+        user.rest()
+        assert_faultless(qtbot, window, "answer")
+        teaching.exploring.all.click()
+    assert window.size() == size
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
 def test_the_window_keeps_the_size_that_the_user_gave_it(
     application: Application, user: User, photo_file: Path, size: QSize
 ) -> None:

@@ -1,0 +1,95 @@
+"""Equations as text: in symbols, in numbers, and what comes out."""
+
+import re
+from collections.abc import Iterable, Sequence
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QFrame, QTextBrowser, QWidget
+
+from occ_model.results.teaching import Equation, Term
+
+HIGHLIGHT_MS = 1500
+"""How long a term stays marked after what it depends on has changed."""
+
+_MARK = "background-color:#F7D774; color:#000000; font-weight:600; text-decoration:underline;"
+"""Seen by any eye: by colour, by weight and by a line."""
+
+_RAISED = re.compile(r"(<su[bp]>.*?</su[bp]>)")
+_SYMBOL = re.compile(r"[A-Za-zγ]+")  # noqa: RUF001 - the equation's own letter
+
+_BASE = re.compile(r"[A-Za-z]+(?=<sub>)")
+
+_LEAST_HEIGHT = 80
+
+
+class EquationText(QTextBrowser):
+    """Shows equations; terms whose parameters have just changed are marked for a moment."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._equations: tuple[Equation, ...] = ()
+        self.setAccessibleName(self.tr("Equations with the numbers of the moment"))
+        self.setToolTip(
+            self.tr("What depends on the latest change is marked and underlined for a moment.")
+        )
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setMinimumHeight(_LEAST_HEIGHT)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.document().setDocumentMargin(4)
+        self._fading = QTimer(self, singleShot=True, interval=HIGHLIGHT_MS)
+        self._fading.timeout.connect(lambda: self._write(frozenset()))
+
+    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
+        """Show these in place of the last ones, and which parameters have just changed."""
+        self._equations = tuple(equations)
+        self._fading.stop()
+        self._write(changed)
+        if changed:
+            self._fading.start()
+
+    def _write(self, changed: frozenset[str]) -> None:
+        bar = self.verticalScrollBar()
+        place = bar.value()
+        self.setHtml("".join(self._paragraphs(equation, changed) for equation in self._equations))
+        bar.setValue(place)  # a new text would begin at its top
+
+    def _paragraphs(self, equation: Equation, changed: frozenset[str]) -> str:
+        symbols = _written(((_in_italics(t.text), t) for t in equation.symbols), changed)
+        numbers = _written(((_base_in_italics(t.text), t) for t in equation.numbers), changed)
+        source = equation.source
+        if source.startswith("("):
+            source = self.tr("equation {number}").format(number=source)
+        # Where nothing comes out the sentence that says why is no value.
+        sign = "" if equation.result.startswith("undefined") else "= "
+        meaning = _base_in_italics(equation.meaning)
+        return (
+            f"<p style='margin:0'>{meaning} <small>[{source}]</small></p>"
+            f"<p style='margin:1px 0 0 14px'>= {symbols}</p>"
+            f"<p style='margin:1px 0 0 14px'>= {numbers}</p>"
+            f"<p style='margin:1px 0 9px 14px'><b>{sign}{equation.result}</b></p>"
+        )
+
+
+def _in_italics(text: str) -> str:
+    """Set letters that stand for a quantity as such, but not their indices and exponents."""
+    parts = _RAISED.split(text)
+    return "".join(
+        part if _RAISED.fullmatch(part) else _SYMBOL.sub(r"<i>\g<0></i>", part) for part in parts
+    )
+
+
+def _base_in_italics(text: str) -> str:
+    """Set letters that carry an index as a quantity's, in a text of words or numbers."""
+    return _BASE.sub(r"<i>\g<0></i>", text)
+
+
+def _written(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
+    """Set terms one after the other, those that depend on what changed marked."""
+    text, tight = "", True
+    for html, term in terms:
+        if not (tight or html.startswith(")")):
+            text += " "
+        marked = bool(changed.intersection(term.parameters))
+        text += f"<span style='{_MARK}'>{html}</span>" if marked else html
+        tight = html.endswith("(")
+    return text

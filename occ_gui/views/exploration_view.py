@@ -1,0 +1,197 @@
+"""Guided explorations: a list of them, and one step with its question and answer."""
+
+import html
+import re
+from collections.abc import Mapping, Sequence
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.results.teaching import Exploration
+
+_INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
+
+_WANTED_HEIGHT = 320
+
+_LEAST = QSize(200, 160)
+"""Pixels: the list of explorations, and a question with its text, in view as far as they can be."""
+
+
+class ExplorationView(QWidget):
+    """The explorations that there are, or the step that is being worked on."""
+
+    chosen = Signal(str)
+    """The name of an exploration to go on with."""
+
+    moved = Signal(int)
+    """By how many steps to go on; a negative number goes back."""
+
+    list_asked = Signal()
+    again_asked = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.choices: list[QPushButton] = []
+        self._pages = QStackedWidget()
+        self._pages.addWidget(ScrollPane(self._make_list(), _LEAST))
+        self._pages.addWidget(self._make_step())
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(4, 2, 4, 4)
+        layout.addWidget(self._pages)
+
+    def _make_list(self) -> QWidget:
+        page = QWidget()
+        self._invitation = _text()
+        self._list = QVBoxLayout()
+        self._list.setSpacing(3)
+        layout = QVBoxLayout(page)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._invitation)
+        layout.addLayout(self._list)
+        layout.addStretch()
+        return page
+
+    def _make_step(self) -> QWidget:
+        self.place, self.text, self.question, self.answer = _text(), _text(), _text(), _text()
+        font = self.place.font()
+        font.setBold(True)
+        for bold in (self.place, self.question):
+            bold.setFont(font)
+        self.answer.setFrameShape(QFrame.Shape.StyledPanel)
+        self.answer.setMargin(4)
+        self.answer.setAccessibleName(self.tr("Answer"))
+        self.reveal = QPushButton(self.tr("Show the answer"))
+        self.reveal.setCheckable(True)
+        self.reveal.setToolTip(self.tr("Show what one finds, to compare with what you found."))
+        self.reveal.toggled.connect(self._show_answer)
+        self._content = QWidget()
+        content = QVBoxLayout(self._content)
+        content.setContentsMargins(0, 0, 0, 0)
+        for label in (self.place, self.text, self.question):
+            content.addWidget(label)
+        content.addWidget(self.answer)
+        content.addStretch()
+        self._scroll = ScrollPane(self._content, _LEAST)
+        page = QWidget()
+        layout = QVBoxLayout(page)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addWidget(self._scroll, 1)
+        layout.addLayout(self._make_buttons())
+        self.answer.hide()
+        return page
+
+    def _make_buttons(self) -> QVBoxLayout:
+        self.all = _button(self.tr("All"), self.tr("Go back to the list of explorations."))
+        self.back = _button(self.tr("Back"), self.tr("Go to the step before, and set its scene."))
+        self.next = _button(self.tr("Next"), self.tr("Go to the next step, and set its scene."))
+        self.again = _button(
+            self.tr("Set the scene again"),
+            self.tr("Set the scene of this step again, as one step that can be undone."),
+        )
+        self.all.clicked.connect(self.list_asked)
+        self.back.clicked.connect(lambda: self.moved.emit(-1))
+        self.next.clicked.connect(lambda: self.moved.emit(1))
+        self.again.clicked.connect(self.again_asked)
+        column = QVBoxLayout()
+        column.setSpacing(4)
+        for buttons in ((self.reveal, self.again), (self.all, self.back, self.next)):
+            row = QHBoxLayout()
+            row.setSpacing(4)
+            for button in buttons:
+                row.addWidget(button, 1)
+            column.addLayout(row)
+        return column
+
+    def list_explorations(
+        self, found: Sequence[Exploration], reached: Mapping[str, int], failure: str
+    ) -> None:
+        """Offer these, with the steps that were reached, or say why there are none."""
+        self._invitation.setText(
+            _set(failure)
+            or self.tr(
+                "Choose an exploration. Each step sets a scene and asks a question that you answer "
+                "by trying."
+            )
+        )
+        for button in self.choices:
+            button.deleteLater()
+        self.choices = []
+        for exploration in found:
+            button = self._choice(exploration, reached.get(exploration.name))
+            self.choices.append(button)
+            self._list.addWidget(button)
+        self._pages.setCurrentIndex(0)
+
+    def _choice(self, exploration: Exploration, reached: int | None) -> QPushButton:
+        count = len(exploration.steps)
+        words = {
+            None: self.tr("{title} ({count} steps)"),
+            count: self.tr("✓ {title}"),
+        }
+        text = words.get(reached, self.tr("{title} (step {place} of {count})"))
+        button = QPushButton(
+            text.format(title=exploration.title, count=count, place=(reached or 0) + 1)
+        )
+        button.setToolTip(self.tr("Set the scene of its step and show its question."))
+        button.setStyleSheet("text-align: left; padding: 4px 8px;")
+        button.clicked.connect(lambda: self.chosen.emit(exploration.name))
+        return button
+
+    def show_step(self, exploration: Exploration, place: int) -> None:
+        """Show a step of an exploration."""
+        step, count = exploration.steps[place], len(exploration.steps)
+        self.place.setText(
+            self.tr("{title}, step {place} of {count}").format(
+                title=exploration.title, place=place + 1, count=count
+            )
+        )
+        self.text.setText(_set(step.text))
+        self.question.setText(_set(step.question))
+        self.answer.setText(_set(step.answer))
+        self.reveal.setChecked(False)
+        self.back.setEnabled(place > 0)
+        self.next.setText(self.tr("Next") if place + 1 < count else self.tr("Done"))
+        self._pages.setCurrentIndex(1)
+        self._scroll.verticalScrollBar().setValue(0)
+
+    def _show_end(self) -> None:
+        self._scroll.ensureWidgetVisible(self.answer, 0, 4)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Ask for room for the list, or for a step with its question."""
+        return QSize(super().sizeHint().width(), _WANTED_HEIGHT)
+
+    def _show_answer(self, shown: bool) -> None:
+        self.answer.setVisible(shown)
+        self.reveal.setText(self.tr("Hide the answer") if shown else self.tr("Show the answer"))
+        if shown:
+            # Once the page has made room for it.
+            QTimer.singleShot(0, self._scroll, self._show_end)
+
+
+def _set(text: str) -> str:
+    """Set indices, such as that of t_r, as indices."""
+    return _INDEX.sub(r"<i>\1</i><sub>\2</sub>", html.escape(text, quote=False))
+
+
+def _text() -> QLabel:
+    label = QLabel()
+    label.setWordWrap(True)
+    label.setTextFormat(Qt.TextFormat.RichText)
+    return label
+
+
+def _button(text: str, tip: str) -> QPushButton:
+    button = QPushButton(text)
+    button.setToolTip(tip)
+    return button

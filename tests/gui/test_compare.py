@@ -1,0 +1,207 @@
+"""Two pinned states: what differs is listed, both are drawn, and either can be gone back to."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QTableWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.pins import PinController
+from occ_gui.state.pinned import Pinned
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.compare_view import CompareView
+from occ_model.scene import Scene
+
+SnapshotOf = Callable[..., Snapshot]
+User = Any  # the fixture of that name
+
+
+class Pane:
+    """Notes what it is shown."""
+
+    def __init__(self) -> None:
+        self.pinned = Pinned()
+
+    def show_pinned(self, pinned: Pinned) -> None:
+        self.pinned = pinned
+
+
+@pytest.fixture
+def pane() -> Pane:
+    return Pane()
+
+
+@pytest.fixture
+def pins(small_scene: Scene, pane: Pane) -> PinController:
+    return PinController(SceneStore(small_scene), pane)
+
+
+def pin_two(pins: PinController, a: Snapshot, b: Snapshot) -> None:
+    for name, snapshot in (("A", a), ("B", b)):
+        pins.show_snapshot(snapshot)
+        pins.pin(name)
+
+
+def inputs(pinned: Pinned) -> dict[str, tuple[str, str]]:
+    return {row.what: (row.a, row.b) for row in pinned.inputs}
+
+
+def outputs(pinned: Pinned) -> dict[str, tuple[str, str]]:
+    return {row.what: (row.a, row.b) for row in pinned.outputs}
+
+
+def test_only_inputs_that_differ_are_listed_in_units_of_display(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(exposure_time=136e-6, distance=1.5))
+    assert inputs(pane.pinned) == {
+        "Exposure time": ("68 µs", "136 µs"),
+        "Distance": ("1.2 m", "1.5 m"),
+    }
+    assert all("Allowed" in row.meaning for row in pane.pinned.inputs)
+
+
+def test_values_that_look_alike_are_written_with_all_their_digits(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(distance=1.2000000001))
+    a, b = inputs(pane.pinned)["Distance"]
+    assert a != b
+
+
+def test_an_empty_pattern_and_another_tolerance_are_told_in_words(
+    pins: PinController, pane: Pane, snapshot_of: SnapshotOf, bare_snapshot_of: SnapshotOf
+) -> None:
+    pin_two(pins, snapshot_of(), bare_snapshot_of(pattern="10"))
+    found = inputs(pane.pinned)
+    assert found["Raw chip pattern"] == ("none", "10")
+    assert found["Tolerance"][1].startswith("inf")
+
+
+def test_the_outputs_are_those_of_the_two_states(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    a, b = bare_snapshot_of(), bare_snapshot_of(exposure_time=136e-6, switching_frequency=16e3)
+    pin_two(pins, a, b)
+    found = outputs(pane.pinned)
+    swings = tuple(f"{np.ptp(s.frame.profile):.1f} grey levels" for s in (a, b))
+    assert found["Contrast"] == swings
+    assert found["Columns a chip"] == ("12.50 columns", "7.81 columns")
+    assert found["Exposure"] == ("0.680 chips", "2.176 chips")
+    assert found["Decoder “threshold”"] == ("code 718, right", b.decoded.failure)
+    assert "Effects simulated" not in found  # none in both
+    assert all(row.meaning for row in pane.pinned.outputs)
+
+
+def test_the_same_state_twice_has_no_differing_inputs(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    snapshot = bare_snapshot_of()
+    pin_two(pins, snapshot, snapshot)
+    assert (pane.pinned.inputs, pane.pinned.outputs) == ((), ())
+
+
+def test_a_pin_holds_no_picture(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    pin_two(pins, bare_snapshot_of(), bare_snapshot_of())
+    assert pane.pinned.a is not None
+    assert not any(
+        isinstance(value, np.ndarray) and value.ndim > 1
+        for value in (getattr(pane.pinned.a, name) for name in pane.pinned.a.__slots__)
+    )
+
+
+def test_what_cannot_be_done_is_answered_in_a_sentence(pins: PinController) -> None:
+    said: list[str] = []
+    pins.said.connect(said.append)
+    pins.pin("A")
+    pins.go_to("B")
+    assert len(said) == 2
+    assert all(sentence.endswith(".") for sentence in said)
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> CompareView:
+    view = CompareView()
+    qtbot.addWidget(view)
+    view.resize(660, 260)
+    view.show()
+    view.set_seen(True)
+    return view
+
+
+def texts(table: QTableWidget) -> list[list[str]]:
+    rows = []
+    for row in range(table.rowCount()):
+        items = [table.item(row, column) for column in range(3)]
+        rows.append([item.text() for item in items if item is not None])
+    return rows
+
+
+def test_the_view_asks_for_what_is_missing_and_then_lists_and_draws(
+    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    assert "as A" in view.hint.text()
+    assert not view.table.isVisible()
+    assert not view.returns["A"].isEnabled()
+    pins.show_snapshot(bare_snapshot_of())
+    pins.pin("A")
+    view.show_pinned(pane.pinned)
+    assert "as B" in view.hint.text()
+    assert view.returns["A"].isEnabled()
+    pins.show_snapshot(bare_snapshot_of(iso=200.0))
+    pins.pin("B")
+    view.show_pinned(pane.pinned)
+    assert not view.hint.isVisible()
+    listed = texts(view.table)
+    assert listed[:2] == [["Inputs"], ["ISO speed", "100", "200"]]
+    assert ["Outputs"] in listed
+    for name, pin in (("A", pane.pinned.a), ("B", pane.pinned.b)):
+        assert pin is not None
+        assert np.array_equal(view.curves[name].getOriginalDataset()[1], pin.profile)
+    view.show_pinned(Pinned())
+    assert "as A" in view.hint.text()
+    assert not view.clear.isEnabled()
+
+
+def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
+    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    view.set_seen(False)
+    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
+    view.show_pinned(pane.pinned)
+    assert view.table.rowCount() == 0
+    view.set_seen(True)
+    assert view.table.rowCount() > 0
+
+
+def test_states_are_pinned_by_key_compared_and_gone_back_to_in_one_step(
+    qtbot: QtBot, application: Application, user: User, small_scene: Scene
+) -> None:
+    window, compare = application.window, application.teaching.compare
+    both = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    window.activateWindow()
+    qtbot.waitActive(window)
+    qtbot.keyClick(window, Qt.Key.Key_A, both)
+    assert "as A" in user.message
+    user.enter("iso", "200")
+    assert user.message == ""
+    qtbot.keyClick(window, Qt.Key.Key_B, both)
+    window.bring_to_front("compare")
+    qtbot.waitUntil(lambda: not compare.visibleRegion().isEmpty())
+    assert ["ISO speed", "100", "200"] in texts(compare.table)
+    steps = application.store.undo_stack.count()
+    compare.returns["A"].click()
+    user.rest()
+    assert application.store.scene == small_scene
+    assert application.store.undo_stack.count() == steps + 1
+    user.choose("&Undo")
+    assert application.store.scene.camera.iso == 200.0
+    compare.clear.click()
+    assert application.teaching.pins.pinned.a is None

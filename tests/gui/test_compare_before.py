@@ -1,0 +1,218 @@
+"""What was there before the latest gesture stays to be compared with what is there now."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QLabel, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.before import BeforeController
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.before_wipe import BeforeWipe
+from occ_gui.views.picture_pane import PicturePane
+from occ_gui.views.profile_view import ProfileView
+from occ_model.scene import Scene
+
+Grey = NDArray[np.uint8]
+SnapshotOf = Callable[..., Snapshot]
+User = Any  # the fixture of that name
+
+
+class Pane:
+    """Notes what it is shown as before."""
+
+    def __init__(self) -> None:
+        self.shown: list[Snapshot] = []
+
+    def show_before(self, snapshot: Snapshot) -> None:
+        self.shown.append(snapshot)
+
+
+@pytest.fixture
+def pane() -> Pane:
+    return Pane()
+
+
+@pytest.fixture
+def store(small_scene: Scene) -> SceneStore:
+    return SceneStore(small_scene)
+
+
+@pytest.fixture
+def before(store: SceneStore, pane: Pane) -> BeforeController:
+    return BeforeController(store, [pane])
+
+
+def test_a_gesture_keeps_what_was_shown_when_it_began(
+    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+) -> None:
+    first, second = snapshot_of(), snapshot_of(iso=300.0)
+    before.show_snapshot(first)
+    store.change(1, iso=300.0)
+    before.show_snapshot(second)
+    store.change(1, iso=400.0)
+    store.change(1, iso=500.0)
+    assert pane.shown == [first]
+    store.change(2, iso=600.0)
+    assert pane.shown == [first, second]
+
+
+def test_undoing_keeps_what_is_undone(
+    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+) -> None:
+    first, second = snapshot_of(), snapshot_of(iso=300.0)
+    before.show_snapshot(first)
+    store.change(1, iso=300.0)
+    before.show_snapshot(second)
+    store.undo_stack.undo()
+    assert pane.shown == [first, second]
+    before.show_snapshot(first)
+    store.undo_stack.redo()
+    assert pane.shown == [first, second, first]
+
+
+def test_a_gesture_that_comes_back_to_where_it_began_goes_on(
+    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+) -> None:
+    first = snapshot_of()
+    before.show_snapshot(first)
+    iso = store.scene.camera.iso
+    store.change(1, iso=300.0)
+    before.show_snapshot(snapshot_of(iso=300.0))
+    store.change(1, iso=iso)
+    assert store.undo_stack.count() == 0
+    assert pane.shown == [first]
+
+
+def test_a_picture_that_comes_late_is_the_one_before_if_the_gesture_began_at_it(
+    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+) -> None:
+    first, late, now = snapshot_of(), snapshot_of(iso=300.0), snapshot_of(iso=500.0)
+    before.show_snapshot(first)
+    store.change(1, iso=300.0)
+    store.change(2, iso=500.0)
+    assert pane.shown == [first, first]
+    before.show_snapshot(late)
+    before.show_snapshot(now)
+    assert pane.shown == [first, first, late]
+
+
+def test_before_the_first_picture_there_is_nothing_before(
+    store: SceneStore, before: BeforeController, pane: Pane
+) -> None:
+    store.change(1, iso=300.0)
+    assert pane.shown == []
+    assert before.before is None
+
+
+def test_the_profile_before_is_drawn_named_and_in_view(
+    qtbot: QtBot, snapshot_of: SnapshotOf
+) -> None:
+    view = ProfileView()
+    qtbot.addWidget(view)
+    view.resize(900, 300)
+    view.show()
+    brighter, now = snapshot_of(iso=1600.0), snapshot_of()
+    view.show_snapshot(now)
+    names = [label for label in view.legend.findChildren(QLabel) if label.text() == "before"]
+    assert not names[0].isVisible()
+    view.show_before(brighter)
+    assert names[0].isVisible()
+    assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.profile)
+    assert view.plot.getViewBox().viewRange()[1][1] >= brighter.frame.profile.max()
+    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
+    assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.enhanced)
+
+
+@pytest.fixture
+def pane_with_wipe(qtbot: QtBot) -> tuple[PicturePane, BeforeWipe]:
+    pane = PicturePane("picture")
+    wipe = BeforeWipe(pane.box)
+    pane.caption_row.addWidget(wipe.controls)
+    qtbot.addWidget(pane)
+    pane.resize(500, 400)
+    pane.show()
+    return pane, wipe
+
+
+def flat(snapshot: Snapshot, level: int) -> Snapshot:
+    """Paint a picture all over with one level."""
+    snapshot.frame.image[...] = level
+    return snapshot
+
+
+def picture(pane: PicturePane) -> Grey:
+    image = pane.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
+    rows = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), -1)
+    return rows[rows.shape[0] // 2, : image.width()].copy()
+
+
+def test_the_picture_before_is_left_of_the_line_and_the_one_now_right_of_it(
+    qtbot: QtBot,
+    pane_with_wipe: tuple[PicturePane, BeforeWipe],
+    snapshot_of: SnapshotOf,
+) -> None:
+    pane, wipe = pane_with_wipe
+    now, then = flat(snapshot_of(columns=400), 200), flat(snapshot_of(columns=400), 50)
+    pane.show_picture(now.frame.image)
+    wipe.show_before(then)
+    assert 50 not in picture(pane)
+    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: 50 in picture(pane))
+    line = picture(pane)
+    left, right = np.flatnonzero(line == 50), np.flatnonzero(line == 200)
+    assert left.max() < right.min()
+    assert abs(len(left) - len(right)) <= 4
+    wipe.slider.setValue(25)
+    line = picture(pane)
+    assert np.mean(line == 50) == pytest.approx(np.mean(line == 200) / 3, abs=0.02)
+    wipe.line.setValue(299.5)
+    assert wipe.slider.value() == 75
+    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    assert 50 not in picture(pane)
+    assert not wipe.slider.isVisible()
+
+
+def test_a_wipe_that_is_off_draws_and_takes_nothing(
+    pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
+) -> None:
+    _, wipe = pane_with_wipe
+    wipe.show_before(snapshot_of())
+    assert not wipe.picture.isVisible()
+    assert wipe.picture.boundingRect().isEmpty()
+
+
+def test_a_wipe_that_is_asked_for_before_anything_has_changed_shows_nothing(
+    pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
+) -> None:
+    _, wipe = pane_with_wipe
+    wipe.chosen.setChecked(True)
+    wipe.slider.setValue(10)
+    assert not wipe.picture.isVisible()
+    wipe.show_before(snapshot_of())
+    assert wipe.picture.isVisible()
+
+
+def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
+    application: Application, user: User, grey_picture: Callable[[QWidget], Grey]
+) -> None:
+    application.image.before.chosen.setChecked(True)
+    _, start = application.profile.simulation.getOriginalDataset()
+    slider = user.row("exposure_time").slider
+    slider.setSliderDown(True)
+    for position in (500, 600, 700):
+        slider.setValue(position)
+        user.rest()
+    slider.setSliderDown(False)
+    _, then = application.profile.before.getOriginalDataset()
+    assert np.array_equal(then, start)
+    assert application.image.before.picture.isVisible()
+    grey_picture(application.image)
+    assert application.teaching.before.before is not None

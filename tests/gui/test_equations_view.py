@@ -1,0 +1,151 @@
+"""The equations with the numbers of the moment, and the marks on what has just changed."""
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFont
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.equations import EquationController
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.views import equation_text
+from occ_gui.views.equation_text import EquationText
+from occ_model.results.teaching import Equation
+from occ_model.scene import Scene
+from occ_model.teaching.equations import equations
+
+User = Any  # the fixture of that name
+
+NOTHING: frozenset[str] = frozenset()
+
+
+@pytest.fixture
+def view(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> EquationText:
+    monkeypatch.setattr(equation_text, "HIGHLIGHT_MS", 60)
+    view = EquationText()
+    qtbot.addWidget(view)
+    view.resize(360, 400)
+    view.show()
+    return view
+
+
+def marked(view: EquationText) -> list[str]:
+    """Give the pieces of text that have a background, are bold and underlined."""
+    found = []
+    block = view.document().begin()
+    while block.isValid():
+        pieces = block.begin()
+        while not pieces.atEnd():
+            piece = pieces.fragment()
+            style = piece.charFormat()
+            if style.background().style() != Qt.BrushStyle.NoBrush:
+                assert style.fontWeight() >= QFont.Weight.DemiBold
+                assert style.fontUnderline()
+                found.append(piece.text())
+            pieces += 1
+        block = block.next()
+    return found
+
+
+def test_symbols_numbers_and_results_are_all_there(view: EquationText, small_scene: Scene) -> None:
+    found = equations(small_scene)
+    view.show_equations(found, NOTHING)
+    text = view.toPlainText()
+    for equation in found:
+        assert equation.result in text
+        for term in equation.numbers:
+            assert re.sub("<.*?>", "", term.text) in text
+    assert "= (100 µs − 68 µs) / 8 µs" in text  # noqa: RUF001 - a minus sign
+    assert "(S t (Lv + EvR/π) / (K N2))1/γ" in text  # noqa: RUF001 - the equation's own letter
+    assert "[equation (1)]" in text
+    assert marked(view) == []
+
+
+def test_indices_stand_low_and_quantities_in_italics(
+    view: EquationText, small_scene: Scene
+) -> None:
+    view.show_equations(equations(small_scene), NOTHING)
+    html = view.toHtml()
+    assert re.search(
+        r"font-style:italic;[^>]*>t</span><span[^>]*vertical-align:sub;[^>]*>on<", html
+    )
+    assert re.search(r"font-weight:\d+;[^>]*>= 12\.50 columns<", html)
+
+
+def test_what_depends_on_the_change_is_marked_for_a_moment(
+    view: EquationText, small_scene: Scene, qtbot: QtBot
+) -> None:
+    view.show_equations(equations(small_scene), frozenset({"readout_time"}))
+    pieces = "".join(marked(view))
+    assert "8 µs" in pieces
+    assert "68 µs" not in pieces
+    assert "γ" not in pieces  # noqa: RUF001 - the equation's own letter
+    view.show_equations(equations(small_scene), frozenset({"gamma"}))
+    assert "1/2.22" in "".join(marked(view))
+    assert "8 µs" not in "".join(marked(view))
+    view._fading.setInterval(10)
+    view.show_equations(equations(small_scene), frozenset({"gamma"}))
+    qtbot.waitUntil(lambda: marked(view) == [])
+    assert "1/2.22" in view.toPlainText()
+
+
+def test_where_the_band_model_is_undefined_a_sentence_says_so(
+    view: EquationText, small_scene: Scene
+) -> None:
+    view.show_equations(equations(small_scene.replace(exposure_time=200e-6)), NOTHING)
+    assert "\nundefined: the exposure is longer" in view.toPlainText()
+
+
+def test_a_reader_stays_where_he_is_while_numbers_change(
+    view: EquationText, small_scene: Scene
+) -> None:
+    view.show_equations(equations(small_scene), NOTHING)
+    bar = view.verticalScrollBar()
+    bar.setValue(bar.maximum() // 2)
+    view.show_equations(equations(small_scene.replace(iso=200.0)), frozenset({"iso"}))
+    assert bar.value() == pytest.approx(bar.maximum() // 2, abs=20)
+
+
+class Pane:
+    """Notes what it is shown."""
+
+    def __init__(self) -> None:
+        self.shown: list[tuple[Sequence[Equation], frozenset[str]]] = []
+
+    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
+        self.shown.append((equations, changed))
+
+
+def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene) -> None:
+    pane, store = Pane(), SceneStore(small_scene)
+    controller = EquationController(store, pane)
+    store.change(iso=200.0)
+    assert pane.shown == []
+    controller.set_seen(True)
+    assert pane.shown == [(equations(store.scene), NOTHING)]
+    store.change(iso=300.0, exposure_time=1e-4)
+    assert pane.shown[1:] == [(equations(store.scene), {"iso", "exposure_time"})]
+    controller.set_seen(False)
+    store.change(iso=400.0)
+    controller.set_seen(True)
+    assert pane.shown[2:] == [(equations(store.scene), NOTHING)]
+    controller.set_seen(False)
+    controller.set_seen(True)
+    assert len(pane.shown) == 3
+
+
+def test_what_is_typed_arrives_in_the_equations(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    text = application.teaching.explanation.equations
+    user.enter("exposure_time", "90 us")
+    assert "90 µs" not in text.toPlainText()  # nobody sees it
+    application.window.bring_to_front("equations")
+    qtbot.waitUntil(lambda: "= 90 µs / 8 µs" in text.toPlainText())
+    user.enter("exposure_time", "136 us")
+    assert "136 µs" in text.toPlainText()
+    assert "136 µs" in marked(text)

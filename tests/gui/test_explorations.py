@@ -1,0 +1,189 @@
+"""Explorations: a list, steps that set their scene, and questions answered on demand."""
+
+from typing import Any
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app import PANES
+from occ_gui.application import Application
+from occ_gui.controllers import explorations as explorations_room
+from occ_gui.views.exploration_view import ExplorationView
+from occ_model.errors import SceneFileError
+from occ_model.scene import Scene
+from occ_model.teaching.explorations import explorations
+
+User = Any  # the fixture of that name
+
+
+@pytest.fixture
+def guide(application: Application, user: User, qtbot: QtBot) -> ExplorationView:
+    """Open the explorations by the menu."""
+    user.choose("&Explorations")
+    guide = application.teaching.exploring
+    qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.choices))
+    return guide
+
+
+def in_front(application: Application, name: str) -> bool:
+    return not application.window.docks[name].visibleRegion().isEmpty()
+
+
+def test_opening_the_explorations_lists_them_and_changes_nothing(
+    application: Application, guide: ExplorationView, small_scene: Scene
+) -> None:
+    titles = [exploration.title for exploration in explorations()]
+    assert len(titles) == 5
+    for button, title in zip(guide.choices, titles, strict=True):
+        assert button.text().startswith(title)
+        assert button.toolTip()
+    assert application.store.scene == small_scene
+    assert application.store.undo_stack.count() == 0
+
+
+def test_each_pane_that_a_step_names_is_a_dock() -> None:
+    named = {step.pane for exploration in explorations() for step in exploration.steps}
+    assert named <= set(PANES)
+
+
+def test_a_step_sets_its_scene_as_one_step_shows_its_pane_and_its_question(
+    application: Application, guide: ExplorationView, user: User, qtbot: QtBot, small_scene: Scene
+) -> None:
+    exploration = explorations()[0]
+    guide.choices[0].click()
+    user.rest()
+    step = exploration.steps[0]
+    assert application.store.scene == step.scene
+    assert application.store.undo_stack.count() == 1
+    assert guide.question.text() == step.question
+    assert "step 1 of 3" in guide.place.text()
+    assert not guide.back.isEnabled()
+    qtbot.waitUntil(lambda: in_front(application, step.pane))
+    user.choose("&Undo")
+    assert application.store.scene == small_scene
+
+
+def test_the_answer_is_shown_on_demand_and_hidden_again_by_the_next_step(
+    guide: ExplorationView, user: User
+) -> None:
+    guide.choices[0].click()
+    assert not guide.answer.isVisible()
+    guide.reveal.click()
+    assert guide.answer.isVisible()
+    assert "<i>t</i><sub>r</sub>" in guide.answer.text()
+    assert guide.reveal.text() == "Hide the answer"
+    guide.next.click()
+    assert not guide.answer.isVisible()
+    assert guide.reveal.text() == "Show the answer"
+    user.rest()
+
+
+def test_back_next_and_again_move_and_set_the_scene(
+    application: Application, guide: ExplorationView, user: User
+) -> None:
+    steps = explorations()[0].steps
+    guide.choices[0].click()
+    guide.next.click()
+    assert application.store.scene == steps[1].scene
+    application.store.change(switching_frequency=9e3)
+    guide.again.click()
+    assert application.store.scene == steps[1].scene
+    guide.back.click()
+    assert application.store.scene == steps[0].scene
+    guide.next.click()
+    guide.next.click()
+    assert guide.next.text() == "Done"
+    assert application.store.scene == steps[2].scene
+    user.rest()
+
+
+def test_progress_is_kept_and_what_is_done_is_ticked(
+    application: Application, guide: ExplorationView, user: User
+) -> None:
+    guide.choices[0].click()
+    guide.next.click()
+    guide.all.click()
+    assert "step 2 of 3" in guide.choices[0].text()
+    application.window.docks["explorations"].hide()
+    user.choose("&Explorations")
+    guide.choices[0].click()
+    assert "step 2 of 3" in guide.place.text()
+    guide.next.click()
+    guide.next.click()
+    assert guide.choices[0].text().startswith("✓ ")
+    assert "steps" in guide.choices[1].text()
+    guide.choices[0].click()
+    assert "step 1 of 3" in guide.place.text()
+    user.rest()
+
+
+def test_a_sample_photo_is_opened_kept_while_it_is_wanted_and_closed_afterwards(
+    application: Application, guide: ExplorationView, user: User, qtbot: QtBot
+) -> None:
+    opened: list[str] = []
+    application.photos.opened.connect(lambda p: opened.append("" if p is None else p.path.stem))
+    guide.choices[4].click()
+    user.rest()
+    qtbot.waitUntil(lambda: in_front(application, "photo"))
+    assert application.store.scene == explorations()[4].steps[0].scene
+    guide.again.click()
+    user.rest()
+    guide.next.click()
+    user.rest()
+    assert opened == ["led-1khz", "packets-6khz"]
+    guide.all.click()
+    guide.choices[1].click()
+    user.rest()
+    assert opened == ["led-1khz", "packets-6khz", ""]
+
+
+def test_a_photo_of_the_users_own_stays_open(
+    application: Application, guide: ExplorationView, user: User, photo_file: Any
+) -> None:
+    application.open_photo(photo_file)
+    user.rest()
+    guide.choices[1].click()
+    user.rest()
+    assert application.window.actions_by_name["close_photo"].isEnabled()
+
+
+def test_what_a_student_finds_with_the_photos_is_what_the_answers_say(
+    application: Application, guide: ExplorationView, user: User
+) -> None:
+    guide.choices[4].click()
+    user.rest()
+    for expected in ("12.8", "8.90"):
+        user.choose("&Match photo")
+        found = application.photo.result.values["readout_time"].text()
+        assert found.startswith(expected), found
+        if expected == "12.8":
+            guide.next.click()
+            user.rest()
+    user.choose("&Apply to the scene")
+    assert application.store.scene.transmitter.code == 345
+    assert application.controls.code.number.value() == 345
+
+
+def test_explorations_that_cannot_be_read_are_answered_in_a_sentence(
+    application: Application, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    def fail() -> None:
+        raise SceneFileError("1.toml is no exploration: it is a <song>.")
+
+    monkeypatch.setattr(explorations_room, "explorations", fail)
+    user.choose("&Explorations")
+    guide = application.teaching.exploring
+    qtbot.waitUntil(lambda: "&lt;song&gt;" in guide._invitation.text())
+    assert guide.choices == []
+
+
+def test_a_photo_that_is_missing_is_told(
+    application: Application,
+    guide: ExplorationView,
+    user: User,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(explorations_room, "sample_photos", list)
+    guide.choices[4].click()
+    assert user.message == "The photo led-1khz is missing."
+    user.rest()

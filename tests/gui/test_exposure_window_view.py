@@ -1,0 +1,236 @@
+"""The exposure of the column that the mouse, a click, an arrow key or a number chooses."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.exposure_column import ExposureController
+from occ_gui.state.snapshot import Snapshot
+from occ_gui.views.column_picker import ColumnPicker
+from occ_gui.views.exposure_plot import ExposurePlot
+from occ_model.results.teaching import ExposureWindow
+from occ_model.scene import Scene
+from occ_model.teaching.exposure_window import exposure_window
+
+SnapshotOf = Callable[..., Snapshot]
+User = Any  # the fixture of that name
+
+
+@pytest.fixture
+def plot(qtbot: QtBot) -> ExposurePlot:
+    plot = ExposurePlot()
+    qtbot.addWidget(plot)
+    plot.resize(360, 200)
+    plot.show()
+    return plot
+
+
+def test_chips_window_and_time_on_are_drawn_in_microseconds(
+    plot: ExposurePlot, small_scene: Scene
+) -> None:
+    window = exposure_window(small_scene, 1003)
+    plot.show_window(window, 42.25)
+    x, y = plot.chips.getData()
+    assert x == pytest.approx(window.edges * 1e6)
+    assert y.tolist() == window.lit.tolist()
+    low, high = plot.shade.getRegion()
+    assert high - low == pytest.approx(68.0)
+    parts = window.lit_parts * 1e6
+    assert plot.lit.opts["x0"] == pytest.approx(parts[:, 0])
+    assert plot.lit.opts["x1"] == pytest.approx(parts[:, 1])
+    assert plot.lit.opts["brush"].style() == Qt.BrushStyle.BDiagPattern
+    share = 100 * window.on_time / 68e-6
+    said = f"Column 1003: 68 µs exposure, LED on for {window.on_time * 1e6:.4g} µs ({share:.0f} %)"
+    assert plot.sentence.text() == f"{said} → 42.2 grey levels"
+    first, last = plot.plot.getViewBox().viewRange()[0]
+    assert first <= 0.0 < x[-1] <= last
+
+
+def test_a_column_in_the_dark_has_no_time_on(plot: ExposurePlot, small_scene: Scene) -> None:
+    plot.show_window(exposure_window(small_scene.replace(pattern="0"), 5), 9.0)
+    assert not plot.lit.isVisible()
+    assert "LED on for 0 s (0 %)" in plot.sentence.text()
+
+
+def test_what_is_not_drawn_is_told(plot: ExposurePlot, small_scene: Scene) -> None:
+    scene = small_scene.replace(exposure_time=1.0)
+    window = exposure_window(scene, 5)
+    plot.show_window(window, 9.0)
+    assert f"only the first {len(window.lit)} chips are drawn" in plot.sentence.text()
+    assert plot.shade.getRegion()[1] <= plot.chips.getData()[0][-1]
+
+
+class Pane:
+    """Notes what it is shown."""
+
+    def __init__(self) -> None:
+        self.columns: list[tuple[int, bool]] = []
+        self.windows: list[tuple[int, float]] = []
+
+    def show_column(self, column: int, columns: int, held: bool) -> None:
+        assert 0 <= column < columns
+        self.columns.append((column, held))
+
+    def show_window(self, window: ExposureWindow, level: float) -> None:
+        self.windows.append((window.column, level))
+
+
+class Mark:
+    """Marks nothing."""
+
+    active = False
+
+    def set_active(self, active: bool) -> None:
+        self.active = active
+
+    def show_column(self, column: int, held: bool) -> None:
+        """Do nothing."""
+
+
+@pytest.fixture
+def pane() -> Pane:
+    return Pane()
+
+
+@pytest.fixture
+def controller(pane: Pane, bare_snapshot_of: SnapshotOf) -> ExposureController:
+    controller = ExposureController(pane, Mark())
+    controller.set_seen(True)
+    controller.show_snapshot(bare_snapshot_of())
+    return controller
+
+
+def test_the_level_told_is_that_of_the_profile(
+    controller: ExposureController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    profile = bare_snapshot_of().frame.profile
+    controller.hover(1234)
+    assert pane.windows[-1] == (1234, profile[1234])
+
+
+def test_a_column_that_is_held_stays_until_it_is_let_go(
+    controller: ExposureController, pane: Pane
+) -> None:
+    controller.hover(10)
+    controller.click(20)
+    controller.hover(30)
+    assert pane.columns[-1] == (20, True)
+    controller.step(1)
+    controller.step(-3)
+    assert pane.columns[-1] == (18, True)
+    controller.click(18)
+    assert pane.columns[-1] == (18, False)
+    controller.hover(40)
+    assert pane.columns[-1] == (40, False)
+    controller.choose(50)
+    controller.hold(False)
+    controller.hover(60)
+    assert pane.columns[-1] == (60, False)
+
+
+def test_no_column_outside_of_the_picture_is_shown(
+    controller: ExposureController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    controller.hover(-5)
+    assert pane.columns[-1][0] == 0
+    controller.hover(10**9)
+    last = pane.columns[-1][0]
+    assert last == len(bare_snapshot_of().frame.profile) - 1
+    controller.show_snapshot(bare_snapshot_of(columns=500))
+    assert pane.columns[-1][0] == 499
+
+
+def test_nothing_is_worked_out_unseen(pane: Pane, bare_snapshot_of: SnapshotOf) -> None:
+    controller = ExposureController(pane, Mark())
+    controller.show_snapshot(bare_snapshot_of())
+    controller.hover(5)
+    assert pane.windows == []
+    controller.set_seen(True)
+    assert [column for column, _ in pane.windows] == [5]
+
+
+def place_of(application: Application, column: float) -> QPoint:
+    plot = application.profile.plot
+    scene = plot.getViewBox().mapViewToScene(QPointF(column, 20.0))
+    return plot.mapFromScene(scene)
+
+
+def move_mouse(application: Application, column: float) -> None:
+    """Move the mouse over a column of the profile, no button down."""
+    viewport = application.profile.plot.viewport()
+    place = place_of(application, column)
+    none, no_key = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+    event = QMouseEvent(
+        QEvent.Type.MouseMove, QPointF(place), QPointF(viewport.mapToGlobal(place)), none, none,
+        no_key,
+    )  # fmt: skip
+    QApplication.sendEvent(viewport, event)
+
+
+@pytest.fixture
+def seen(application: Application, qtbot: QtBot) -> Application:
+    application.window.bring_to_front("equations")
+    pane = application.teaching.explanation
+    qtbot.waitUntil(lambda: bool(pane.exposure.sentence.text()))
+    return application
+
+
+def test_mouse_click_and_keys_over_the_profile_choose_a_column(
+    seen: Application, qtbot: QtBot
+) -> None:
+    exposure, plot = seen.teaching.explanation.exposure, seen.profile.plot
+    viewport = plot.viewport()
+    first, last = plot.getViewBox().viewRange()[0]
+    there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
+    move_mouse(seen, there)
+    qtbot.waitUntil(lambda: abs(exposure.column.value() - there) <= 1)
+    qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(seen, place))
+    qtbot.waitUntil(exposure.hold.isChecked)
+    column = exposure.column.value()
+    assert abs(column - place) <= 1
+    qtbot.keyClick(plot, Qt.Key.Key_Right)
+    assert exposure.column.value() == column + 1
+    assert exposure.sentence.text().startswith(f"Column {column + 1}:")
+    assert seen.teaching.picker.marker.value() == column + 1
+    qtbot.keyClick(plot, Qt.Key.Key_Escape)
+    assert not exposure.hold.isChecked()
+
+
+def test_a_number_typed_chooses_and_holds_a_column(seen: Application, qtbot: QtBot) -> None:
+    exposure = seen.teaching.explanation.exposure
+    exposure.column.selectAll()
+    qtbot.keyClicks(exposure.column, "1100")
+    qtbot.keyClick(exposure.column, Qt.Key.Key_Return)
+    assert exposure.sentence.text().startswith("Column 1100:")
+    assert exposure.hold.isChecked()
+    qtbot.keyClick(exposure.hold, Qt.Key.Key_Space)
+    assert not exposure.hold.isChecked()
+
+
+def test_the_mark_is_in_the_profile_only_while_the_exposure_is_seen(
+    seen: Application, qtbot: QtBot
+) -> None:
+    picker: ColumnPicker = seen.teaching.picker
+    assert picker.marker.isVisible()
+    seen.window.bring_to_front("decode")
+    qtbot.waitUntil(lambda: not picker.marker.isVisible())
+    said = seen.teaching.explanation.exposure.sentence.text()
+    move_mouse(seen, seen.profile.plot.getViewBox().viewRange()[0][0] + 50.0)
+    qtbot.keyClick(seen.profile.plot, Qt.Key.Key_Right)
+    assert seen.teaching.explanation.exposure.sentence.text() == said
+
+
+def test_the_exposure_follows_the_scene(seen: Application, user: User) -> None:
+    user.enter("exposure_time", "136 us")
+    assert "136 µs exposure" in seen.teaching.explanation.exposure.sentence.text()
+    level = seen.profile.simulation.getOriginalDataset()[1]
+    column = seen.teaching.explanation.exposure.column.value()
+    assert f"{level[column]:.1f} grey levels" in seen.teaching.explanation.exposure.sentence.text()
+    assert np.isfinite(level).all()

@@ -1,0 +1,168 @@
+"""Every answer of the explorations is true: its numbers are held against the model."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.resource_files import resource_path
+from occ_model.results.teaching import Step
+from occ_model.scene import Scene
+from occ_model.teaching.explorations import explorations
+
+
+def step(exploration: int, number: int) -> Step:
+    return explorations()[exploration - 1].steps[number - 1]
+
+
+def reads(scene: Scene, decoder: str = "threshold") -> bool:
+    image = occ.render(scene, tolerance=math.inf).image
+    return occ.decode(image, scene, decoder=decoder).code == scene.transmitter.code
+
+
+def swing(scene: Scene) -> float:
+    return float(np.ptp(occ.column_profile(scene)))
+
+
+def test_a_slope_is_as_wide_as_the_exposure_whatever_the_frequency() -> None:
+    asked = step(1, 1)
+    assert "8.5 columns" in asked.answer
+    for frequency in (5e3, 10e3):
+        scene = asked.scene.replace(switching_frequency=frequency)
+        assert occ.band_lengths(scene)[1] == pytest.approx(8.5)
+    assert occ.band_lengths(asked.scene.replace(readout_time=4e-6))[1] == pytest.approx(17.0)
+    assert occ.band_lengths(asked.scene.replace(exposure_time=34e-6))[1] == pytest.approx(4.25)
+
+
+def test_the_band_model_ends_where_the_period_is_the_exposure() -> None:
+    asked = step(1, 2)
+    assert "7.35 kHz" in asked.answer
+    occ.band_lengths(asked.scene.replace(switching_frequency=7.35e3))
+    with pytest.raises(occ.BandModelUndefined):
+        occ.band_lengths(asked.scene.replace(switching_frequency=7.36e3))
+
+
+def test_the_papers_decoder_stops_a_little_above_14_khz_and_the_matched_one_goes_on() -> None:
+    asked = step(1, 3)
+    assert all(text in asked.answer for text in ("a little above 14 kHz", "14.7 kHz", "50 kHz"))
+    scene = asked.scene
+    assert scene.camera.exposure_time * 14.7e3 == pytest.approx(2.0, abs=0.001)
+    assert [reads(scene.replace(switching_frequency=f)) for f in (10e3, 14e3, 15e3)] == [
+        True, True, False,
+    ]  # fmt: skip
+    for frequency in (15e3, 50e3, 70e3):
+        noisy = scene.replace(switching_frequency=frequency, rows=1000)
+        image = occ.render(noisy, seed=1).image
+        assert occ.decode(image, noisy, decoder="matched").code == noisy.transmitter.code
+
+
+@pytest.mark.parametrize(("number", "null"), [(1, 14.7e3), (2, 29.4e3)])
+def test_the_stripes_vanish_where_the_answers_say(number: int, null: float) -> None:
+    asked = step(2, number)
+    assert f"{null / 1e3:g} kHz" in asked.answer
+    at_null = swing(asked.scene.replace(switching_frequency=null))
+    beside = [swing(asked.scene.replace(switching_frequency=null * k)) for k in (0.9, 1.1)]
+    assert at_null < 0.1 < 3.0 < min(beside)
+
+
+def test_beyond_the_null_bright_and_dark_have_changed_places() -> None:
+    signs = []
+    for asked in (step(2, 1), step(2, 2)):
+        scene = asked.scene
+        middle = np.arange(scene.camera.columns) * scene.camera.readout_time
+        middle += scene.camera.exposure_time / 2
+        lit = np.mod(middle * scene.transmitter.switching_frequency, 2.0) < 1.0
+        signs.append(np.sign(np.corrcoef(lit, occ.column_profile(scene))[0, 1]))
+    assert signs == [1.0, -1.0]
+    assert swing(step(2, 2).scene) < 0.5 * swing(step(2, 1).scene)
+
+
+def test_at_the_null_only_the_matched_decoder_reads_and_is_sure() -> None:
+    asked = step(2, 3)
+    assert "above 0.9" in asked.answer
+    image = occ.render(asked.scene, seed=1).image
+    matched = occ.decode(image, asked.scene, decoder="matched")
+    assert matched.code == asked.scene.transmitter.code
+    assert matched.confidence is not None
+    assert matched.confidence > 0.9
+    failure = occ.decode(image, asked.scene).failure
+    assert failure is not None
+    assert "The first two headers are" in failure
+
+
+def test_coming_closer_two_headers_fit_from_the_distances_named() -> None:
+    asked = step(3, 1)
+    assert all(text in asked.answer for text in ("1 m", "1460 columns", "0.75 m", "1077", "923"))
+    scene = asked.scene
+    assert [reads(scene.replace(distance=d)) for d in (2.0, 1.1, 1.0, 0.9)] == [
+        False, False, True, True,
+    ]  # fmt: skip
+    closer = scene.replace(distance=1.0)
+    assert np.ptp(occ.panel_corners(closer)[:, 0]) == pytest.approx(1460, abs=15)
+    chip = scene.transmitter.switching_period / scene.camera.readout_time
+    assert len(occ.packet(scene)) * chip == pytest.approx(923, abs=0.5)
+    assert (len(occ.packet(scene)) + 4) * chip == pytest.approx(1077, abs=0.5)
+    starts = np.linspace(0.0, 12e-3, 12, endpoint=False).tolist()
+    always = [reads(scene.replace(distance=0.75, start_time=t)) for t in starts]
+    by_luck = [reads(scene.replace(distance=1.0, start_time=t)) for t in starts]
+    assert all(always)
+    assert not all(by_luck)
+
+
+def test_sending_faster_helps_from_the_frequencies_named_up_to_two_chips_an_exposure() -> None:
+    asked = step(3, 2)
+    assert all(text in asked.answer for text in ("4 kHz", "4.5 kHz", "6 kHz", "16.4 kHz"))
+    scene = asked.scene
+    at = {f: reads(scene.replace(switching_frequency=f)) for f in (2e3, 4e3, 4.5e3, 6e3, 16.4e3)}
+    assert at == {2e3: False, 4e3: True, 4.5e3: False, 6e3: True, 16.4e3: False}
+    starts = np.linspace(0.0, 4e-3, 8, endpoint=False).tolist()
+    faster = scene.replace(switching_frequency=6e3)
+    assert all(reads(faster.replace(start_time=t)) for t in starts)
+    assert scene.camera.exposure_time * 16.4e3 == pytest.approx(2.0, abs=0.01)
+
+
+def test_with_a_tolerance_of_30_levels_the_effects_named_are_left_out() -> None:
+    asked = step(4, 1)
+    plan = occ.plan(asked.scene, tolerance=30.0, observable="image")
+    bounds = {d.effect: d.bound for d in plan.decisions if d.bound > 0.0}
+    gone = sorted((e for e in bounds if e not in plan.included), key=lambda e: bounds[e])
+    assert gone == ["led-edges", "fixed-pattern", "emission", "flicker", "jpeg"]
+    assert [round(bounds[effect]) for effect in gone[-2:]] == [4, 13]
+    assert max(bounds[effect] for effect in gone[:-1]) < 4.0
+    assert plan.left_out <= 30.0
+    assert {"sensor-noise", "defocus", "vignetting", "distortion"} == set(plan.included)
+    kept = sorted(round(bounds[effect]) for effect in plan.included)
+    assert (kept[0], kept[1], kept[-1]) == (15, 20, 25)
+    first = occ.plan(asked.scene, tolerance=0.5, observable="image")
+    assert set(first.included) == set(bounds)
+
+
+def test_the_papers_scene_calls_for_noise_alone_and_4096_samples_are_still_off() -> None:
+    asked = step(4, 2)
+    assert "a hundredth of a grey level" in asked.answer
+    plan = occ.plan(asked.scene, tolerance=0.5, observable="image")
+    assert set(plan.included) == {"sensor-noise", "fixed-pattern"}
+    points = {}
+    for point in occ.accuracy(asked.scene.replace(rows=20)):
+        if point.part != "integration":
+            break
+        points[point.name] = point
+    assert 0.005 < points["4096 samples"].error < 0.02
+    assert points["closed form"].error < 1e-9
+
+
+@pytest.mark.parametrize(("number", "readout"), [(1, 12.8e-6), (2, 8.9e-6)])
+def test_the_photos_give_what_the_answers_say(number: int, readout: float) -> None:
+    asked = step(5, number)
+    photo = occ.load_photo(resource_path("photos", f"{asked.photo}.jpg"))
+    found = occ.match_photo(photo, asked.scene)
+    assert f"{readout * 1e6:g} µs a column" in asked.answer
+    assert found.readout_time == pytest.approx(readout, abs=0.01e-6)
+    assert found.uncertainties["readout_time"] < 0.01e-6
+    if number == 2:
+        assert "Code 345" in asked.answer
+        assert found.pattern_was_read
+        assert found.scene.transmitter.code == 345 != asked.scene.transmitter.code
+        assert found.exposure_time == pytest.approx(136e-6, abs=0.6e-6)
+        assert "136 µs" in asked.answer

@@ -1,0 +1,186 @@
+"""The explanations say what the model does: equations, exposure windows, explorations."""
+
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.camera.photometry import WHITE, level_values
+from occ_model.errors import ParameterError, SceneFileError
+from occ_model.parameters import PARAMETERS
+from occ_model.resource_files import resource_path
+from occ_model.results.teaching import Equation
+from occ_model.scene import Scene
+from occ_model.teaching.equations import equations
+from occ_model.teaching.explorations import explorations, read_exploration
+from occ_model.teaching.exposure_window import exposure_window
+
+PANES = ("profile", "decode", "accuracy", "photo")
+"""The docks that a step can name."""
+
+scenes = st.builds(
+    lambda exposure, frequency, readout, iso, start, pattern: Scene().replace(
+        exposure_time=exposure, switching_frequency=frequency, readout_time=readout, iso=iso,
+        start_time=start, pattern=pattern, columns=500,
+    ),
+    exposure=st.floats(1e-5, 2e-3),
+    frequency=st.floats(500.0, 1e5),
+    readout=st.floats(1e-6, 1e-4),
+    iso=st.floats(50.0, 6400.0),
+    start=st.floats(-1e3, 1e3),
+    pattern=st.sampled_from(["", "10", "1101000", "0", "1"]),
+)  # fmt: skip
+
+
+def numbers_in(text: str) -> list[float]:
+    return [float(number) for number in re.findall(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?", text)]
+
+
+def by_meaning(scene: Scene) -> dict[str, Equation]:
+    keys = (
+        "lit panel",
+        "dark panel",
+        "a column",
+        "one state",
+        "a transition",
+        "of a chip",
+        "no str",
+    )
+    found = equations(scene)
+    return {k: e for k in keys for e in found if k in e.meaning}
+
+
+@settings(max_examples=60)
+@given(scenes)
+def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> None:
+    found = by_meaning(scene)
+    assert len(found) == len(equations(scene)) == 7
+    low, high = level_values(scene).tolist()
+    assert numbers_in(found["lit panel"].result)[0] == pytest.approx(high, abs=0.051)
+    assert numbers_in(found["dark panel"].result)[0] == pytest.approx(low, abs=0.051)
+    assert ("more than white" in found["lit panel"].result) == (high > WHITE)
+    span = numbers_in(found["a column"].result)[:2]
+    assert span == pytest.approx([min(low, WHITE), min(high, WHITE)], abs=0.051)
+    profile = occ.column_profile(scene)
+    assert span[0] - 0.06 <= profile.min() <= profile.max() <= span[1] + 0.06
+    chip = scene.transmitter.switching_period / scene.camera.readout_time
+    assert numbers_in(found["of a chip"].result)[0] == pytest.approx(chip, abs=0.0051)
+    try:
+        lengths = occ.band_lengths(scene)
+    except occ.BandModelUndefined:
+        assert all(found[k].result.startswith("undefined") for k in ("one state", "a transition"))
+    else:
+        shown = [numbers_in(found[k].result)[0] for k in ("one state", "a transition")]
+        assert shown == pytest.approx(lengths, abs=0.0051)
+
+
+def test_at_the_null_of_the_equations_an_alternating_pattern_has_no_stripes() -> None:
+    scene = Scene().replace(pattern="10", exposure_time=136e-6)
+    said = by_meaning(scene)["no str"].result
+    null = PARAMETERS["switching_frequency"].parse(said.split(";")[0])
+    assert isinstance(null, float)
+    at_null = occ.column_profile(scene.replace(switching_frequency=null))
+    assert np.ptp(at_null) < 1e-3 * np.ptp(occ.column_profile(scene))
+
+
+def test_every_parameter_that_a_term_names_exists_and_changes_its_equation() -> None:
+    scene = occ.load_preset("phone-68us")
+    for equation in equations(scene):
+        for term in (*equation.symbols, *equation.numbers):
+            assert set(term.parameters) <= set(PARAMETERS)
+        symbols = {name for term in equation.symbols for name in term.parameters}
+        assert symbols == equation.parameters, equation.meaning
+    for name, value in (("iso", 200.0), ("readout_time", 9e-6), ("switching_frequency", 9e3)):
+        changed = equations(scene.replace(**{name: value}))
+        for before, after in zip(equations(scene), changed, strict=True):
+            shown = [(e.numbers, e.result.split(";")[0]) for e in (before, after)]  # no remark
+            if shown[0] != shown[1]:
+                assert name in after.parameters, after.meaning
+
+
+def test_the_notation_of_a_term_is_no_more_than_sub_and_sup() -> None:
+    for equation in equations(Scene()):
+        for text in (equation.meaning, *(t.text for t in equation.symbols + equation.numbers)):
+            tags = set(re.findall(r"<[^>]*>", text))
+            assert tags <= {"<sub>", "</sub>", "<sup>", "</sup>"}, text
+    assert (
+        "column by column; here light is averaged"
+        in by_meaning(Scene().replace(averaging="light"))["a column"].result
+    )
+
+
+@settings(max_examples=120)
+@given(scenes, st.integers(0, 499))
+def test_the_lit_parts_of_a_window_add_up_to_the_models_time_on(scene: Scene, column: int) -> None:
+    window = exposure_window(scene, column)
+    assert window.on_time == occ.on_time(scene)[column]
+    assert window.exposure_time == pytest.approx(scene.camera.exposure_time, rel=1e-9)
+    assert not window.shortened
+    begins, ends = window.lit_parts.T
+    assert (ends > begins).all()
+    assert (ends - begins).sum() == pytest.approx(window.on_time, abs=1e-9 * window.edges[-1])
+    assert window.edges[0] == 0.0 <= window.start <= window.end <= window.edges[-1]
+    assert len(window.edges) == len(window.lit) + 1
+
+
+def test_a_window_of_very_many_chips_is_cut_short_and_says_so() -> None:
+    window = exposure_window(Scene().replace(exposure_time=1.0, switching_frequency=1e6), 3)
+    assert window.shortened
+    assert len(window.lit) <= 1000
+    assert window.on_time == pytest.approx(0.5, abs=0.05)
+
+
+@pytest.mark.parametrize("start_time", [-1e9, 1e9])
+def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None:
+    scene = Scene().replace(start_time=start_time, columns=50)
+    for column in (0, 49):
+        window = exposure_window(scene, column)
+        parts = window.lit_parts
+        assert np.diff(parts).sum() == pytest.approx(occ.on_time(scene)[column], rel=1e-9)
+
+
+@pytest.mark.parametrize("column", [-1, 3456, 1.5, "2"])
+def test_a_column_that_the_picture_has_not_is_refused_in_a_sentence(column: object) -> None:
+    with pytest.raises(ParameterError, match=r"^column is .*allowed: .*\.$"):
+        exposure_window(Scene(), column)  # type: ignore[arg-type]
+
+
+def test_every_exploration_loads_and_names_a_pane_and_a_photo_that_there_are() -> None:
+    found = explorations()
+    assert [exploration.name[0] for exploration in found] == list("12345")
+    for exploration in found:
+        assert exploration.title
+        for step in exploration.steps:
+            assert step.text.endswith((".", ")"))
+            assert step.question.endswith("?")
+            assert step.answer.endswith(".")
+            assert step.pane in PANES
+            if step.photo:
+                assert resource_path("photos", f"{step.photo}.jpg").is_file()
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "title = 1",
+        "no toml",
+        'title = "x"\nstep = [{}]',
+        'title = "x"\nstep = 3',
+        'title = "x"\n[[step]]\npreset = "none such"\ntext = "a"\nquestion = "b"\nanswer = "c"',
+        'title = "x"\n[[step]]\npreset = "phone-68us"\nset = { iso = "-1" }\n'
+        'text = "a"\nquestion = "b"\nanswer = "c"',
+    ],
+)
+def test_a_file_that_is_no_exploration_is_refused_in_a_sentence(
+    tmp_path_factory: pytest.TempPathFactory, content: str
+) -> None:
+    path = tmp_path_factory.mktemp("explorations") / "mine.toml"
+    path.write_text(content, encoding="utf-8")
+    with pytest.raises((SceneFileError, ParameterError, occ.PresetError)) as refused:
+        read_exploration(path)
+    assert str(refused.value).endswith(".")
+    with pytest.raises(SceneFileError, match=r"missing\.toml"):
+        read_exploration(path.with_name("missing.toml"))

@@ -8,6 +8,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
+from occ_gui.state.picture import Picture
 from occ_gui.state.request import SimulationRequest
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
@@ -27,10 +28,10 @@ class SnapshotView(Protocol):
         """Show these results in place of the last ones."""
 
 
-class FrameView(Protocol):
+class PictureView(Protocol):
     """A pane that shows a picture before it has been read."""
 
-    def show_frame(self, frame: Frame) -> None:
+    def show_picture(self, picture: Picture) -> None:
         """Show this picture in place of the last one."""
 
 
@@ -123,7 +124,7 @@ class SimulationController(QObject):
         scenes: SceneStore,
         settings: SettingsStore,
         views: Sequence[SnapshotView],
-        pictures: Sequence[FrameView] = (),
+        pictures: Sequence[PictureView] = (),
     ) -> None:
         super().__init__()
         self._scenes = scenes
@@ -133,7 +134,7 @@ class SimulationController(QObject):
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
         )
-        self.runner.early.connect(self._show_frame)
+        self.runner.early.connect(self._show_picture)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         for store in (scenes, settings):
@@ -144,11 +145,15 @@ class SimulationController(QObject):
         self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
-        return simulate(request.scene, request.settings, self.runner.hand_over)
+        return simulate(
+            request.scene,
+            request.settings,
+            lambda frame: self.runner.hand_over(Picture.of(frame)),
+        )
 
-    def _show_frame(self, frame: Frame) -> None:
+    def _show_picture(self, picture: Picture) -> None:
         for view in self._pictures:
-            view.show_frame(frame)
+            view.show_picture(picture)
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:

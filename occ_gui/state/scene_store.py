@@ -9,6 +9,9 @@ from occ_model.errors import OccError
 from occ_model.parameters import PARAMETERS
 from occ_model.scene import Scene
 
+_MOST_STEPS = 500
+"""Steps that can be undone: nobody goes back further, and each holds a scene."""
+
 
 class SceneStore(QObject):
     """Holds the scene and tells when it changes.
@@ -29,6 +32,7 @@ class SceneStore(QObject):
         super().__init__()
         self._scene = scene
         self.undo_stack = QUndoStack(self)
+        self.undo_stack.setUndoLimit(_MOST_STEPS)
 
     @property
     def scene(self) -> Scene:

@@ -10,9 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
+from occ_gui.starting import Start, Unasked, start_of
 from occ_model.output import write_whole
 from occ_model.scene import Scene
 from occ_model.settings import (
+    DEFAULT_PRESET,
     add_scene_options,
     add_simulation_options,
     scene_of,
@@ -21,6 +23,7 @@ from occ_model.settings import (
 from occ_model.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:
+    from PySide6.QtCore import QSettings
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
@@ -37,9 +40,15 @@ PANES = (
 OVERLAYS = ("beside", "blend", "split", "difference")
 """How a photo can be shown with the simulated picture."""
 
+THEMES = ("system", "light", "dark")
+"""Whose colours the window takes."""
+
 _NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
 _TURN_MS = 200
+
+_TURN_S = 0.001
+"""How long a thread may keep the others waiting."""
 
 _LARGEST_SIDE = 16384
 """Pixels of a window's side; a larger one could not be drawn."""
@@ -52,7 +61,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the application; return the process's exit code."""
     options = _parser().parse_args(arguments)
     try:
-        return _run(options, scene_of(options), simulation_settings_of(options))
+        settings = simulation_settings_of(options)
+        own = settings == simulation_settings_of(_parser().parse_args([]))
+        return _run(options, start_of(options, scene_of(options), settings, own))
     except occ.OccError as error:
         return _refuse(str(error))
 
@@ -69,7 +80,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
     add_simulation_options(parser)
-    parser.set_defaults(noise="reused")  # keeps up with a slider
+    # Noise that keeps up with a slider, and a preset that wins over the last session if named.
+    parser.set_defaults(noise="reused", preset=Unasked(DEFAULT_PRESET))
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
         "--match", action="store_true", help="match the photo, and let the scene follow it"
@@ -86,6 +98,10 @@ def _parser() -> argparse.ArgumentParser:
         "--size", type=_size, metavar="WIDTHxHEIGHT", help="the window's size, such as 1280x800"
     )
     parser.add_argument("--dock", choices=PANES, help="bring this pane to the front")
+    parser.add_argument("--theme", choices=THEMES, help="the window's colours")
+    parser.add_argument(
+        "--fresh", action="store_true", help="start without what the last session left"
+    )
     return parser
 
 
@@ -99,18 +115,12 @@ def _size(text: str) -> tuple[int, int]:
     return width, height
 
 
-def _run(options: argparse.Namespace, scene: Scene, settings: SimulationSettings) -> int:
-    if options.match and not options.photo:
-        raise occ.OccError("--match needs a photo; name one with --photo.")
-    if options.screenshot:
-        if options.screenshot.suffix.lower() != ".png":
-            raise occ.OutputError(f"{options.screenshot}: a screenshot is a .png file; name one.")
-        os.environ["QT_QPA_PLATFORM"] = "offscreen"
-        # A photo that cannot be read must fail here, not show as an empty pane in the picture.
-        if options.photo:
-            occ.load_photo(options.photo)
-    # A screenshot is of the window as it comes, whatever its user did last.
-    qt, application = start(scene, sys.argv[:1], settings, remembers=not options.screenshot)
+def _run(options: argparse.Namespace, begin: Start) -> int:
+    _prepare(options)
+    qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.memory)
+    begin.take_up(application, with_photo=options.photo is None)
+    if options.theme:
+        application.desktop.theme.choose(options.theme)
     if options.size:
         application.window.resize(*options.size)
     if options.photo:
@@ -124,6 +134,19 @@ def _run(options: argparse.Namespace, scene: Scene, settings: SimulationSettings
         return 0
     _close_on_interrupt(application)
     return qt.exec()
+
+
+def _prepare(options: argparse.Namespace) -> None:
+    """Refuse what cannot be, before there is a window."""
+    if options.match and not options.photo:
+        raise occ.OccError("--match needs a photo; name one with --photo.")
+    if options.screenshot:
+        if options.screenshot.suffix.lower() != ".png":
+            raise occ.OutputError(f"{options.screenshot}: a screenshot is a .png file; name one.")
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+        # A photo that cannot be read must fail here, not show as an empty pane in the picture.
+        if options.photo:
+            occ.load_photo(options.photo)
 
 
 def _close_on_interrupt(application: "Application") -> None:
@@ -141,7 +164,7 @@ def start(
     scene: Scene,
     arguments: list[str],
     settings: SimulationSettings | None = None,
-    remembers: bool = False,
+    memory: "QSettings | None" = None,
 ) -> "tuple[QApplication, Application]":
     """Put the application together, its window not yet shown.
 
@@ -153,24 +176,24 @@ def start(
         What Qt may read from the command line.
     settings
         How the scene is simulated at first, by default as suits a slider.
-    remembers
-        Whether files that were opened are remembered until the next start.
+    memory
+        What is remembered from one start to the next; by default nothing.
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would find out by itself, but say more about it than helps.
         raise occ.OccError(_NO_DISPLAY)
     # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
-    from PySide6.QtCore import QSettings
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
     from occ_gui.qt_messages import log_qt_messages
     from occ_gui.state.settings_store import FIRST_SETTINGS
 
+    # The threads that hand work to processes take turns with the window's: shorter ones suit both.
+    sys.setswitchinterval(_TURN_S)
     log_qt_messages(_end_without_display)
     qt = QApplication(arguments)
     log_qt_messages()
-    memory = QSettings("occ-explorer", "occ-gui") if remembers else None
     return qt, Application(scene, settings or FIRST_SETTINGS, memory)
 
 
@@ -179,8 +202,15 @@ def _end_without_display() -> NoReturn:
     os._exit(_refuse(_NO_DISPLAY))
 
 
-def wait_until_shown(application: "Application") -> None:
+def wait_until_shown(application: "Application", measured: bool = False) -> None:
     """Let the window work until all that was asked for is shown.
+
+    Parameters
+    ----------
+    application
+        The window's.
+    measured
+        Whether to wait for the detection map and the strips under the sliders, too.
 
     Raises
     ------
@@ -196,18 +226,19 @@ def wait_until_shown(application: "Application") -> None:
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
     QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case
-    while not (_is_at_rest(application) or deadline.hasExpired()):
+    while not (_is_at_rest(application, measured) or deadline.hasExpired()):
         # Waiting, not spinning: the worker needs the interpreter.
         QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
     QApplication.processEvents()
     if failures:
         raise occ.OccError(failures[0])
-    if not _is_at_rest(application):
+    if not _is_at_rest(application, measured):
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 
 
-def _is_at_rest(application: "Application") -> bool:
-    return application.is_idle and application.study.is_idle and application.reach.is_idle
+def _is_at_rest(application: "Application", measured: bool) -> bool:
+    shown = application.is_idle and application.study.is_idle
+    return shown and (application.reach.is_idle or not measured)
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:
@@ -215,7 +246,7 @@ def _take_screenshot(application: "Application", path: Path) -> None:
     from PySide6.QtCore import QBuffer, QIODevice
 
     try:
-        wait_until_shown(application)
+        wait_until_shown(application, measured=True)
         buffer = QBuffer()
         buffer.open(QIODevice.OpenModeFlag.WriteOnly)
         if not application.window.grab().save(buffer, "PNG"):

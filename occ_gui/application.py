@@ -13,6 +13,8 @@ from occ_gui.controllers.photo_desk import PhotoDesk
 from occ_gui.controllers.presets import PresetController
 from occ_gui.controllers.reach_desk import ReachDesk
 from occ_gui.controllers.simulation import SimulationController
+from occ_gui.controllers.teaching_desk import TeachingDesk
+from occ_gui.desktop import Desktop
 from occ_gui.main_window import MainWindow
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
@@ -74,13 +76,18 @@ class Application(QObject):
         self.photos = self.desk.photos
         self.presets = PresetController(self.window, self.store, self.desk.matching)
         self.files = FileController(self.window, self.store, self.photos, self.memory)
-        # The comparison goes before the profile, which is drawn with it.
-        views = (self.image, self.desk.comparison, self.profile, self.decode, self.accuracy)
-        self.simulation = SimulationController(self.store, self.settings, [*views, self.files])
+        self.teaching = TeachingDesk(self.window, self.store, self.photos, self.image, self.profile)
+        # What was before, and the comparison, go before the profile, which is drawn with them.
+        first = (self.image, self.teaching, self.desk.comparison)
+        views = (*first, self.profile, self.decode, self.accuracy)
+        self.simulation = SimulationController(
+            self.store, self.settings, [*views, self.files], [self.image]
+        )
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
         self.reach = ReachDesk(self.store, self.settings, self.detection, self.margins)
+        self.desktop = Desktop(self)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
         self._connect_scene()
@@ -105,6 +112,7 @@ class Application(QObject):
         self.simulation.shown.connect(self._on_shown)
         self.simulation.failed.connect(self._say_failure)
         self.files.said.connect(self.window.say)
+        self.teaching.said.connect(self._say_refusal)
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
@@ -134,7 +142,6 @@ class Application(QObject):
             "open_photo": self.files.ask_for_photo,
             "close_photo": self.photos.close,
             "open_scene": self.files.ask_for_scene,
-            "save_scene": self.files.ask_to_save_scene,
             "save_picture": self.files.ask_to_save_picture,
             "delete_preset": self.presets.ask_to_delete,
             "match": self._match,
@@ -164,7 +171,7 @@ class Application(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all that was asked for is shown."""
-        return self.simulation.runner.is_idle and self.desk.is_idle
+        return self.simulation.runner.is_idle and self.desk.is_idle and self.desktop.is_idle
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
         """Open a photo.
@@ -195,7 +202,7 @@ class Application(QObject):
 
     def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
         self.window.happened(_CHANGE)  # also where the value that holds is entered again
-        self.store.change(gesture, **{name: value})
+        self.desktop.brightness.change(gesture, name, value)
 
     def _show_scene(self, scene: Scene) -> None:
         self.window.happened(_CHANGE)
@@ -279,3 +286,4 @@ class Application(QObject):
         self.study.stop()
         self.desk.stop()
         self.reach.stop()
+        self.desktop.stop()

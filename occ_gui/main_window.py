@@ -35,6 +35,9 @@ class MainWindow(QMainWindow):
     closing = Signal()
     """The window is about to close."""
 
+    arranged = Signal()
+    """The panes have been laid out for the first time."""
+
     dropped = Signal(list)
     """The paths of what was dropped on the window; none where nothing of it is a file."""
 
@@ -85,8 +88,9 @@ class MainWindow(QMainWindow):
         self._is_arranged = False
         self._behind = {"photo": "decode"}
         self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self._timing = QLabel()
+        self.pointed, self._timing = QLabel(), QLabel()
         self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
+        self.statusBar().addPermanentWidget(self.pointed)
         self.statusBar().addPermanentWidget(self._timing)
         self.resize(_FIRST_SIZE)
 
@@ -138,8 +142,6 @@ class MainWindow(QMainWindow):
     def show_photo_name(self, name: str | None) -> None:
         """Tell which photo is open, if any."""
         self.menus.show_photo_open(name is not None)
-        title = self.tr("Optical Camera Communication")
-        self.setWindowTitle(f"{name} – {title}" if name else title)  # noqa: RUF001 - a dash
 
     def show_timing(self, simulation: float, reading: float) -> None:
         """Tell how many seconds the last simulation took, and the reading of its picture."""
@@ -182,6 +184,7 @@ class MainWindow(QMainWindow):
                 self.docks[name].show()
             for front in set(self._behind.values()):
                 self.docks[front].raise_()
+            self.arranged.emit()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         """Take what may be files."""

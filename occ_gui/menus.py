@@ -90,7 +90,7 @@ class Menus(QObject):
         menu.addSeparator()
         self._add(menu, "delete_preset", self.tr("&Delete preset…"))
         menu.addSeparator()
-        self._add(menu, "quit", self.tr("&Quit"), keys.Quit).triggered.connect(window.close)
+        self._add(menu, "quit", self.tr("&Quit"), self.tr("Ctrl+Q")).triggered.connect(window.close)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
         menu = self._top("edit", self.tr("&Edit"))
@@ -106,7 +106,7 @@ class Menus(QObject):
         self._view.addAction(dock.toggleViewAction())
 
     def _make_pin_menu(self, edit: QMenu) -> None:
-        menu = edit.addMenu(self.tr("Pin and &compare"))
+        menu = edit.addMenu(self.tr("Pi&n and compare"))
         self._add(menu, "pin_a", self.tr("Pin as &A"), self.tr("Ctrl+Shift+A"))
         self._add(menu, "pin_b", self.tr("Pin as &B"), self.tr("Ctrl+Shift+B"))
         self._add(menu, "go_to_a", self.tr("Take me &to A"))

@@ -10,6 +10,9 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 # No test sees or touches the presets of whoever runs it.
 os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
 
+# Nor the session that they have left.
+os.environ["OCC_STATE"] = str(Path(__file__).with_name("no-state"))
+
 import pytest
 from hypothesis import settings
 

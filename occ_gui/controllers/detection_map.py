@@ -139,6 +139,13 @@ class DetectionMapController(QObject):
         """Whether every point of the scene as it is is known."""
         return self.is_current and self.map is not None and self.map.least_images > 0
 
+    @property
+    def full(self) -> "tuple[RateMap, MapRequest] | None":
+        """The map and what it was measured for, None while a point of it is not known."""
+        if not self.is_full or self.map is None or self._shown is None:
+            return None
+        return self.map, self._shown
+
     def _request(self) -> MapRequest:
         x, y = self._axes
         given = {name: quantity(name).default for name in self._axes}

@@ -14,12 +14,25 @@ from occ_model.errors import OccError
 from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.photo.load import Photo
 from occ_model.resource_files import resource_path
+from occ_model.scene_inside import ENDINGS, scene_inside
 from occ_model.settings import read_scene_file
 
 _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2"
 
 _SCENE = ".toml"
+
+
+def _has_scene(path: Path) -> bool:
+    """Say whether a file is a scene, or a figure or table that carries one."""
+    ending = path.suffix.lower()
+    if ending != ".png":  # a photo can be one, none of the others
+        return ending == _SCENE or ending in ENDINGS
+    try:
+        scene_inside(path)
+    except OccError:
+        return False
+    return True
 
 
 def sample_photos() -> list[Path]:
@@ -45,6 +58,12 @@ class FileController(QObject):
     said = Signal(str)
     """What was done, or why it was not."""
 
+    scene_opened = Signal(Path)
+    """The scene file whose scene is the scene now."""
+
+    scene_saved = Signal(Path)
+    """The scene file that the scene has been saved to."""
+
     def __init__(
         self, window: QWidget, store: SceneStore, photos: PhotoController, memory: Memory
     ) -> None:
@@ -67,11 +86,13 @@ class FileController(QObject):
             self._window, self.tr("Open photo"), self._memory.folder, kinds
         )
         if name:
-            self._photos.open(Path(name))
+            self.open_file(Path(name))
 
     def ask_for_scene(self) -> None:
         """Let the user choose a scene file and open it."""
-        kinds = self.tr("Scenes (*.toml);;All files (*)")
+        kinds = self.tr("Scenes and figures ({patterns});;All files (*)").format(
+            patterns=" ".join(f"*{ending}" for ending in (_SCENE, *ENDINGS))
+        )
         name, _ = QFileDialog.getOpenFileName(
             self._window, self.tr("Open scene"), self._memory.folder, kinds
         )
@@ -79,8 +100,8 @@ class FileController(QObject):
             self.open_scene(Path(name))
 
     def open_file(self, path: Path) -> None:
-        """Open a scene file or a photo, whichever it is."""
-        if path.suffix.lower() == _SCENE:
+        """Open a scene file, an exported figure or a photo, whichever it is."""
+        if _has_scene(path):
             self.open_scene(path)
         else:
             self._photos.open(path)
@@ -103,7 +124,7 @@ class FileController(QObject):
     def open_dropped(self, paths: Sequence[Path]) -> None:
         """Open the first scene and the first photo of what was dropped on the window."""
         files = [path for path in paths if path.is_file()]
-        scenes = [path for path in files if path.suffix.lower() == _SCENE]
+        scenes = [path for path in files if _has_scene(path)]
         photos = [path for path in files if path not in scenes]
         if not files:
             what = self.tr("{path} is no file").format(path=paths[0]) if paths else ""
@@ -126,7 +147,13 @@ class FileController(QObject):
         """Open a scene file; a bad one leaves the scene as it is."""
         if self._put_scene(path):
             self._memory.add(path)
-            self.said.emit(self.tr("Opened {name}").format(name=path.name))
+            if path.suffix.lower() in ENDINGS:
+                # The file stays a figure: it is not what the scene is saved to.
+                said = self.tr("Opened the scene inside {name}")
+            else:
+                said = self.tr("Opened {name}")
+                self.scene_opened.emit(path)
+            self.said.emit(said.format(name=path.name))
 
     def _put_scene(self, path: Path) -> bool:
         try:
@@ -144,11 +171,15 @@ class FileController(QObject):
             self.tr("Scenes (*.toml)"),
         )  # fmt: skip
         if name:
-            self.save_scene(Path(name))
+            path = Path(name)
+            self.save_scene(path if path.suffix else path.with_suffix(_SCENE))
 
     def save_scene(self, path: Path) -> None:
         """Write the scene to a file."""
-        self._save(path, lambda: write_whole(path, self._store.scene.to_toml().encode("utf-8")))
+        content = self._store.scene.to_toml().encode("utf-8")
+        if self._save(path, lambda: write_whole(path, content)):
+            self._memory.add(path)
+            self.scene_saved.emit(path)
 
     def ask_to_save_picture(self) -> None:
         """Let the user choose where to save the simulated picture."""
@@ -167,14 +198,15 @@ class FileController(QObject):
         image = self._snapshot.frame.image
         self._save(path, lambda: write_image(path, image))
 
-    def _save(self, path: Path, write: Callable[[], None]) -> None:
+    def _save(self, path: Path, write: Callable[[], None]) -> bool:
         try:
             write()
         except OccError as error:
             self.said.emit(str(error))
-            return
+            return False
         self._memory.visit(path)
         self.said.emit(self.tr("Saved {name}").format(name=path.name))
+        return True
 
     def _in_folder(self, name: str) -> str:
         folder = self._memory.folder

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette, QResizeEvent
+from PySide6.QtGui import QColor, QPalette, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.views.log_axis import LogAxis
@@ -82,7 +82,6 @@ class AccuracyPlot(QWidget):
         self._fit()
 
     def _make_items(self) -> None:
-        text = self.palette().color(QPalette.ColorRole.Text)
         self.lines = {part: pg.PlotCurveItem(pen=thin(COLOURS[part])) for part in CHAINED_PARTS}
         self.scatters = {
             part: pg.ScatterPlotItem(
@@ -91,11 +90,9 @@ class AccuracyPlot(QWidget):
             )
             for part in ACCURACY_PARTS
         }  # fmt: skip
-        self._ring_pen = pg.mkPen(text, width=1.5)
-        self.rings = pg.ScatterPlotItem(symbol="o", size=15, brush=None, pen=self._ring_pen)
-        grey = self.palette().color(QPalette.ColorRole.Mid)
-        floor = pg.InfiniteLine(_FLOOR, angle=0, pen=thin(grey, Qt.PenStyle.DashLine))
-        for item in (floor, *self.lines.values(), *self.scatters.values(), self.rings):
+        self.rings = pg.ScatterPlotItem(symbol="o", size=15, brush=None)
+        self._floor = pg.InfiniteLine(_FLOOR, angle=0)
+        for item in (self._floor, *self.lines.values(), *self.scatters.values(), self.rings):
             self.plot.addItem(item, ignoreBounds=True)
 
     def _make_legend(self) -> None:
@@ -109,8 +106,17 @@ class AccuracyPlot(QWidget):
         for part, meaning in ACCURACY_PARTS.items():
             sample = marker(SYMBOLS[part], 8, COLOURS[part])
             self.legend.add_sample(part, sample, words[part], meaning)
-        ring = marker("o", 12, None, self._ring_pen)
-        self.legend.add_sample("current", ring, self.tr("now"), self.tr("The settings at hand."))
+        self.legend.add_sample(
+            "current", QPixmap(), self.tr("now"), self.tr("The settings at hand.")
+        )
+        self.plot.dress_with(self._dress)
+
+    def _dress(self, palette: QPalette) -> None:
+        ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5)
+        self.rings.setPen(ring)
+        self.legend.set_sample("current", marker("o", 12, None, ring))
+        grey = palette.color(QPalette.ColorRole.Mid)
+        self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 
     def _lay_out(self) -> None:
         self._fit_button = QToolButton()

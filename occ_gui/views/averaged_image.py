@@ -1,6 +1,7 @@
 """An image drawn without false stripes, however small it is shown."""
 
 import math
+from collections.abc import Sequence
 
 import cv2
 import numpy as np
@@ -9,6 +10,8 @@ from PySide6.QtCore import QRect, QRectF
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
+from occ_gui.state.picture import halved
+from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
 
@@ -22,11 +25,14 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     def __init__(self) -> None:
         super().__init__()
         self._image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
+        self._halves: tuple[ByteArray, ...] = ()
         self._rect = QRectF()
         self._first_row = -math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
 
-    def set_image(self, image: ByteArray, rect: QRectF | None = None) -> None:
+    def set_image(
+        self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
+    ) -> None:
         """Show an image.
 
         Parameters
@@ -35,13 +41,15 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             The image; it is not copied.
         rect
             Where it lies, by default with its first pixel's centre at (0, 0).
+        halves
+            The image at a half of its size, a quarter and so on, where they are there already.
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect
         if rect != self._rect:
             self.prepareGeometryChange()
             self._rect = rect
-        self._image = image
+        self._image, self._halves = image, tuple(halves)
         self._drawn = None
         self.update()
 
@@ -55,6 +63,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         """Where the image lies."""
         return self._rect
 
+    @guarded
     def paint(
         self,
         painter: QPainter,
@@ -109,23 +118,27 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         ]
         # Along each axis only ever fewer pixels: enlarging is the painter's, without smoothing.
         smaller = (min(size[0], part.width()), min(size[1], part.height()))
+        if pixels.shape == self._image.shape:
+            pixels = self._smallest_for(*smaller)
         pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
         rows, columns = pixels.shape
         image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
         return image.copy()  # so that it does not refer to memory that goes away
 
+    def _smallest_for(self, columns: int, rows: int) -> ByteArray:
+        """Give the smallest of the image and its halves that still has so many pixels."""
+        large = [h for h in self._halves if h.shape[0] >= rows and h.shape[1] >= columns]
+        return large[-1] if large else self._image
+
 
 def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
     """Average an image down to a size that is no larger than its own.
 
-    Halving is what OpenCV averages many times faster than any other ratio; only the last step,
-    less than a half, is of another. An odd row or column at the edge, less than a pixel of the
-    screen, is left out by halving.
+    By halving, which is fast; only the last step, less than a half, is of another ratio. What
+    halving leaves out at the edge is less than a pixel of the screen.
     """
     while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
-        half = (pixels.shape[1] // 2, pixels.shape[0] // 2)
-        even = pixels[: 2 * half[1], : 2 * half[0]]
-        pixels = np.asarray(cv2.resize(even, half, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+        pixels = halved(pixels)
     if pixels.shape == (rows, columns):
         return pixels
     smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)

@@ -88,6 +88,10 @@ class DecodeView(QWidget):
     def _chosen(self, snapshot: Snapshot) -> DecodeResult:
         return (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
 
+    def decoder(self) -> str:
+        """Give the name of the decoder whose result is shown; empty before the first one."""
+        return "" if self._snapshot is None else self._chosen(self._snapshot).decoder
+
     def _choose(self) -> None:
         self._show_chosen()
         if self._snapshot is not None:

@@ -9,6 +9,7 @@ from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.views.cell_means import cell_means
+from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray
 
 _NO_IMAGE: ByteArray = np.zeros((0, 0), dtype=np.uint8)
@@ -48,6 +49,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         (_, first), (_, second) = self._layers
         return first.intersected(second)
 
+    @guarded
     def paint(
         self,
         painter: QPainter,

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.state.picture import Picture
 from occ_gui.state.placement import Placement
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.before_wipe import BeforeWipe
@@ -18,7 +19,6 @@ from occ_gui.views.picture_pane import PicturePane
 from occ_gui.widgets.word_choice import WordChoice
 from occ_model.arrays import ByteArray
 from occ_model.photo.load import Photo
-from occ_model.results import Frame
 
 _GAINS = (1, 2, 4, 8)
 _FIRST_GAIN = 4
@@ -114,15 +114,15 @@ class ImageView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
-        self.show_frame(snapshot.frame)
+        if snapshot.frame.image is not self._shown:  # it may have come before it was read
+            self.show_picture(Picture(snapshot.frame, ()))
         self.simulation.show_region(snapshot.decoded.region)
 
-    def show_frame(self, frame: Frame) -> None:
+    def show_picture(self, picture: Picture) -> None:
         """Show this picture in place of the last one; what was read from that stays."""
-        if frame.image is not self._shown:
-            self._shown = frame.image
-            self.simulation.show_picture(frame.image)
-            self.overlay.set_simulated(frame.image)
+        self._shown = picture.frame.image
+        self.simulation.show_picture(self._shown, picture.halves)
+        self.overlay.set_simulated(self._shown)
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the last one, or none."""

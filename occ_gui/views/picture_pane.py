@@ -1,7 +1,9 @@
 """One picture with its caption."""
 
+from collections.abc import Sequence
+
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QEvent, QRectF
 from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
 
 from occ_gui.views.averaged_image import AveragedImage
@@ -27,31 +29,52 @@ class PicturePane(QWidget):
     def __init__(self, caption: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.caption = ElidedLabel(caption)
-        self._graphics = pg.GraphicsView()
-        self._graphics.setBackground(self.palette().dark().color())
-        self._graphics.setAccessibleName(caption)
+        self.graphics = pg.GraphicsView()
+        self.graphics.setBackground(self.palette().dark().color())
+        self.graphics.setAccessibleName(caption)
         self.box = pg.ViewBox(lockAspect=True, invertY=True, enableMenu=False)
-        self._graphics.setCentralItem(self.box)
+        self.graphics.setCentralItem(self.box)
         self._picture = AveragedImage()
         self._region = QGraphicsRectItem()
         self._region.setPen(_REGION_PEN)
         self.box.addItem(self._picture)
         self.box.addItem(self._region, ignoreBounds=True)
-        self._shape: tuple[int, ...] = ()
+        self._image: ByteArray | None = None
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
         self.caption_row = QHBoxLayout()
         self.caption_row.addWidget(self.caption, 1)
         layout.addLayout(self.caption_row)
-        layout.addWidget(self._graphics, 1)
+        layout.addWidget(self.graphics, 1)
 
-    def show_picture(self, image: ByteArray) -> None:
-        """Show a picture; the view moves only when its size changes."""
-        self._picture.set_image(image)
-        if image.shape != self._shape:
-            self._shape = image.shape
+    def show_picture(self, image: ByteArray, halves: Sequence[ByteArray] = ()) -> None:
+        """Show a picture; the view moves only when its size changes.
+
+        Parameters
+        ----------
+        image : ndarray of uint8, shape (rows, columns)
+            The picture.
+        halves
+            The same at a half of its size, a quarter and so on, where they are there already.
+        """
+        self._picture.set_image(image, halves=halves)
+        before, self._image = self._image, image
+        if before is None or before.shape != image.shape:
             self.fit()
+
+    def level_at(self, column: int, row: int) -> int | None:
+        """Give the grey level of a pixel, None beside the picture."""
+        image = self._image
+        if image is None or not (0 <= row < image.shape[0] and 0 <= column < image.shape[1]):
+            return None
+        return int(image[row, column])
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the palette, as when the theme changes."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            self.graphics.setBackground(self.palette().dark().color())
 
     def show_region(self, region: Region | None) -> None:
         """Draw the rectangle that the decoder read, or none."""

@@ -1,8 +1,10 @@
 """How plots look: one place for their axes, pens and colours, and for how much is in view."""
 
+from collections.abc import Callable
+
 import pyqtgraph as pg
 from pyqtgraph.graphicsItems.ScatterPlotItem import renderSymbol
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QColor, QPalette, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy
 
@@ -29,6 +31,28 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     """A plot that names its lower axis where it is high enough, and where that is wanted."""
 
     _is_named = False
+    _dressed: tuple[Callable[[QPalette], None], ...] = ()
+
+    def dress(self, palette: QPalette) -> None:
+        """Take the colours of a palette."""
+        self.setBackground(palette.color(QPalette.ColorRole.Base))
+        for side in ("bottom", "left"):
+            axis = self.getAxis(side)
+            axis.setPen(palette.color(QPalette.ColorRole.Mid))
+            axis.setTextPen(palette.color(QPalette.ColorRole.Text))
+        for dress in self._dressed:
+            dress(palette)
+
+    def dress_with(self, dress: Callable[[QPalette], None]) -> None:
+        """Give what is drawn in it the palette's colours, now and whenever they change."""
+        self._dressed = (*self._dressed, dress)
+        dress(self.palette())
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the palette, as when the theme changes."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and self.plotItem is not None:
+            self.dress(self.palette())
 
     def name_bottom(self, wanted: bool) -> None:
         """Say whether the lower axis is to be named."""
@@ -80,12 +104,9 @@ def new_plot(
     axes = {"left": left, "bottom": bottom}
     plot = Plot(axisItems={side: axis for side, axis in axes.items() if axis is not None})
     plot.setAccessibleName(name)
-    plot.setBackground(palette.color(QPalette.ColorRole.Base))
     for side, label in (("bottom", x), ("left", y)):
-        axis = plot.getAxis(side)
-        axis.setPen(palette.color(QPalette.ColorRole.Mid))
-        axis.setTextPen(palette.color(QPalette.ColorRole.Text))
         plot.setLabel(side, label)
+    plot.dress(palette)
     plot.name_bottom(True)
     plot.setMinimumHeight(_LEAST_HEIGHT)
     # As high as there is room for; what a plot would like by itself is out of all proportion.

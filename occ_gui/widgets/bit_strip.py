@@ -6,6 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 
 _CELL = 24
@@ -57,6 +58,7 @@ class BitStrip(QWidget):
         """Cells can shrink, rows cannot."""
         return QSize(_LABEL + 10 * 12, self.sizeHint().height())
 
+    @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Draw both rows."""
         painter = QPainter(self)

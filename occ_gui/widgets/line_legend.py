@@ -4,7 +4,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
-_SAMPLE = QSize(28, 12)
+_SAMPLE = QSize(24, 12)
 
 
 class LineLegend(QWidget):
@@ -15,6 +15,7 @@ class LineLegend(QWidget):
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._entries: dict[str, QWidget] = {}
+        self._samples: dict[str, QLabel] = {}
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
         """Add an entry, shown until :meth:`show_line` hides it."""
@@ -27,11 +28,16 @@ class LineLegend(QWidget):
         entry = QWidget()
         entry.setToolTip(meaning)
         layout = QHBoxLayout(entry)
-        layout.setContentsMargins(0, 0, 10, 0)
+        layout.setContentsMargins(0, 0, 6, 0)
         layout.addWidget(sample)
         layout.addWidget(name)
         self._row.addWidget(entry)
         self._entries[key] = entry
+        self._samples[key] = sample
+
+    def set_sample(self, key: str, picture: QPixmap) -> None:
+        """Draw an entry's sample in another way, as when the theme changes."""
+        self._samples[key].setPixmap(picture)
 
     def show_line(self, key: str, visible: bool) -> None:
         """Show or hide an entry."""

@@ -1,5 +1,6 @@
 """A sweep's success rates, drawn: over one axis as curves, over two as maps."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from occ_model.arrays import FloatArray
 from occ_model.declarations import Choice, ParameterValue, Quantity
 from occ_model.errors import ParameterError
 from occ_model.export.drawing import figure_format, house_style, write_figure
+from occ_model.export.drawn import Drawing
 from occ_model.parameters import PARAMETERS
 from occ_model.provenance import Provenance
 from occ_model.results import SweepTable
@@ -67,6 +69,36 @@ def write_sweep_figure(path: Path, table: SweepTable) -> None:
     with house_style():
         figure = _curves(table) if len(names) == 1 else _maps(table)
         write_figure(path, figure, _provenance(table))
+
+
+def sweep_drawing(table: SweepTable) -> Drawing:
+    """Draw a table's success rates over one axis or two.
+
+    Parameters
+    ----------
+    table
+        The rates.
+    """
+    names = list(table.axes)
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        for row in table.rows:
+            values = (row.point[name] for name in names)
+            yield (*values, row.decoder, row.right, row.sent, row.rate, row.low, row.high, row.note)
+
+    header = (
+        *(_with_unit(name) for name in names), "decoder", "right bits", "sent bits",
+        "success rate (%)", "95 % from (%)", "95 % to (%)", "note",
+    )  # fmt: skip
+    title = f"Success rate over {' and '.join(names)}, {table.request.settings.images} images"
+    draw = _curves if len(names) == 1 else _maps
+    return Drawing("map", title, lambda: draw(table), header, rows)
+
+
+def _with_unit(name: str) -> str:
+    parameter = PARAMETERS[name]
+    unit = parameter.unit.symbol if isinstance(parameter, Quantity) else ""
+    return f"{name} ({unit})" if unit else name
 
 
 def _provenance(table: SweepTable) -> Provenance:

@@ -55,6 +55,7 @@ def frame_times(settings: SimulationSettings, size: tuple[int, int]) -> list[flo
         times.append(perf_counter() - start)
         while not application.is_idle:  # a hand moves no faster than what it moves is read
             qt.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
+        qt.processEvents()
     application.window.close()
     return times[_WARM_UP:]
 

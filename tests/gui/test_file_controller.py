@@ -206,12 +206,14 @@ def test_dialogs_begin_in_the_folder_of_the_last_file(
     assert asked[-1] == str(tmp_path / "deeper")
 
 
-def test_only_what_was_opened_is_a_recent_file(
+def test_only_what_was_opened_or_saved_is_a_recent_file(
     bench: Bench, tmp_path: Path, small_scene: Scene
 ) -> None:
-    bench.files.save_scene(tmp_path / "a.toml")
-    assert bench.memory.files == ()
     bench.files.open_scene(tmp_path / "missing.toml")
+    bench.files.save_scene(tmp_path / "missing" / "a.toml")
     assert bench.memory.files == ()
+    bench.files.save_scene(tmp_path / "a.toml")
+    assert bench.memory.files == (tmp_path / "a.toml",)
+    bench.memory.clear()
     bench.files.open_scene(tmp_path / "a.toml")
     assert bench.memory.files == (tmp_path / "a.toml",)

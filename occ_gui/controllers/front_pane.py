@@ -1,0 +1,49 @@
+"""Which pane the user is at: the one to be copied."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
+
+PICTURE = "picture"
+"""The pane in the middle."""
+
+
+class FrontPane(QObject):
+    """Follows the keyboard and the tabs from pane to pane.
+
+    Parameters
+    ----------
+    window
+        The window, the picture in its middle.
+    docks
+        Its docks, by name.
+    """
+
+    def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
+        super().__init__(window)
+        self._window = window
+        self._docks = docks
+        self.name = PICTURE
+        """The pane's name: PICTURE, or that of a dock."""
+        for name, dock in docks.items():
+            dock.visibilityChanged.connect(lambda seen, name=name: self._on_seen(name, seen))
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            application.focusChanged.connect(self._on_focus)
+
+    def _on_seen(self, name: str, seen: bool) -> None:
+        # All become visible when the window is first shown: that is no choice of the user's.
+        tabbed = self._window.tabifiedDockWidgets(self._docks[name])
+        if seen and tabbed and self._window.isActiveWindow():
+            self.name = name
+
+    def _on_focus(self, _before: QWidget | None, now: QWidget | None) -> None:
+        if now is None or now.window() is not self._window:
+            return
+        middle = self._window.centralWidget()
+        if middle is not None and (now is middle or middle.isAncestorOf(now)):
+            self.name = PICTURE
+        for name, dock in self._docks.items():
+            if dock.isAncestorOf(now):
+                self.name = name

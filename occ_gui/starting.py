@@ -1,0 +1,99 @@
+"""What a start takes up of the last one: settings, session, and where they are kept."""
+
+import os
+from argparse import Namespace
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from occ_model.effects.registry import NAMES
+from occ_model.scene import Scene
+from occ_model.simulation_settings import SimulationSettings
+
+if TYPE_CHECKING:
+    from PySide6.QtCore import QSettings
+
+    from occ_gui.application import Application
+    from occ_gui.state.session import Session
+
+
+class Unasked(str):
+    """What an option is where nobody has said anything: its default, and known as such."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """What a window begins with.
+
+    Parameters
+    ----------
+    scene, settings
+        The scene, and how it is simulated at first.
+    scene_asked
+        Whether the scene was named, and wins over the last session's.
+    memory
+        Where things are kept; None where nothing is.
+    session
+        The last session.
+    fresh
+        Whether nothing of it is wanted.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
+    scene_asked: bool
+    memory: "QSettings | None"
+    session: "Session"
+    fresh: bool
+
+    def take_up(self, application: "Application", with_photo: bool) -> None:
+        """Take up the session in a window that is not shown yet, and keep it from now on."""
+        if self.memory is None:
+            return
+        application.desktop.faults.install()
+        from occ_gui.controllers.autosave import Autosave, state_folder
+
+        wins = self.scene_asked or self.fresh
+        autosave = Autosave(state_folder())
+        application.desktop.resume(autosave, self.session, wins, self.fresh)
+        if with_photo and not wins and self.session.photo is not None:
+            application.open_photo(self.session.photo, front=False)
+
+
+def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
+    """Decide what the window begins with.
+
+    Parameters
+    ----------
+    options
+        The command line.
+    scene, settings
+        What it asks for.
+    own
+        Whether the settings are those that hold where it asks for none.
+    """
+    from occ_gui.state.memory import Memory
+    from occ_gui.state.session import Session, recall_session
+
+    asked = bool(options.scene or options.settings or not isinstance(options.preset, Unasked))
+    if options.screenshot:  # of the window as it comes, whatever its user did last
+        return Start(scene, settings, asked, None, Session(), fresh=True)
+    memory = kept_settings()
+    session = Session() if options.fresh else recall_session(Memory(memory), NAMES)
+    if session.scene is not None and not asked:
+        scene = session.scene
+    if session.settings is not None and own:
+        settings = session.settings
+    return Start(scene, settings, asked, memory, session, options.fresh)
+
+
+def kept_settings() -> "QSettings":
+    """Open what is remembered from one start to the next."""
+    from PySide6.QtCore import QSettings
+
+    from occ_gui.controllers.autosave import STATE_FOLDER, state_folder
+
+    if os.environ.get(STATE_FOLDER):
+        return QSettings(str(state_folder() / "settings.ini"), QSettings.Format.IniFormat)
+    return QSettings("occ-explorer", "occ-gui")

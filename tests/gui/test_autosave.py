@@ -1,0 +1,72 @@
+"""The scene on the disk at all times: each window its own, and a full disk told of once."""
+
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from occ_gui.controllers.autosave import Autosave
+from occ_gui.state.scene_store import SceneStore
+from occ_model.scene import Scene
+
+
+def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path, qtbot: QtBot) -> None:
+    first, second = Autosave(tmp_path), Autosave(tmp_path)
+    stores = [SceneStore(Scene()), SceneStore(Scene())]
+    for autosave, store in zip((first, second), stores, strict=True):
+        autosave.follow(store)
+        autosave.write()
+    assert {path.name for path in tmp_path.glob("*.toml")} == {"scene-1.toml", "scene-2.toml"}
+    assert second.recovered is None
+    first.end()
+    second.end()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    autosave, store = Autosave(tmp_path), SceneStore(Scene())
+    said: list[str] = []
+    autosave.failed.connect(said.append)
+    autosave.follow(store)
+    write = Path.write_bytes
+
+    def full(path: Path, content: bytes) -> int:
+        write(path, content[:7])
+        raise OSError(28, "No space left on device")
+
+    for _ in range(2):
+        with monkeypatch.context() as patched:
+            patched.setattr(Path, "write_bytes", full)
+            autosave.write()
+            autosave.write()
+        autosave.write()
+    assert len(said) == 2
+    assert "No space left on device" in said[0]
+    autosave.end()
+
+
+def test_a_folder_that_cannot_be_made_is_told_of_and_the_window_works(
+    tmp_path: Path, qtbot: QtBot
+) -> None:
+    (tmp_path / "file").write_text("")
+    autosave = Autosave(tmp_path / "file" / "folder")
+    said: list[str] = []
+    autosave.failed.connect(said.append)
+    autosave.follow(SceneStore(Scene()))
+    autosave.write()
+    assert len(said) == 1
+    autosave.end()
+
+
+def test_the_scene_is_written_a_moment_after_it_was_changed(tmp_path: Path, qtbot: QtBot) -> None:
+    autosave, store = Autosave(tmp_path), SceneStore(Scene())
+    autosave.follow(store)
+    store.change(iso=321.0)
+    store.change(iso=322.0)
+    assert not list(tmp_path.glob("*.toml"))
+    qtbot.waitUntil(lambda: bool(list(tmp_path.glob("*.toml"))))
+    (path,) = tmp_path.glob("*.toml")
+    assert Scene.from_toml(path.read_text(encoding="utf-8")) == store.scene
+    autosave.end()

@@ -1,0 +1,227 @@
+"""A desktop program: titles, themes, keys, the palette, the pointer, and held brightness."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.commands import commands_of, sheet_of
+from occ_gui.controllers.hold_brightness import HoldBrightness
+from occ_gui.state.gesture import new_gesture
+from occ_gui.state.scene_store import SceneStore
+from occ_gui.views.command_palette import Command, CommandPalette
+from occ_gui.views.plots import Plot
+from occ_gui.views.shortcut_sheet import ShortcutSheet
+from occ_model.scene import Scene
+
+User = Any  # the fixture of that name
+
+
+def test_save_asks_for_a_file_once_and_the_title_marks_what_is_not_saved(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+
+    def ask(*_arguments: object) -> tuple[str, str]:
+        asked.append("")
+        return str(tmp_path / "mine"), ""
+
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", ask)
+    window = application.window
+    for iso in ("200", "300"):
+        user.enter("iso", iso)
+        user.choose("&Save scene")
+    assert asked == [""]
+    assert window.windowTitle().startswith("mine.toml[*]")
+    assert not window.isWindowModified()
+    user.enter("iso", "400")
+    assert window.isWindowModified()
+    application.store.undo_stack.undo()
+    assert not window.isWindowModified()
+    assert "iso = 300.0" in (tmp_path / "mine.toml").read_text(encoding="utf-8")
+
+
+def test_reset_is_one_step(application: Application, user: User) -> None:
+    user.enter("iso", "200")
+    before = application.store.scene
+    user.choose("Reset &scene")
+    assert application.presets.name_of(application.store.scene) == "phone-68us"
+    application.store.undo_stack.undo()
+    assert application.store.scene == before
+
+
+def lightness_of_the_plots(application: Application) -> set[bool]:
+    plots = application.window.findChildren(Plot)
+    assert len(plots) > 4
+    return {plot.backgroundBrush().color().lightness() > 128 for plot in plots}
+
+
+def test_the_theme_changes_everything_that_is_drawn(application: Application, user: User) -> None:
+    themes = application.desktop.theme
+    before = QApplication.palette().color(QPalette.ColorRole.Window)
+    for theme, is_light in (("dark", False), ("light", True), ("dark", False)):
+        user.choose({"dark": "&Dark", "light": "&Light"}[theme])
+        QApplication.processEvents()
+        assert themes.theme == theme
+        assert lightness_of_the_plots(application) == {is_light}
+        window = application.window.palette().color(QPalette.ColorRole.Window)
+        assert (window.lightness() > 128) == is_light
+        axis = application.profile.plot.getAxis("left").textPen().color()
+        assert (axis.lightness() < 128) == is_light
+        ring = application.accuracy.plot.rings.opts["pen"].color()
+        assert (ring.lightness() < 128) == is_light
+    user.choose("&System")
+    assert QApplication.palette().color(QPalette.ColorRole.Window) == before
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_text_can_be_read_on_what_it_stands_on(
+    application: Application, user: User, theme: str
+) -> None:
+    application.desktop.theme.choose(theme)
+    palette, role = QApplication.palette(), QPalette.ColorRole
+    pairs = (
+        (role.WindowText, role.Window), (role.Text, role.Base), (role.Text, role.AlternateBase),
+        (role.ButtonText, role.Button), (role.ToolTipText, role.ToolTipBase),
+    )  # fmt: skip
+    for front, back in pairs:
+        assert contrast(palette.color(front), palette.color(back)) > 7
+    assert contrast(palette.color(role.HighlightedText), palette.color(role.Highlight)) > 3
+    application.desktop.theme.choose("system")
+
+
+def contrast(one: QColor, other: QColor) -> float:
+    """Give the contrast of two colours, as WCAG 2 defines it."""
+    low, high = sorted(luminance(colour) for colour in (one, other))
+    return (high + 0.05) / (low + 0.05)
+
+
+def luminance(colour: QColor) -> float:
+    parts = (colour.redF(), colour.greenF(), colour.blueF())
+    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+    return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def test_the_sheet_lists_every_entry_with_keys(application: Application, qtbot: QtBot) -> None:
+    rows = list(sheet_of(application.window.menuBar()))
+    assert ("File", "Save scene", "Ctrl+S") in rows
+    assert ("Edit", "Hold brightness", "Ctrl+B") in rows
+    assert len(rows) > 15
+    sheet = ShortcutSheet(rows, application.window)
+    assert sheet.table.rowCount() == len(rows)
+
+
+def test_the_palette_does_what_a_few_letters_find_by_keys_only(
+    application: Application, qtbot: QtBot
+) -> None:
+    done: list[str] = []
+    commands = [
+        Command(f"File: {name}", "", lambda name=name: done.append(name))
+        for name in ("Save scene", "Save scene as…", "Quit")
+    ]
+    palette = CommandPalette(commands, application.window)
+    palette.show()
+    qtbot.keyClicks(palette.line, "sce save")
+    assert palette.list.count() == 2
+    qtbot.keyClick(palette.line, Qt.Key.Key_Down)
+    qtbot.keyClick(palette.line, Qt.Key.Key_Return)
+    assert palette.chosen is commands[1]
+    assert palette.result() == QDialog.DialogCode.Accepted
+    palette = CommandPalette(commands, application.window)
+    qtbot.keyClicks(palette.line, "nothing like it")
+    qtbot.keyClick(palette.line, Qt.Key.Key_Return)
+    assert palette.chosen is None
+
+
+def test_the_palette_jumps_to_every_parameter(application: Application, qtbot: QtBot) -> None:
+    window = application.window
+    found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
+    (jump,) = [command for command in found if command.suits(["f-number", "main"])]
+    (other,) = [command for command in found if command.suits(["panel and camera", "gamma"])][:1]
+    window.activateWindow()
+    for command in (other, jump):
+        command.run()
+        QApplication.processEvents()
+        focused = window.focusWidget()
+        assert focused is not None
+        assert focused.isVisible()
+    assert focused is application.controls.main_rows()["f_number"].field
+
+
+def test_the_status_line_tells_column_row_and_level_under_the_mouse(
+    application: Application, qtbot: QtBot
+) -> None:
+    pane = application.image.simulation
+    image = pane._image
+    assert image is not None
+    told = application.window.pointed
+    view = pane.graphics
+    place = view.mapFromScene(pane.box.mapViewToScene(QPointF(40, 30)))
+    at = pane.box.mapSceneToView(QPointF(view.mapToScene(place)))
+    column, row = round(at.x()), round(at.y())
+    qtbot.mouseMove(view.viewport(), QPoint(place))
+    expected = f"Simulation: column {column}, row {row}, level {image[row, column]}"
+    qtbot.waitUntil(lambda: told.text() == expected)
+    plot = application.profile.plot
+    place = plot.mapFromScene(plot.getViewBox().sceneBoundingRect().center())
+    qtbot.mouseMove(plot.viewport(), QPoint(place))
+    qtbot.waitUntil(lambda: told.text().startswith("Profile: column "))
+
+
+@pytest.fixture
+def held(qtbot: QtBot) -> tuple[SceneStore, HoldBrightness, list[str]]:
+    store = SceneStore(Scene().replace(exposure_time=100e-6, iso=200.0))
+    held, said = HoldBrightness(store), []
+    held.said.connect(said.append)
+    held.switch(True)
+    return store, held, said
+
+
+def product(store: SceneStore) -> float:
+    return store.scene.camera.iso * store.scene.camera.exposure_time
+
+
+def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> None:
+    store, holder, said = held
+    before, light = store.scene, product(store)
+    gesture = new_gesture()
+    for time in (90e-6, 50e-6, 60e-6):
+        holder.change(gesture, "exposure_time", time)
+        assert product(store) == pytest.approx(light, rel=1e-12)
+    assert store.undo_stack.count() == 1
+    store.undo_stack.undo()
+    assert store.scene == before
+    assert said == []
+
+
+def test_at_the_sliders_end_iso_stops_with_a_sentence_and_comes_back(held: Any) -> None:
+    store, holder, said = held
+    light = product(store)
+    holder.change(new_gesture(), "exposure_time", 1e-9)
+    assert "cannot be held" in said[-1]
+    assert product(store) < light
+    holder.change(new_gesture(), "exposure_time", 100e-6)
+    assert product(store) == pytest.approx(light, rel=1e-12)
+
+
+def test_brightness_that_is_chosen_otherwise_is_the_one_that_is_held(held: Any) -> None:
+    store, holder, _ = held
+    holder.change(new_gesture(), "iso", 400.0)
+    holder.change(new_gesture(), "exposure_time", 50e-6)
+    assert store.scene.camera.iso == pytest.approx(800.0)
+    holder.switch(False)
+    holder.change(new_gesture(), "exposure_time", 100e-6)
+    assert store.scene.camera.iso == pytest.approx(800.0)
+
+
+def test_the_menu_holds_the_brightness_of_the_window(application: Application, user: User) -> None:
+    user.choose("&Hold brightness")
+    light = product(application.store)
+    user.enter("exposure_time", "50 us")
+    assert product(application.store) == pytest.approx(light)
+    assert user.row("iso").field.value() == application.store.scene.camera.iso

@@ -1,0 +1,271 @@
+"""Every action, button, list and check box of the window is connected, named and explained."""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QAction, QGuiApplication
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractSlider,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QDialog,
+    QFileDialog,
+    QInputDialog,
+    QLineEdit,
+    QMenu,
+    QMessageBox,
+    QScrollBar,
+    QTabBar,
+    QWidget,
+)
+from shiboken6 import isValid
+
+from occ_gui.application import Application
+from occ_gui.controllers.commands import entries, plain
+from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_model.declarations import Quantity
+from occ_model.parameters import PARAMETERS
+
+User = Any  # the fixture of that name
+
+READ_LATER = ("Fit gamma too",)
+"""Boxes that are looked at when a button is pressed, and tell of nothing before."""
+
+CONTROLS = (QAbstractButton, QComboBox, QAbstractSlider, QAbstractSpinBox, QLineEdit, QTabBar)
+
+
+def controls_of(window: QWidget) -> Iterator[QWidget]:
+    """Give what the user can handle: not what Qt itself puts into lists, tabs and docks."""
+    for widget in window.findChildren(QWidget):
+        parent = widget.parentWidget()
+        if (
+            isinstance(widget, CONTROLS)
+            and not isinstance(widget, QScrollBar)
+            and not isinstance(parent, QAbstractSpinBox | QComboBox | QTabBar)
+            and not widget.objectName().startswith("qt_")
+            and not isinstance(widget, QTabBar)
+        ):
+            yield widget
+
+
+def path_to(widget: QObject) -> str:
+    names: list[str] = []
+    at: QObject | None = widget
+    while at is not None:
+        names.append(type(at).__name__)
+        at = at.parent()
+    return " in ".join(names[:4])
+
+
+def name_of(widget: QWidget) -> str:
+    text = widget.text() if isinstance(widget, QAbstractButton) else ""
+    return widget.accessibleName() or text
+
+
+@pytest.fixture
+def with_photo(application: Application, user: User, photo_file: Path) -> Application:
+    """Open a photo, so that everything that needs one can be done."""
+    application.open_photo(photo_file)
+    user.rest()
+    return application
+
+
+def test_each_control_has_a_name_for_those_who_do_not_see_it(with_photo: Application) -> None:
+    nameless = [path_to(w) for w in controls_of(with_photo.window) if not name_of(w)]
+    assert nameless == []
+
+
+def test_each_control_says_what_it_does(with_photo: Application) -> None:
+    silent = [
+        f"{name_of(w)!r}: {path_to(w)}" for w in controls_of(with_photo.window) if not w.toolTip()
+    ]
+    assert silent == []
+
+
+def test_each_parameters_tooltip_has_its_meaning_symbol_range_and_unit(
+    application: Application,
+) -> None:
+    for panel in application.controls.panels.values():
+        for name, row in panel.rows.items():
+            declared = PARAMETERS[name]
+            shown = [row.slider, row.field] if isinstance(row, QuantityRow) else [row.field]  # type: ignore[attr-defined]
+            for control in shown:
+                tip = control.toolTip()
+                assert declared.meaning in tip
+                assert declared.symbol in tip
+                assert declared.allowed in tip
+                if isinstance(declared, Quantity):
+                    ends = (declared.low, declared.default)
+                    symbols = [declared.unit.display(value)[0] for value in ends]
+                    assert any(symbol in tip for symbol in symbols), (name, tip)
+
+
+def all_entries(application: Application) -> list[tuple[str, QAction]]:
+    return list(entries(application.window.menuBar()))
+
+
+def test_no_two_entries_share_keys(application: Application) -> None:
+    keys = Counter(
+        key.toString() for _, action in all_entries(application) for key in action.shortcuts()
+    )
+    assert [key for key, count in keys.items() if count > 1] == []
+
+
+def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> None:
+    menus = [application.window.menuBar(), *application.window.menuBar().findChildren(QMenu)]
+    for menu in menus:
+        letters = Counter(
+            found[1].lower()
+            for action in menu.actions()
+            if (found := re.search(r"&(\w)", action.text().replace("&&", "")))
+        )
+        assert [letter for letter, count in letters.items() if count > 1] == [], menu.title()  # type: ignore[union-attr]
+
+
+def test_each_entry_has_a_letter_or_is_a_name(application: Application) -> None:
+    names = {*application.desktop.figures.titles.values()}
+    for path, action in all_entries(application):
+        text = action.text()
+        by_name = path.endswith(("Open recent", "Open sample photo", "View")) or any(
+            text.startswith(name) for name in names
+        )
+        assert "&" in text or by_name, (path, text)
+
+
+class Dialogs:
+    """Notes every dialog that would have opened, and leaves it."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.opened: list[str] = []
+        self.photos: list[object] = []
+        for kind, name, answer in (
+            (QFileDialog, "getOpenFileName", ("", "")),
+            (QFileDialog, "getSaveFileName", ("", "")),
+            (QFileDialog, "getExistingDirectory", ""),
+            (QInputDialog, "getText", ("", False)),
+            (QInputDialog, "getItem", ("", False)),
+            (QMessageBox, "about", None),
+            (QDialog, "exec", 0),
+        ):
+            monkeypatch.setattr(kind, name, self._answer(name, answer))
+
+    def _answer(self, name: str, answer: Any) -> Callable[..., Any]:
+        def note(*_arguments: Any, **_named: Any) -> Any:
+            self.opened.append(name)
+            return answer
+
+        return note
+
+
+@pytest.fixture
+def dialogs(monkeypatch: pytest.MonkeyPatch) -> Dialogs:
+    """Patch all dialogs."""
+    return Dialogs(monkeypatch)
+
+
+def looks(application: Application, dialogs: Dialogs) -> list[Any]:
+    """Give all that an entry could change."""
+    window = application.window
+    image = application.image
+    return [
+        application.store.scene,
+        application.settings.settings,
+        window.statusBar().currentMessage(),
+        list(dialogs.opened),
+        [dock.isHidden() for dock in window.docks.values()],
+        [(action.isChecked(), action.isEnabled()) for _, action in all_entries(application)],
+        [dock.visibleRegion().isEmpty() for dock in window.docks.values()],
+        [button.isEnabled() for button in window.findChildren(QAbstractButton)],
+        len(dialogs.photos),
+        image.mode.key(),
+        image.simulation.box.viewRange(),
+        application.photos.reading,
+        application.desktop.theme.theme,
+        application.desk.matching.runner.is_running,
+        window.windowTitle(),
+        window.saveState().toBase64().data(),
+        QGuiApplication.clipboard().image().size(),
+        [widget.isVisible() for widget in image.findChildren(QWidget)],
+    ]
+
+
+def test_each_entry_of_the_menus_does_something(
+    with_photo: Application, user: User, dialogs: Dialogs
+) -> None:
+    application = with_photo
+    closed: list[bool] = []
+    application.window.actions_by_name["quit"].triggered.disconnect()
+    application.window.actions_by_name["quit"].triggered.connect(lambda: closed.append(True))
+    application.store.change(iso=200.0)
+    application.store.change(iso=300.0)
+    application.photos.opened.connect(dialogs.photos.append)
+    found = all_entries(application)
+    idle = set()
+    for place, (path, action) in enumerate([*found, *found]):
+        if not isValid(action):  # of a list that has been made anew meanwhile
+            continue
+        if plain(action.text()) == "Quit" or not action.isEnabled():
+            continue
+        if action.actionGroup() is not None and action.isChecked():
+            continue  # it holds already
+        name = f"{path} > {plain(action.text())}"
+        if place >= len(found) and name not in idle:
+            continue  # what does nothing only where it holds already has another try
+        if place >= len(found):
+            application.store.change(iso=100.0 + place)
+            application.window.docks["decode"].raise_()
+            user.rest()
+        application.image.simulation.box.setRange(xRange=(3, 9), yRange=(3, 9))
+        application.window.statusBar().clearMessage()
+        before = looks(application, dialogs)
+        action.trigger()
+        user.rest()
+        QApplication.processEvents()
+        if looks(application, dialogs) == before:
+            idle.add(name)
+        else:
+            idle.discard(name)
+    assert not idle, "\n".join(idle)
+    application.desktop.theme.choose("system")
+
+
+def test_each_entry_is_connected(application: Application) -> None:
+    for path, action in all_entries(application):
+        group = action.actionGroup()
+        told = action.receivers("2triggered(bool)") + action.receivers("2toggled(bool)")  # type: ignore[arg-type]
+        if group is not None:
+            told += group.receivers("2triggered(QAction*)")  # type: ignore[arg-type]
+        assert told > 0, (path, action.text())
+
+
+def test_each_button_list_and_box_is_connected(with_photo: Application) -> None:
+    signals = {
+        QAbstractButton: ("2clicked(bool)", "2toggled(bool)", "2clicked()", "2pressed()"),
+        QComboBox: ("2activated(int)", "2textActivated(QString)", "2currentIndexChanged(int)"),
+        QAbstractSlider: ("2valueChanged(int)",),
+        QLineEdit: ("2editingFinished()", "2textEdited(QString)", "2textChanged(QString)"),
+    }
+    deaf = []
+    for control in controls_of(with_photo.window):
+        for kind, names in signals.items():
+            if name_of(control) in READ_LATER or not isinstance(control, kind):
+                continue
+            if not sum(map(control.receivers, names)):  # type: ignore[arg-type]
+                deaf.append(f"{name_of(control)!r}: {path_to(control)}")
+    assert deaf == []
+
+
+def test_the_keys_reach_every_control(with_photo: Application) -> None:
+    out_of_reach = [
+        f"{name_of(control)!r}: {path_to(control)}"
+        for control in controls_of(with_photo.window)
+        if not control.focusPolicy() & Qt.FocusPolicy.TabFocus and control.isEnabled()
+    ]
+    assert out_of_reach == []

@@ -1,0 +1,258 @@
+"""Figures of what is shown, in files that open again, and never half of one."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_gui.controllers import export_work
+from occ_gui.controllers.detection_map import MapRequest
+from occ_gui.controllers.lattice_stages import SHAPE
+from occ_gui.state.rate_map import RateMap, lattice
+from occ_model.results import AccuracyPoint, SweepPoint
+from occ_model.scene_inside import ENDINGS, scene_inside
+
+User = Any  # the fixture of that name
+
+
+def export(application: Application, user: User, name: str, path: Path) -> str:
+    application.desktop.export.controller.export(name, path)
+    user.rest()
+    return str(user.message)
+
+
+def test_what_is_shown_is_exported_with_its_scene_settings_version_and_date_inside(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    for name in ("picture", "profile", "decoding-threshold", "decoding-matched"):
+        for ending in ENDINGS:
+            path = tmp_path / f"{name}{ending}"
+            assert export(application, user, name, path) == f"Exported {path.name}"
+            assert scene_inside(path) == application.store.scene
+        text = (tmp_path / f"{name}.csv").read_text(encoding="utf-8")
+        for said in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
+            assert said in text
+    assert len(list(tmp_path.iterdir())) == 4 * len(ENDINGS)
+
+
+def test_the_accuracy_plot_is_exported_once_it_is_measured(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    path = tmp_path / "accuracy.csv"
+    assert "not measured yet" in export(application, user, "accuracy", path)
+    assert not path.exists()
+    plot = application.accuracy.plot
+    plot.show_study_begun()
+    plot.show_point(AccuracyPoint("noise", "exact", 0.125, 0.25, current=True), 1, 1)
+    plot.show_study_finished()
+    assert export(application, user, "accuracy", path) == "Exported accuracy.csv"
+    assert "noise,exact,125.0,0.25,1" in path.read_text(encoding="utf-8")
+    user.enter("iso", "200")
+    assert "not measured yet" in export(application, user, "accuracy", path)
+
+
+def test_the_map_is_exported_once_it_is_complete(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "map.csv"
+    assert "not complete yet" in export(application, user, "map", path)
+    scene, settings = application.store.scene, application.settings.settings
+    x, y = "switching_frequency", "distance"
+    rates = RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), ("threshold",))
+    rates.enter([SweepPoint(index, 10, (4,)) for index in range(rates.images.size)], 2)
+    asked = MapRequest(scene, x, y, settings, with_image_effects=False)
+    map_pane = type(application.reach.map)
+    monkeypatch.setattr(map_pane, "full", property(lambda _: (rates, asked)))
+    assert export(application, user, "map", path) == "Exported map.csv"
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
+    assert len(lines) == 1 + rates.images.size
+    assert lines[1].startswith("500.0,0.2,threshold,4,10,40.0,")
+    assert scene_inside(path) == scene
+    assert export(application, user, "map", tmp_path / "map.png") == "Exported map.png"
+
+
+def test_the_photo_is_drawn_beside_the_simulation(
+    application: Application, user: User, photo_file: Path, tmp_path: Path
+) -> None:
+    export(application, user, "profile", tmp_path / "alone.csv")
+    application.open_photo(photo_file)
+    user.rest()
+    export(application, user, "profile", tmp_path / "both.csv")
+    headers = [
+        next(line for line in (tmp_path / name).read_text().splitlines() if line[0] != "#")
+        for name in ("alone.csv", "both.csv")
+    ]
+    assert ["photo" in header for header in headers] == [False, True]
+
+
+def test_all_figures_go_into_a_folder_in_all_formats(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    folder = tmp_path / "new" / "report"
+    application.desktop.export.controller.export_all(folder)
+    user.rest()
+    names = ("picture", "profile", "decoding-threshold", "decoding-matched")
+    assert {path.name for path in folder.iterdir()} == {
+        f"{name}{ending}" for name in names for ending in ENDINGS
+    }
+    assert "Exported 16 files" in user.message
+    assert "Left out: Accuracy and time" in user.message
+
+
+def test_a_figure_is_copied_with_its_scene(application: Application, user: User) -> None:
+    user.choose("Copy fi&gure")
+    image = QGuiApplication.clipboard().image()
+    assert min(image.width(), image.height()) > 200
+    assert "occ_model" in image.text("Description")
+    assert user.message == "Copied the figure."
+
+
+def test_the_figure_that_is_copied_is_that_of_the_pane_at_the_front(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    application.profile.enhanced.setFocus()
+    qtbot.waitUntil(lambda: application.desktop.export.front.name == "profile")
+    user.choose("Copy fi&gure")
+    assert "Column profile" in QGuiApplication.clipboard().image().text("Title")
+    application.decode.decoders.setCurrentIndex(1)
+    application.decode.decoders.setFocus()
+    user.choose("Copy fi&gure")
+    assert "matched" in QGuiApplication.clipboard().image().text("Title")
+
+
+def test_a_dropped_figure_restores_its_scene_as_one_step(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    user.enter("distance", "2 m")
+    shown = application.store.scene
+    export(application, user, "profile", tmp_path / "figure.png")
+    user.enter("distance", "3 m")
+    before = application.store.scene
+    application.window.dropped.emit([tmp_path / "figure.png"])
+    user.rest()
+    assert application.store.scene == shown
+    assert user.message == "Opened the scene inside figure.png"
+    application.store.undo_stack.undo()
+    assert application.store.scene == before
+
+
+def test_a_picture_without_a_scene_inside_is_opened_as_a_photo(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    application.window.dropped.emit([photo_file])
+    user.rest()
+    assert application.image.photo.isVisible()
+
+
+def test_what_is_not_there_or_no_figure_is_refused_in_a_sentence(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    folder = tmp_path / "missing"
+    for ending in ENDINGS:
+        assert str(folder) in export(application, user, "profile", folder / f"f{ending}")
+        rubbish = tmp_path / f"rubbish{ending}"
+        rubbish.write_bytes(b"\0no figure")
+        application.files.open_scene(rubbish)
+        assert user.message.endswith(".")
+        assert "rubbish" in user.message
+
+
+def test_an_unknown_ending_is_refused(application: Application, user: User, tmp_path: Path) -> None:
+    assert ".png, .svg, .pdf, .csv" in export(application, user, "profile", tmp_path / "f.docx")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written: list[Path] = []
+    write = Path.write_bytes
+
+    def full(path: Path, content: bytes) -> int:
+        written.append(path)
+        if len(written) > 5:
+            write(path, content[:10])
+            raise OSError(28, "No space left on device")
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    folder = tmp_path / "report"
+    application.desktop.export.controller.export_all(folder)
+    user.rest()
+    assert "No space left on device" in user.message
+    assert len(written) > 5
+    assert not folder.exists()
+    application.desktop.export.controller.export("profile", tmp_path / "one.pdf")
+    user.rest()
+    assert "No space left on device" in user.message
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_mistake_of_ours_while_drawing_is_a_sentence_and_the_next_export_works(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(_job: object) -> None:
+        raise ZeroDivisionError("a mistake")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("occ_gui.controllers.export.export", broken)
+        said = export(application, user, "profile", tmp_path / "a.png")
+    assert said == "The export failed: ZeroDivisionError: a mistake."
+    assert export(application, user, "profile", tmp_path / "a.png") == "Exported a.png"
+
+
+def test_exports_that_come_quickly_are_all_written(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    paths = [tmp_path / f"{place}.csv" for place in range(4)]
+    for path in paths:
+        application.desktop.export.controller.export("profile", path)
+    user.rest()
+    assert sorted(tmp_path.iterdir()) == paths
+
+
+@pytest.mark.parametrize(
+    ("chosen", "kind", "written"),
+    [
+        ("figure", "PDF document (*.pdf)", "figure.pdf"),
+        ("figure.svg", "PNG picture (*.png)", "figure.svg"),
+        ("figure", "", "figure.png"),
+    ],
+)
+def test_the_ending_comes_from_the_name_or_from_the_kind_that_is_chosen(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    chosen: str, kind: str, written: str,
+) -> None:  # fmt: skip
+    answer = (str(tmp_path / chosen), kind)
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: answer)
+    application.window.actions_by_name["export_profile"].trigger()
+    user.rest()
+    assert [path.name for path in tmp_path.iterdir()] == [written]
+    if written.endswith(".png"):
+        with Image.open(tmp_path / written) as image:
+            assert image.width > 500
+
+
+def test_the_drawing_is_done_off_the_windows_thread(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from PySide6.QtCore import QThread
+
+    threads: list[bool] = []
+    work = export_work.export
+
+    def note(job: export_work.ExportJob) -> export_work.Exported:
+        threads.append(QThread.currentThread() is application.thread())
+        return work(job)
+
+    monkeypatch.setattr("occ_gui.controllers.export.export", note)
+    export(application, user, "profile", tmp_path / "a.csv")
+    assert threads == [False]
+    assert "matplotlib" in sys.modules

@@ -1,0 +1,208 @@
+"""Mistakes of ours and of the disk: the window lives, says what happened, and keeps the work."""
+
+import logging
+import sys
+import threading
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.exceptions import capture_exceptions
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.faults import Faults
+from occ_gui.views.averaged_image import AveragedImage
+from occ_gui.widgets.bit_strip import BitStrip
+from occ_gui.widgets.guarded_paint import guarded
+
+User = Any  # the fixture of that name
+
+STILL_THERE = "Your work is still there."
+
+
+@pytest.fixture
+def faults(application: Application) -> Iterator[Faults]:
+    """Let the window take all exceptions, in place of the tests' own hook."""
+    faults = application.desktop.faults
+    with capture_exceptions():
+        faults.install()
+        yield faults
+        faults.remove()
+
+
+def works(application: Application, user: User) -> bool:
+    user.enter("iso", "456")
+    return application.store.scene.camera.iso == 456.0 and not user.message
+
+
+def broken(*_arguments: object) -> None:
+    raise ZeroDivisionError("a mistake")
+
+
+def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
+    application: Application, user: User, faults: Faults, caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level(logging.ERROR):
+        QTimer.singleShot(0, broken)
+        QApplication.processEvents()
+        QApplication.processEvents()
+    assert "ZeroDivisionError: a mistake" in user.message
+    assert STILL_THERE in user.message
+    assert "Traceback" in caplog.text
+    application.window.statusBar().clearMessage()
+    assert works(application, user)
+
+
+def test_an_exception_that_comes_again_and_again_is_told_of_once(faults: Faults) -> None:
+    said: list[str] = []
+    faults.happened.connect(said.append)
+    for _ in range(50):
+        try:
+            broken()
+        except ZeroDivisionError as error:
+            sys.excepthook(type(error), error, error.__traceback__)
+    assert len(said) == 1
+
+
+def test_an_exception_in_a_thread_is_a_sentence(
+    application: Application, user: User, faults: Faults, qtbot: QtBot
+) -> None:
+    thread = threading.Thread(target=broken)
+    thread.start()
+    thread.join()
+    qtbot.waitUntil(lambda: STILL_THERE in user.message)
+    application.window.statusBar().clearMessage()
+    assert works(application, user)
+
+
+def test_an_exception_in_the_simulation_is_a_sentence_and_the_last_picture_stays(
+    application: Application, user: User, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = application.image.simulation.level_at(10, 10)
+    with monkeypatch.context() as patched:
+        patched.setattr("occ_gui.controllers.simulation.simulate", broken)
+        application.store.change(iso=333.0)
+        user.rest()
+        assert user.message == "The simulation failed: ZeroDivisionError: a mistake."
+    assert application.store.scene.camera.iso == 333.0
+    assert application.image.simulation.level_at(10, 10) == shown
+    assert works(application, user)
+
+
+def test_an_exception_while_a_picture_is_painted_is_a_sentence(
+    application: Application, user: User, faults: Faults, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patched:
+        patched.setattr(AveragedImage, "_averaged", broken)
+        application.image.simulation.fit()
+        application.store.change(iso=222.0)
+        user.rest()
+        application.window.grab()
+        assert STILL_THERE in user.message
+    application.window.statusBar().clearMessage()
+    assert works(application, user)
+    application.window.grab()
+
+
+def test_an_exception_while_a_widget_is_painted_is_a_sentence(
+    application: Application, user: User, faults: Faults, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patched:
+        patched.setattr(BitStrip, "_draw_bit", broken)
+        application.window.grab()
+        assert STILL_THERE in user.message
+    application.window.grab()
+
+
+def test_all_our_own_painting_is_guarded() -> None:
+    package = Path(sys.modules["occ_gui"].__file__ or "").parent
+    unguarded = []
+    for path in package.rglob("*.py"):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for before, line in pairwise(lines):
+            is_paint = line.strip().startswith(("def paint(", "def paintEvent("))
+            if is_paint and before.strip() != "@guarded":
+                unguarded.append(f"{path.name}: {line.strip()}")
+    assert unguarded == []
+
+
+def test_painting_goes_on_after_a_guarded_exception(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[object] = []
+    monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: seen.append(kind))
+    guarded(broken)()
+    assert seen == [ZeroDivisionError]
+
+
+def test_what_was_before_takes_exceptions_again_once_the_window_is_gone(
+    qtbot: QtBot,
+) -> None:
+    before = (sys.excepthook, threading.excepthook)
+    faults = Faults()
+    faults.install()
+    faults.remove()
+    assert (sys.excepthook, threading.excepthook) == before
+
+
+@pytest.mark.parametrize("content", ["format = 99\n", "format = 'new'\n[camera]\nlens = 3\n"])
+def test_a_scene_file_of_a_newer_version_is_refused_and_the_scene_stays(
+    application: Application, user: User, tmp_path: Path, content: str
+) -> None:
+    path = tmp_path / "newer.toml"
+    path.write_text(content, encoding="utf-8")
+    before = application.store.scene
+    application.files.open_scene(path)
+    assert "this version reads format 1" in user.message
+    assert application.store.scene == before
+    application.window.statusBar().clearMessage()
+    assert works(application, user)
+
+
+def test_a_disk_that_is_full_while_saving_leaves_the_old_file_and_says_so(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "scene.toml"
+    application.files.save_scene(path)
+    old = path.read_bytes()
+    user.enter("distance", "2 m")
+    assert application.window.isWindowModified()
+    write = Path.write_bytes
+
+    def full(place: Path, content: bytes) -> int:
+        write(place, content[:9])
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_bytes", full)
+        application.window.actions_by_name["save_scene"].trigger()
+        assert "No space left on device" in user.message
+    assert path.read_bytes() == old
+    assert list(tmp_path.iterdir()) == [path]
+    assert application.window.isWindowModified()
+    application.window.actions_by_name["save_scene"].trigger()
+    assert not application.window.isWindowModified()
+    assert path.read_bytes() != old
+
+
+def test_a_widget_that_fails_once_is_drawn_the_next_time(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[bool] = []
+    monkeypatch.setattr(sys, "excepthook", lambda *_: None)
+
+    class Fragile(QWidget):
+        @guarded
+        def paintEvent(self, _event: object) -> None:  # noqa: N802 - Qt's name
+            drawn.append(True)
+            if len(drawn) == 1:
+                broken()
+
+    widget = Fragile()
+    qtbot.addWidget(widget)
+    widget.grab()
+    widget.grab()
+    assert len(drawn) == 2

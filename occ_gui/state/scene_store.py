@@ -51,8 +51,26 @@ class SceneStore(QObject):
 
     def put(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
         """Replace the whole scene; ``title`` names the step in the undo menu."""
-        if scene != self._scene:
+        if scene == self._scene:
+            return
+        last = self._last_step()
+        if last is None or gesture == NO_GESTURE or gesture != last.gesture:
             self.undo_stack.push(_Step(self, self._scene, scene, title, gesture))
+            return
+        # Not by a second step that Qt merges with the first: PySide keeps what was merged for ever.
+        last.after = scene
+        if last.after == last.before:
+            last.setObsolete(True)  # a gesture that ends where it began is no step
+            self.undo_stack.undo()  # which takes an obsolete step away, and does nothing else
+        self._show(scene)
+
+    def _last_step(self) -> "_Step | None":
+        """Give the step that led here, None where it was saved, or there is none."""
+        index = self.undo_stack.index()
+        if index == 0 or index != self.undo_stack.count() or self.undo_stack.isClean():
+            return None
+        step = self.undo_stack.command(index - 1)
+        return step if isinstance(step, _Step) else None
 
     def _show(self, scene: Scene) -> None:
         self._scene = scene
@@ -67,23 +85,11 @@ class _Step(QUndoCommand):
     ) -> None:
         super().__init__(title)
         self._store = store
-        self._before = before
-        self._after = after
-        self._gesture = gesture
+        self.before, self.after = before, after
+        self.gesture = gesture
 
     def redo(self) -> None:
-        self._store._show(self._after)
+        self._store._show(self.after)
 
     def undo(self) -> None:
-        self._store._show(self._before)
-
-    def id(self) -> int:
-        return self._gesture
-
-    def mergeWith(self, other: QUndoCommand) -> bool:  # noqa: N802 - Qt's name
-        if not isinstance(other, _Step):
-            return False
-        self._after = other._after
-        # A gesture that ends where it began is no step.
-        self.setObsolete(self._after == self._before)
-        return True
+        self._store._show(self.before)

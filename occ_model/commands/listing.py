@@ -13,6 +13,7 @@ def add_to(commands: Commands) -> None:
     parser.add_argument("name", nargs="?", help="the preset to show whole")
     parser.set_defaults(command=_presets)
     parser = commands.add_parser("parameters", help="list what --set can set")
+    parser.add_argument("--markdown", action="store_true", help="as a table")
     parser.set_defaults(command=_parameters)
 
 
@@ -32,8 +33,21 @@ def _presets(options: argparse.Namespace) -> int:
     return 0
 
 
-def _parameters(_options: argparse.Namespace) -> int:
+def _parameters(options: argparse.Namespace) -> int:
+    if options.markdown:
+        print(parameter_table())
+        return 0
     for name, declaration in PARAMETERS.items():
         print(f"{name:26}{declaration.meaning}")
         print(f"{'':26}allowed: {declaration.allowed}")
     return 0
+
+
+def parameter_table() -> str:
+    """Write all parameters as a Markdown table: name, symbol, meaning, default and range."""
+    lines = ["| name | symbol | meaning | default | allowed |", "|---|---|---|---|---|"]
+    for name, declaration in PARAMETERS.items():
+        default = declaration.format(declaration.default)  # type: ignore[arg-type]
+        cells = (f"`{name}`", declaration.symbol, declaration.meaning, default, declaration.allowed)
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)

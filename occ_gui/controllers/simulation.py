@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from time import perf_counter
+from time import perf_counter, sleep
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
@@ -19,6 +19,9 @@ from occ_model.results import DecodeResult, Frame
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
 from occ_model.transmitter.packet import bits_of
+
+_TURN = 0.004
+"""Seconds that the window has to paint a picture in before it is read."""
 
 
 class SnapshotView(Protocol):
@@ -145,11 +148,13 @@ class SimulationController(QObject):
         self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
-        return simulate(
-            request.scene,
-            request.settings,
-            lambda frame: self.runner.hand_over(Picture.of(frame)),
-        )
+        return simulate(request.scene, request.settings, self._hand_over)
+
+    def _hand_over(self, frame: Frame) -> None:
+        self.runner.hand_over(Picture.of(frame))
+        # The window paints it meanwhile. Reading at once would make it wait: for the interpreter,
+        # and for the memory that both read the picture from.
+        sleep(_TURN)
 
     def _show_picture(self, picture: Picture) -> None:
         for view in self._pictures:

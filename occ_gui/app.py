@@ -186,6 +186,7 @@ def start(
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
+    from occ_gui.garbage import GarbageCollector
     from occ_gui.qt_messages import log_qt_messages
     from occ_gui.state.settings_store import FIRST_SETTINGS
 
@@ -194,7 +195,9 @@ def start(
     log_qt_messages(_end_without_display)
     qt = QApplication(arguments)
     log_qt_messages()
-    return qt, Application(scene, settings or FIRST_SETTINGS, memory)
+    application = Application(scene, settings or FIRST_SETTINGS, memory)
+    GarbageCollector(application)
+    return qt, application
 
 
 def _end_without_display() -> NoReturn:

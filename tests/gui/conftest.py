@@ -1,5 +1,6 @@
 """A whole application, pictures of widgets, and results to show, for the tests of the window."""
 
+import gc
 import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
@@ -72,6 +73,15 @@ class LazyWorkers(InlineWorkers):
 
     def outcome(self, task: Task) -> Outcome:
         return Outcome(None, abandoned=True)
+
+
+@pytest.fixture(autouse=True)
+def garbage_is_collected_on_this_thread() -> Iterator[None]:
+    """Let no worker destroy what an earlier test left of its widgets: Qt would wait for ever."""
+    gc.disable()
+    yield
+    gc.collect(1)
+    gc.enable()
 
 
 @pytest.fixture(autouse=True)

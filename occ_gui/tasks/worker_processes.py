@@ -1,16 +1,12 @@
 """Processes that work beside the window, with less claim to the processor than it has."""
 
 import os
-import signal
-import threading
-from collections.abc import Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
-from multiprocessing import get_all_start_methods, get_context, parent_process
 from time import monotonic
 from typing import Any
 
 from occ_gui.tasks.parcel import Abandoned, Outcome, Task
+from occ_model.processes import begin_worker, process_context, single_threads
 
 _SLOTS = 8
 """Lanes that there can be, and places to count pulses in."""
@@ -20,9 +16,6 @@ _NICENESS = 10
 
 _GRACE = 0.5
 """Seconds that processes get to end by themselves."""
-
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
-"""What tells linear algebra how many threads it may start."""
 
 
 class WorkerProcesses:
@@ -38,12 +31,7 @@ class WorkerProcesses:
 
     def __init__(self, count: int, preload: str) -> None:
         self.count = count
-        # A forked process has the locks of threads that it does not have: only a server that has
-        # none is forked, and where there is no such server a process starts from nothing.
-        method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
-        self._context: Any = get_context(method)
-        if method == "forkserver":
-            self._context.set_forkserver_preload([__name__, preload])
+        self._context = process_context([__name__, preload])
         # No locks: a process that dies with one in its hand would stop the others.
         self._floors = self._context.RawArray("q", _SLOTS)
         self._counts = self._context.RawArray("q", _SLOTS)
@@ -60,7 +48,7 @@ class WorkerProcesses:
 
     def submit(self, task: Task) -> "Future[Outcome]":
         """Hand over a task."""
-        with _single_threads():
+        with single_threads():
             return self._pool.submit(work, task)
 
     def abandon(self, lane: int, run: int) -> None:
@@ -94,21 +82,6 @@ class WorkerProcesses:
             manager.join()
 
 
-@contextmanager
-def _single_threads() -> Iterator[None]:
-    """Let processes started meanwhile do linear algebra in one thread: they are many themselves."""
-    before = {name: os.environ.get(name) for name in _THREADS}
-    os.environ.update(dict.fromkeys(_THREADS, "1"))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
-
-
 _shared: dict[str, Any] = {}
 """In a worker: the numbers that it shares with the window's process."""
 
@@ -116,19 +89,9 @@ _shared: dict[str, Any] = {}
 def _begin(floors: Any, counts: Any) -> None:
     """Prepare a worker: it stands back behind the window, and ends with it."""
     _shared.update(floors=floors, counts=counts)
-    # Ctrl-C reaches all processes of a terminal; the parent decides what becomes of it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    """Wait for a parent that was killed: nobody else tells a worker that it is alone."""
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
+    begin_worker()
 
 
 def work(task: Task) -> Outcome:

@@ -1,0 +1,59 @@
+"""Worker processes: how they are started, and how they end with their parent."""
+
+import os
+import signal
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from multiprocessing import get_all_start_methods, get_context, parent_process
+from typing import Any
+
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+"""What tells linear algebra how many threads it may start."""
+
+
+def process_context(preload: Sequence[str]) -> Any:
+    """Choose how processes are started.
+
+    Parameters
+    ----------
+    preload
+        Modules that they will need: where it can be shared it is imported only once.
+    """
+    # A forked process has the locks of threads that it does not have: only a server that has
+    # none is forked, and where there is no such server a process starts from nothing.
+    method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+    context: Any = get_context(method)
+    if method == "forkserver":
+        context.set_forkserver_preload(list(preload))
+    return context
+
+
+@contextmanager
+def single_threads() -> Iterator[None]:
+    """Let processes started meanwhile do linear algebra in one thread: they are many themselves."""
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def begin_worker() -> None:
+    """Prepare a worker: it ends with its parent, and only by it."""
+    # Ctrl-C reaches all processes of a terminal; the parent decides what becomes of it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """Wait for a parent that was killed: nobody else tells a worker that it is alone."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

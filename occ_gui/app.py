@@ -1,6 +1,7 @@
 """``occ-gui``: read the command line and open the window."""
 
 import argparse
+import gc
 import os
 import re
 import signal
@@ -182,6 +183,7 @@ def start(
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would find out by itself, but say more about it than helps.
         raise occ.OccError(_NO_DISPLAY)
+    gc.disable()  # from here on garbage is collected on this thread, when there is time for it
     # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
     from PySide6.QtWidgets import QApplication
 
@@ -195,8 +197,10 @@ def start(
     log_qt_messages(_end_without_display)
     qt = QApplication(arguments)
     log_qt_messages()
+    garbage = GarbageCollector(qt)
     application = Application(scene, settings or FIRST_SETTINGS, memory)
-    GarbageCollector(application)
+    garbage.spare()
+    application.window.closing.connect(garbage.release)
     return qt, application
 
 

@@ -62,6 +62,8 @@ class Application(QObject):
         super().__init__()
         self.store, self.settings = SceneStore(scene), SettingsStore(settings)
         self.memory = Memory(memory)
+        # The first picture is simulated while the panes that show it are made.
+        self.simulation = SimulationController(self.store, self.settings)
         effects = [name for effect in EFFECTS for name in effect.parameters]
         self.controls = ControlPanel([], effects)
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
@@ -80,9 +82,7 @@ class Application(QObject):
         # What was before, and the comparison, go before the profile, which is drawn with them.
         first = (self.image, self.teaching, self.desk.comparison)
         views = (*first, self.profile, self.decode, self.accuracy)
-        self.simulation = SimulationController(
-            self.store, self.settings, [*views, self.files], [self.image]
-        )
+        self.simulation.show_in([*views, self.files], [self.image])
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )

@@ -27,6 +27,18 @@ class GarbageCollector(QObject):
         self._turns.timeout.connect(self.collect)
         self._turns.start(_TURN_MS)
 
+    def spare(self) -> None:
+        """Leave out of every collection, until the window closes, what is there now.
+
+        Modules and widgets stay as long as the window does: looking through them takes 40 ms.
+        """
+        gc.freeze()
+
+    @staticmethod
+    def release() -> None:
+        """Collect again what was spared, now that the window is closing."""
+        gc.unfreeze()
+
     def collect(self) -> None:
         """Collect the oldest generation whose turn it is, if any's is."""
         counts, limits = gc.get_count(), gc.get_threshold()

@@ -221,7 +221,7 @@ def _unknown(name: object, known: tuple[str, ...]) -> PresetError:
 @lru_cache(maxsize=64)
 def _load(name: str) -> Preset:
     """Lay a preset file of the package over those that it is based on."""
-    return _put_together(name, _layers(resource_path(_FOLDER, f"{name}.toml")))
+    return _put_together(name, _package_layers(name))
 
 
 def _load_own(name: str) -> Preset:
@@ -234,14 +234,20 @@ def _load_own(name: str) -> Preset:
     return preset if preset.title else Preset(name, name, preset.scene, preset.sources, {})
 
 
-def _put_together(name: str, layers: list[dict[str, Any]]) -> Preset:
+@lru_cache(maxsize=64)
+def _package_layers(name: str) -> tuple[dict[str, Any], ...]:
+    """Read a preset file of the package, which does not change while the program runs."""
+    return _layers(resource_path(_FOLDER, f"{name}.toml"))
+
+
+def _put_together(name: str, layers: tuple[dict[str, Any], ...]) -> Preset:
     preset = Preset(name, "", Scene(), MappingProxyType({}), MappingProxyType({}))
     for content in layers:
         preset = _laid_over(preset, content)
     return preset
 
 
-def _layers(path: Path) -> list[dict[str, Any]]:
+def _layers(path: Path) -> tuple[dict[str, Any], ...]:
     """Read a preset file and, before it, those of the package that it is based on."""
     try:
         content = scene_file.from_toml(path.read_text(encoding="utf-8-sig"))
@@ -251,8 +257,7 @@ def _layers(path: Path) -> list[dict[str, Any]]:
     bases = [named] if isinstance(named, str) else named
     if not isinstance(bases, list) or not all(_is_base(base) for base in bases):
         raise SceneFileError(f"based_on is {named!r}; allowed: names of the program's presets.")
-    files = [resource_path(_FOLDER, f"{base}.toml") for base in bases]
-    return [*(layer for file in files for layer in _layers(file)), content]
+    return (*(layer for base in bases for layer in _package_layers(base)), content)
 
 
 def _is_base(name: object) -> bool:

@@ -110,10 +110,6 @@ class SimulationController(QObject):
         Its scene is simulated, at once and after every change.
     settings
         How it is simulated.
-    views
-        The panes that show the results.
-    pictures
-        Those that show the picture while it is still being read.
     """
 
     shown = Signal(object)
@@ -122,18 +118,12 @@ class SimulationController(QObject):
     failed = Signal(str)
     """Why the scene has no picture; the views keep the last one."""
 
-    def __init__(
-        self,
-        scenes: SceneStore,
-        settings: SettingsStore,
-        views: Sequence[SnapshotView],
-        pictures: Sequence[PictureView] = (),
-    ) -> None:
+    def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
         super().__init__()
         self._scenes = scenes
         self._settings = settings
-        self._views = views
-        self._pictures = pictures
+        self._views: Sequence[SnapshotView] = ()
+        self._pictures: Sequence[PictureView] = ()
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
         )
@@ -143,6 +133,18 @@ class SimulationController(QObject):
         for store in (scenes, settings):
             store.changed.connect(self._submit)
         self._submit()
+
+    def show_in(self, views: Sequence[SnapshotView], pictures: Sequence[PictureView] = ()) -> None:
+        """Show in these panes what comes from now on: nothing does before the event loop runs.
+
+        Parameters
+        ----------
+        views
+            The panes that show the results.
+        pictures
+            Those that show the picture while it is still being read.
+        """
+        self._views, self._pictures = views, pictures
 
     def _submit(self) -> None:
         self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))

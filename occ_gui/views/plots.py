@@ -102,7 +102,8 @@ def new_plot(
         The axes, where plain ones do not suit.
     """
     axes = {"left": left, "bottom": bottom}
-    plot = Plot(axisItems={side: axis for side, axis in axes.items() if axis is not None})
+    own = {side: axis for side, axis in axes.items() if axis is not None}
+    plot = Plot(axisItems=own, enableMenu=False)
     plot.setAccessibleName(name)
     for side, label in (("bottom", x), ("left", y)):
         plot.setLabel(side, label)
@@ -111,7 +112,6 @@ def new_plot(
     plot.setMinimumHeight(_LEAST_HEIGHT)
     # As high as there is room for; what a plot would like by itself is out of all proportion.
     plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
-    plot.setMenuEnabled(False)
     plot.hideButtons()
     plot.getViewBox().disableAutoRange()
     return plot

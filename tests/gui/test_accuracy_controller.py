@@ -52,7 +52,7 @@ class Bench:
         self._allowed = threading.Semaphore(0)
         self.measured: list[SimulationRequest] = []
         self.scenes, self.settings = SceneStore(scene), SettingsStore()
-        self.simulation = SimulationController(self.scenes, self.settings, [])
+        self.simulation = SimulationController(self.scenes, self.settings)
         self.pane = RecordingPane()
         self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)
 

@@ -38,7 +38,8 @@ class Bench:
         self.store = SceneStore(scene)
         self.settings = SettingsStore()
         self.views = (RecordingView(), RecordingView())
-        self.controller = SimulationController(self.store, self.settings, self.views)
+        self.controller = SimulationController(self.store, self.settings)
+        self.controller.show_in(self.views)
         self.failures: list[str] = []
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot

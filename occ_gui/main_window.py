@@ -14,6 +14,7 @@ from occ_gui.views.map_view import MapView
 from occ_gui.views.photo_view import PhotoView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
+from occ_gui.widgets.drops import leave_drops_to_window
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
 
@@ -82,8 +83,7 @@ class MainWindow(QMainWindow):
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
         self.setAcceptDrops(True)
-        for widget in self.findChildren(QWidget):
-            widget.setAcceptDrops(False)  # a file can be dropped anywhere
+        leave_drops_to_window(self)
         self._said_until = ""
         self._is_arranged = False
         self._behind = {"photo": "decode"}
@@ -127,8 +127,7 @@ class MainWindow(QMainWindow):
             self._behind[name] = behind
         else:
             self.splitDockWidget(place, dock, Qt.Orientation.Vertical)
-        for widget in dock.findChildren(QWidget):
-            widget.setAcceptDrops(False)  # the window takes files
+        leave_drops_to_window(dock)
         self.menus.add_dock(dock)
         return dock
 

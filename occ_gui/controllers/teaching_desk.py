@@ -1,26 +1,27 @@
 """All that shows what changed and why, put together: before, pins, equations, explorations."""
 
-from collections.abc import Mapping
-from typing import Protocol
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QDockWidget, QWidget
 
 from occ_gui.controllers.before import BeforeController
-from occ_gui.controllers.equations import EquationController
-from occ_gui.controllers.explorations import ExplorationController
-from occ_gui.controllers.exposure_column import ExposureController
 from occ_gui.controllers.photo import PhotoController
 from occ_gui.controllers.pins import PinController
+from occ_gui.state.pinned import Pinned
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.column_picker import ColumnPicker
-from occ_gui.views.compare_view import CompareView
-from occ_gui.views.explanation_view import ExplanationView
-from occ_gui.views.exploration_view import ExplorationView
 from occ_gui.views.image_view import ImageView
 from occ_gui.views.profile_view import ProfileView
+from occ_gui.widgets.late_pane import Furnishing, LatePane
+
+if TYPE_CHECKING:
+    from occ_gui.controllers.explanation_desk import ExplanationDesk
+    from occ_gui.controllers.guide_desk import GuideDesk
+    from occ_gui.views.compare_view import CompareView
 
 
 class DockWindow(Protocol):
@@ -41,6 +42,8 @@ class DockWindow(Protocol):
 
 class TeachingDesk(QObject):
     """The panes that explain and compare, with their controllers, as docks of a window.
+
+    Each pane is made when it is first seen.
 
     Parameters
     ----------
@@ -67,62 +70,92 @@ class TeachingDesk(QObject):
     ) -> None:
         super().__init__()
         self._window = window
-        self.explanation, self.compare = ExplanationView(), CompareView()
-        self.exploring = ExplorationView()
+        self._scenes, self._photos = scenes, photos
+        self._profile = profile
+        self._snapshot: Snapshot | None = None
         self.before = BeforeController(scenes, [profile, image.before])
-        self.pins = PinController(scenes, self.compare)
-        self.equations = EquationController(scenes, self.explanation.equations)
-        self.picker = ColumnPicker(profile.plot)
-        self.exposure = ExposureController(self.explanation.exposure, self.picker)
-        self.explorations = ExplorationController(scenes, photos, self.exploring)
+        self.pins = PinController(scenes, self)
         self._add_docks()
-        self._connect_pins()
-        self._connect_column()
-        self._connect_explorations()
+        self._connect_menus()
+
+    @cached_property
+    def explanation(self) -> "ExplanationDesk":
+        """The equations and the exposure of a column."""
+        from occ_gui.controllers.explanation_desk import ExplanationDesk
+
+        desk = ExplanationDesk(self._scenes, self._profile.plot)
+        if self._snapshot is not None:
+            desk.show_snapshot(self._snapshot)
+        return desk
+
+    @cached_property
+    def compare(self) -> "CompareView":
+        """What differs between A and B."""
+        from occ_gui.views.compare_view import CompareView
+
+        view = CompareView()
+        view.pin_asked.connect(self.pins.pin)
+        view.go_asked.connect(self.pins.go_to)
+        view.clear_asked.connect(self.pins.clear)
+        view.show_pinned(self.pins.pinned)
+        return view
+
+    @cached_property
+    def guide(self) -> "GuideDesk":
+        """The explorations."""
+        from occ_gui.controllers.guide_desk import GuideDesk
+
+        desk = GuideDesk(self._scenes, self._photos)
+        desk.explorations.said.connect(self.said)
+        desk.explorations.pane_wanted.connect(self._window.bring_to_front)
+        return desk
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Hand these results to all that make use of them."""
-        for part in (self.before, self.pins, self.exposure):
-            part.show_snapshot(snapshot)
+        self._snapshot = snapshot
+        self.before.show_snapshot(snapshot)
+        self.pins.show_snapshot(snapshot)
+        if "explanation" in vars(self):
+            self.explanation.show_snapshot(snapshot)
+
+    def show_pinned(self, pinned: Pinned) -> None:
+        """Show these two states where they are compared, if anybody has looked there yet."""
+        if "compare" in vars(self):
+            self.compare.show_pinned(pinned)
 
     def _add_docks(self) -> None:
-        add = self._window.add_pane
-        equations = add("equations", self.tr("Equations"), self.explanation, behind="decode")
-        equations.visibilityChanged.connect(self.equations.set_seen)
-        equations.visibilityChanged.connect(self.exposure.set_seen)
-        compare = add("compare", self.tr("Compare"), self.compare, behind="profile")
-        compare.visibilityChanged.connect(self.compare.set_seen)
-        guide = add("explorations", self.tr("Explorations"), self.exploring, below="controls")
-        guide.visibilityChanged.connect(self.explorations.set_seen)
+        add = self._add_dock
+        add("equations", self.tr("Equations"), self._explain, behind="decode")
+        add("compare", self.tr("Compare"), self._compare, behind="profile")
+        add("explorations", self.tr("Explorations"), self._guide, below="controls")
 
-    def _connect_pins(self) -> None:
-        for name, shown in (("pin_a", "A"), ("pin_b", "B")):
-            action = self._window.actions_by_name[name]
-            action.triggered.connect(lambda _=False, shown=shown: self.pins.pin(shown))
-        for name, shown in (("go_to_a", "A"), ("go_to_b", "B")):
-            action = self._window.actions_by_name[name]
-            action.triggered.connect(lambda _=False, shown=shown: self.pins.go_to(shown))
-        self._window.actions_by_name["clear_pins"].triggered.connect(self.pins.clear)
-        self.compare.pin_asked.connect(self.pins.pin)
-        self.compare.go_asked.connect(self.pins.go_to)
-        self.compare.clear_asked.connect(self.pins.clear)
-        self.pins.said.connect(self.said)
+    def _add_dock(
+        self, name: str, title: str, make: Callable[[], Furnishing], **place: str
+    ) -> None:
+        pane = LatePane(make)
+        dock = self._window.add_pane(name, title, pane, **place)
+        dock.visibilityChanged.connect(pane.set_seen)
 
-    def _connect_column(self) -> None:
-        self.picker.hovered.connect(self.exposure.hover)
-        self.picker.clicked.connect(self.exposure.click)
-        self.picker.stepped.connect(self.exposure.step)
-        self.picker.released.connect(lambda: self.exposure.hold(False))
-        self.explanation.exposure.column_chosen.connect(self.exposure.choose)
-        self.explanation.exposure.hold_chosen.connect(self.exposure.hold)
+    def _explain(self) -> Furnishing:
+        return self.explanation.pane, self.explanation.set_seen
 
-    def _connect_explorations(self) -> None:
-        self._window.actions_by_name["explorations"].triggered.connect(
+    def _compare(self) -> Furnishing:
+        return self.compare, self.compare.set_seen
+
+    def _guide(self) -> Furnishing:
+        return self.guide.pane, self.guide.explorations.set_seen
+
+    def _connect_menus(self) -> None:
+        actions = self._window.actions_by_name
+        for name, shown in (("a", "A"), ("b", "B")):
+            actions[f"pin_{name}"].triggered.connect(
+                lambda _=False, shown=shown: self.pins.pin(shown)
+            )
+            actions[f"go_to_{name}"].triggered.connect(
+                lambda _=False, shown=shown: self.pins.go_to(shown)
+            )
+        actions["clear_pins"].triggered.connect(self.pins.clear)
+        actions["explorations"].triggered.connect(
             lambda: self._window.bring_to_front("explorations")
         )
-        self.exploring.chosen.connect(self.explorations.choose)
-        self.exploring.moved.connect(self.explorations.go)
-        self.exploring.list_asked.connect(self.explorations.leave)
-        self.exploring.again_asked.connect(self.explorations.set_again)
-        self.explorations.said.connect(self.said)
-        self.explorations.pane_wanted.connect(self._window.bring_to_front)
+        self.pins.said.connect(self.said)

@@ -1,5 +1,7 @@
 """The column profile beside the band model's and a photo's, and what tells them apart."""
 
+from functools import cached_property
+
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
@@ -71,9 +73,7 @@ class ProfileView(QWidget):
         self.reason.setWordWrap(True)
         self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
         self._make_controls()
-        self.residual = ResidualPlot(self.plot)
-        for plot in (self.plot, self.residual.plot):  # so that a column stands over itself
-            plot.getAxis("left").setWidth(_AXIS_WIDTH)
+        self.plot.getAxis("left").setWidth(_AXIS_WIDTH)
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
         self._lay_out()
 
@@ -132,17 +132,26 @@ class ProfileView(QWidget):
         row.addStretch(1)
         for control in (self.enhanced, self._packets, self._panel):
             row.addWidget(control)
-        layout = QVBoxLayout(self)
+        layout = self._rows = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
         layout.setSpacing(2)
         layout.addLayout(row)
         layout.addWidget(self.reason)
         layout.addWidget(self.plot, 3)
-        layout.addWidget(self.residual, 2)
-        self._make_room()
+
+    @cached_property
+    def residual(self) -> ResidualPlot:
+        """What is left of a photo without the simulation: made with the first photo."""
+        residual = ResidualPlot(self.plot)
+        residual.plot.getAxis("left").setWidth(_AXIS_WIDTH)  # so that a column stands over itself
+        residual.hide()
+        self._rows.addWidget(residual, 2)
+        return residual
 
     def _make_room(self) -> None:
         """Name the columns once only, under the lower of the two plots."""
+        if self._photo is None and "residual" not in vars(self):
+            return  # there has never been a lower one
         below = self._photo is not None and self._photo.comparison is not None
         self.residual.setVisible(self._photo is not None)
         # A sentence in place of the lower plot takes no more room than a line.

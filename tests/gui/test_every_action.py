@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
     QTabBar,
     QWidget,
 )
+from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 from occ_gui.application import Application
@@ -70,8 +71,12 @@ def name_of(widget: QWidget) -> str:
 
 
 @pytest.fixture
-def with_photo(application: Application, user: User, photo_file: Path) -> Application:
-    """Open a photo, so that everything that needs one can be done."""
+def with_photo(qtbot: QtBot, application: Application, user: User, photo_file: Path) -> Application:
+    """Look at every pane, and open a photo, so that everything that needs one can be done."""
+    window = application.window
+    for name, dock in window.docks.items():
+        window.bring_to_front(name)
+        qtbot.waitUntil(lambda dock=dock: not dock.visibleRegion().isEmpty())
     application.open_photo(photo_file)
     user.rest()
     return application
@@ -80,6 +85,11 @@ def with_photo(application: Application, user: User, photo_file: Path) -> Applic
 def test_each_control_has_a_name_for_those_who_do_not_see_it(with_photo: Application) -> None:
     nameless = [path_to(w) for w in controls_of(with_photo.window) if not name_of(w)]
     assert nameless == []
+
+
+def test_the_walk_sees_the_controls_of_panes_that_are_made_late(with_photo: Application) -> None:
+    names = {name_of(control) for control in controls_of(with_photo.window)}
+    assert {"Pin A", "Show the answer", "Column whose exposure is shown"} <= names
 
 
 def test_each_control_says_what_it_does(with_photo: Application) -> None:

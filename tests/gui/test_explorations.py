@@ -20,7 +20,7 @@ User = Any  # the fixture of that name
 def guide(application: Application, user: User, qtbot: QtBot) -> ExplorationView:
     """Open the explorations by the menu."""
     user.choose("&Explorations")
-    guide = application.teaching.exploring
+    guide = application.teaching.guide.pane
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.choices))
     return guide
 
@@ -172,7 +172,7 @@ def test_explorations_that_cannot_be_read_are_answered_in_a_sentence(
 
     monkeypatch.setattr(explorations_room, "explorations", fail)
     user.choose("&Explorations")
-    guide = application.teaching.exploring
+    guide = application.teaching.guide.pane
     qtbot.waitUntil(lambda: "&lt;song&gt;" in guide._invitation.text())
     assert guide.choices == []
 

@@ -193,11 +193,11 @@ def test_the_panes_that_explain_and_compare_are_whole_at_every_size(
     window.bring_to_front("explorations")
     assert_faultless(qtbot, window, "list of explorations")
     for place in (0, 2):
-        teaching.exploring.choices[place].click()
-        teaching.exploring.reveal.click()
+        teaching.guide.pane.choices[place].click()
+        teaching.guide.pane.reveal.click()
         user.rest()
         assert_faultless(qtbot, window, "answer")
-        teaching.exploring.all.click()
+        teaching.guide.pane.all.click()
     assert window.size() == size
 
 

@@ -233,13 +233,15 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
     QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case
-    while not (_is_at_rest(application, measured) or deadline.hasExpired()):
+    QApplication.processEvents()  # what is about to begin is no rest
+    while not (rests := _is_at_rest(application, measured)) and not deadline.hasExpired():
         # Waiting, not spinning: the worker needs the interpreter.
         QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
-    QApplication.processEvents()
+        if _is_at_rest(application, measured):
+            QApplication.processEvents()  # paints, and may set something going again
     if failures:
         raise occ.OccError(failures[0])
-    if not _is_at_rest(application, measured):
+    if not rests:
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 
 

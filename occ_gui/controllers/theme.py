@@ -30,6 +30,9 @@ _LIGHT = {
     _ROLE.Light: "#ffffff", _ROLE.Midlight: "#cacaca", _ROLE.Mid: "#b8b8b8",
     _ROLE.Dark: "#9f9f9f", _ROLE.Shadow: "#767676", _ROLE.Accent: "#308cc6",
 }  # fmt: skip
+_BOX = "#8a8a8a"
+"""An empty check box in the dark: 3.6 times as light as the window."""
+
 _DISABLED = {"dark": "#7f7f7f", "light": "#a0a0a0"}
 _FADED = (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText)
 
@@ -41,6 +44,12 @@ def palette_of(theme: str) -> QPalette:
         palette.setColor(role, QColor(colour))
     for role in _FADED:
         palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(_DISABLED[theme]))
+    return palette
+
+
+def _boxed(palette: QPalette) -> QPalette:
+    """Make empty check boxes visible: Fusion frames them darker than the window."""
+    palette.setColor(_ROLE.Base, QColor(_BOX))
     return palette
 
 
@@ -78,6 +87,9 @@ class ThemeController(QObject):
         else:
             application.setStyle("Fusion")
             application.setPalette(palette_of(theme))
+            if theme == "dark":
+                # PySide takes a text here, whatever its stubs say.
+                application.setPalette(_boxed(palette_of(theme)), "QCheckBox")  # type: ignore[arg-type]
         self.chosen.emit(theme)
 
 

@@ -4,14 +4,15 @@ import math
 from collections.abc import Sequence
 
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette, QPixmap, QResizeEvent
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.views.log_axis import LogAxis
 from occ_gui.views.plots import BAND, NOISE, PHOTO, SIMULATION, marker, new_plot, thin
 from occ_gui.views.point_numbers import PointNumbers
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.inks import seen_on
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 
@@ -37,6 +38,8 @@ _FAINT = 0.3
 
 _KEY_FROM = 640
 """Width in pixels from which the names of the numbered points stand beside the plot."""
+
+_SAMPLE = QSize(14, 14)
 
 _MARGIN = 0.35
 """Powers of ten round the points, at least."""
@@ -76,7 +79,7 @@ class AccuracyPlot(QWidget):
         widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
         self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
         self._make_items()
-        self._numbers = PointNumbers(self.plot, COLOURS[_LADDER])
+        self._numbers = PointNumbers(self.plot)
         self._make_legend()
         self._lay_out()
         self._fit()
@@ -105,16 +108,21 @@ class AccuracyPlot(QWidget):
         }
         for part, meaning in ACCURACY_PARTS.items():
             sample = marker(SYMBOLS[part], 8, COLOURS[part])
-            self.legend.add_sample(part, sample, words[part], meaning)
+            self.legend.add_sample(part, sample, _SAMPLE, words[part], meaning)
         self.legend.add_sample(
-            "current", QPixmap(), self.tr("now"), self.tr("The settings at hand.")
-        )
+            "current", marker("o", 12, None), _SAMPLE, self.tr("now"),
+            self.tr("The settings at hand."),
+        )  # fmt: skip
         self.plot.dress_with(self._dress)
 
     def _dress(self, palette: QPalette) -> None:
         ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5)
         self.rings.setPen(ring)
-        self.legend.set_sample("current", marker("o", 12, None, ring))
+        for part, scatter in self.scatters.items():
+            scatter.setBrush(seen_on(palette, COLOURS[part]))
+        for part, line in self.lines.items():
+            line.setPen(thin(seen_on(palette, COLOURS[part])))
+        self._numbers.set_colour(seen_on(palette, COLOURS[_LADDER]))
         grey = palette.color(QPalette.ColorRole.Mid)
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 

@@ -107,7 +107,7 @@ class CompareView(QWidget):
         self.legend = LineLegend()
         for name, pen in pens.items():
             self.legend.add_line(name, pen, name)
-        self.curves = {name: self.plot.plot(pen=pen) for name, pen in pens.items()}
+        self.curves = {name: self.plot.add_curve(pen) for name, pen in pens.items()}
 
     def _lay_out(self) -> None:
         row = QHBoxLayout()

@@ -45,8 +45,8 @@ class SignalPlot(QWidget):
         self.legend.add_line("threshold", thin(THRESHOLD, dash), self.tr("threshold"))
         self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), self.tr("chips: lit"))
         self.legend.add_line("model", thin(BAND, dash), self.tr("model of the code"))
-        self.signal = self.plot.plot(pen=thin(SIMULATION))
-        self.model = self.plot.plot(pen=thin(BAND, dash))
+        self.signal = self.plot.add_curve(thin(SIMULATION))
+        self.model = self.plot.add_curve(thin(BAND, dash))
         self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
         self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[], brush=SIMULATION)
         for item in (self.threshold, self.chips):
@@ -133,7 +133,7 @@ class RunLengthPlot(QWidget):
         self.bars, self.splits = [], []
         for colour in (BAND, SIMULATION):  # zeros, ones
             bars = pg.BarGraphItem(x=[], height=[], width=0.8, brush=colour, pen=colour)
-            split = self.plot.plot(pen=thin(colour, Qt.PenStyle.DashLine))
+            split = self.plot.add_curve(thin(colour, Qt.PenStyle.DashLine))
             self.plot.addItem(bars)
             self.bars.append(bars)
             self.splits.append(split)

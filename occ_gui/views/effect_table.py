@@ -18,6 +18,7 @@ from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView, QWidget
 
 from occ_gui.views.plots import REGION, SIMULATION
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
+from occ_gui.widgets.inks import seen_on
 from occ_model.results import Decision, Frame
 
 _Index = QModelIndex | QPersistentModelIndex
@@ -173,7 +174,7 @@ def _bold() -> QFont:
 def _colour(row: EffectRow, column: int) -> QColor | None:
     if row.absent:
         return QPalette().color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
-    return SIMULATION if column == DECISION and row.included else None
+    return seen_on(QPalette(), SIMULATION) if column == DECISION and row.included else None
 
 
 class _FlatSwitch(QComboBox):

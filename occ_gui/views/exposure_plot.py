@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.views.plots import BAND, REGION, SIMULATION, new_plot, thin
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
+from occ_gui.widgets.inks import pen_on
 from occ_model.results.teaching import ExposureWindow
 from occ_model.units import SECOND
 
@@ -69,7 +70,8 @@ class ExposurePlot(QWidget):
         self.lit = pg.BarGraphItem(
             x0=[], x1=[], y0=0.0, y1=1.0, pen=thin(BAND), brush=_hatching(BAND)
         )
-        self.chips = pg.PlotCurveItem(pen=thin(SIMULATION))
+        self.chips = pg.PlotCurveItem()
+        self.plot.dress_with(lambda palette: self.chips.setPen(pen_on(palette, thin(SIMULATION))))
         for item in (self.shade, self.lit, self.chips):
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)

@@ -3,11 +3,13 @@
 from collections.abc import Callable
 
 import pyqtgraph as pg
-from pyqtgraph.graphicsItems.ScatterPlotItem import renderSymbol
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QColor, QPalette, QPen, QPixmap, QResizeEvent
+from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
+from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy
 
+from occ_gui.widgets.inks import pen_on, seen_on
+from occ_gui.widgets.line_legend import Drawing
 from occ_model import colours
 
 SIMULATION = QColor(colours.SIMULATION)
@@ -48,6 +50,12 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
         self._dressed = (*self._dressed, dress)
         dress(self.palette())
 
+    def add_curve(self, pen: QPen) -> pg.PlotDataItem:
+        """Add a curve without points yet, in a colour that can be seen on any background."""
+        curve = self.plot(pen=pen)
+        self.dress_with(lambda palette: curve.setPen(pen_on(palette, pen)))
+        return curve
+
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         """Follow the palette, as when the theme changes."""
         super().changeEvent(event)
@@ -74,10 +82,18 @@ def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
     return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
-def marker(symbol: str, size: int, fill: QColor | None, outline: QPen | None = None) -> QPixmap:
-    """Draw a point as a plot does."""
-    brush = pg.mkBrush(fill)
-    return QPixmap.fromImage(renderSymbol(symbol, size, outline or pg.mkPen(None), brush))
+def marker(symbol: str, size: float, fill: QColor | None) -> Drawing:
+    """Draw a point as a plot does, for a legend: filled, or a ring in the colour of text."""
+
+    def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
+        ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5 / size)
+        painter.setPen(ring if fill is None else pg.mkPen(None))
+        painter.setBrush(pg.mkBrush(None if fill is None else seen_on(palette, fill)))
+        painter.translate(place.center())
+        painter.scale(size, size)
+        painter.drawPath(Symbols[symbol])
+
+    return draw
 
 
 def new_plot(

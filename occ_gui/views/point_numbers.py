@@ -23,13 +23,11 @@ class PointNumbers:
     ----------
     plot
         The plot.
-    colour
-        The numbers' colour.
     """
 
-    def __init__(self, plot: pg.PlotWidget, colour: QColor) -> None:
+    def __init__(self, plot: pg.PlotWidget) -> None:
         self._plot = plot
-        self._colour = colour
+        self._colour = QColor()
         self._items: list[pg.TextItem] = []
         self._places: list[QPointF] = []
         self._others: list[QPointF] = []
@@ -47,6 +45,12 @@ class PointNumbers:
             self._plot.addItem(item, ignoreBounds=True)
             self._items.append(item)
         self._arrange()
+
+    def set_colour(self, colour: QColor) -> None:
+        """Write the numbers in a colour."""
+        self._colour = colour
+        for item in self._items:
+            item.setColor(colour)
 
     def set_opacity(self, opacity: float) -> None:
         """Let the numbers fade with their points."""

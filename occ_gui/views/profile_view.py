@@ -89,10 +89,10 @@ class ProfileView(QWidget):
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
             self.legend.show_line(key, key == "simulation")
-        self.before = self.plot.plot(pen=pens["before"][1])  # under all others
-        self.simulation = self.plot.plot(pen=pens["simulation"][1])
-        self.band = self.plot.plot(pen=pens["band"][1])
-        self.photo = self.plot.plot(pen=pens["photo"][1])
+        self.before = self.plot.add_curve(pens["before"][1])  # under all others
+        self.simulation = self.plot.add_curve(pens["simulation"][1])
+        self.band = self.plot.add_curve(pens["band"][1])
+        self.photo = self.plot.add_curve(pens["photo"][1])
         self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
         shade = QColor(REGION)
         shade.setAlpha(_SHADE)

@@ -43,7 +43,7 @@ class ResidualPlot(QWidget):
         self._linked = linked
         zero = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, Qt.PenStyle.DashDotLine))
         self.plot.addItem(zero, ignoreBounds=True)
-        self.curve = self.plot.plot(pen=thin(PHOTO))
+        self.curve = self.plot.add_curve(thin(PHOTO))
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(1)

@@ -1,10 +1,19 @@
 """A legend outside the plot, where no curve runs through it."""
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QPainter, QPen, QPixmap
+from collections.abc import Callable
+from typing import TypeAlias
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
-_SAMPLE = QSize(24, 12)
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.inks import pen_on
+
+_LINE = QSize(24, 12)
+
+Drawing: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
+"""Draws a sample into a rectangle, in colours that suit a palette."""
 
 
 class LineLegend(QWidget):
@@ -15,42 +24,50 @@ class LineLegend(QWidget):
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._entries: dict[str, QWidget] = {}
-        self._samples: dict[str, QLabel] = {}
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
         """Add an entry, shown until :meth:`show_line` hides it."""
-        self.add_sample(key, _sample(pen), text)
+        thick = QPen(pen)
+        thick.setWidth(max(2, pen.width()))
 
-    def add_sample(self, key: str, picture: QPixmap, text: str, meaning: str = "") -> None:
-        """Add an entry for what is drawn as in a picture; what it means is its tooltip."""
-        sample, name = QLabel(), QLabel(text)
-        sample.setPixmap(picture)
+        def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
+            middle = place.center().y()
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+            painter.setPen(pen_on(palette, thick))
+            painter.drawLine(QPointF(place.left(), middle), QPointF(place.right(), middle))
+
+        self.add_sample(key, draw, _LINE, text)
+
+    def add_sample(
+        self, key: str, draw: Drawing, size: QSize, text: str, meaning: str = ""
+    ) -> None:
+        """Add an entry with a sample of its own; what it means is its tooltip."""
         entry = QWidget()
         entry.setToolTip(meaning)
         layout = QHBoxLayout(entry)
         layout.setContentsMargins(0, 0, 6, 0)
-        layout.addWidget(sample)
-        layout.addWidget(name)
+        layout.addWidget(Sample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)
+        layout.addWidget(QLabel(text))
         self._row.addWidget(entry)
         self._entries[key] = entry
-        self._samples[key] = sample
-
-    def set_sample(self, key: str, picture: QPixmap) -> None:
-        """Draw an entry's sample in another way, as when the theme changes."""
-        self._samples[key].setPixmap(picture)
 
     def show_line(self, key: str, visible: bool) -> None:
         """Show or hide an entry."""
         self._entries[key].setVisible(visible)
 
 
-def _sample(pen: QPen) -> QPixmap:
-    pixmap = QPixmap(_SAMPLE)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(pixmap)
-    thick = QPen(pen)
-    thick.setWidth(max(2, pen.width()))
-    painter.setPen(thick)
-    painter.drawLine(0, _SAMPLE.height() // 2, _SAMPLE.width(), _SAMPLE.height() // 2)
-    painter.end()
-    return pixmap
+class Sample(QWidget):
+    """What stands for a line or a point; drawn anew for every palette and scale of the screen."""
+
+    def __init__(self, draw: Drawing, size: QSize, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._draw = draw
+        self.setFixedSize(size)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the sample."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._draw(painter, QRectF(self.rect()), self.palette())
+        painter.end()

@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.line_legend import LineLegend
+from occ_gui.widgets.line_legend import LineLegend, Sample
 
 
 @pytest.fixture
@@ -41,6 +41,6 @@ def test_samples_of_one_colour_differ_by_their_dashes(
 ) -> None:
     for key in ("solid", "dashed"):
         legend.show_line(key, True)
-    samples = [label for label in legend.findChildren(QLabel) if not label.pixmap().isNull()]
+    samples = legend.findChildren(Sample)
     solid, dashed = (int((grey_picture(sample) < 100).sum()) for sample in samples)
     assert 0 < dashed < solid

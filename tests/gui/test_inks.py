@@ -1,0 +1,76 @@
+"""What is drawn can be told from its background, in the light and in the dark."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPalette, QPen
+from PySide6.QtWidgets import QApplication, QCheckBox
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.theme import ThemeController, palette_of
+from occ_gui.widgets.inks import contrast, pen_on, seen_on
+from occ_model import colours
+
+CURVES = [getattr(colours, name) for name in dir(colours) if name.isupper()]
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "ratio"),
+    [("#000000", "#ffffff", 21.0), ("#777777", "#ffffff", 4.48), ("#ff0000", "#0000ff", 2.15)],
+)
+def test_the_contrast_is_that_of_published_examples(one: str, other: str, ratio: float) -> None:
+    assert contrast(QColor(one), QColor(other)) == pytest.approx(ratio, abs=0.005)
+    assert contrast(QColor(other), QColor(one)) == contrast(QColor(one), QColor(other))
+
+
+@pytest.mark.parametrize("colour", CURVES)
+def test_every_curve_can_be_seen_in_the_dark_and_keeps_its_hue(colour: str) -> None:
+    dark = palette_of("dark")
+    ink = seen_on(dark, QColor(colour))
+    assert contrast(ink, dark.color(QPalette.ColorRole.Base)) >= 4.5
+    assert ink.hslHue() == pytest.approx(QColor(colour).hslHue(), abs=2)
+
+
+@pytest.mark.parametrize("colour", CURVES)
+def test_in_the_light_colours_are_those_of_print(colour: str) -> None:
+    assert seen_on(palette_of("light"), QColor(colour)) == QColor(colour)
+
+
+def test_no_ink_can_be_seen_on_itself_and_the_search_ends() -> None:
+    palette = palette_of("dark")
+    for paper in ("#000000", "#7f7f7f", "#ffffff"):
+        palette.setColor(QPalette.ColorRole.Base, QColor(paper))
+        for ink in ("#000000", "#0000ff", "#7f7f7f", "#ffffff"):
+            assert seen_on(palette, QColor(ink)).isValid()
+
+
+def test_only_the_colour_of_a_pen_changes() -> None:
+    pen = QPen(QColor(colours.SIMULATION), 3, Qt.PenStyle.DashLine)
+    seen = pen_on(palette_of("dark"), pen)
+    assert (seen.width(), seen.style()) == (3, Qt.PenStyle.DashLine)
+    assert seen.color() != pen.color()
+
+
+def test_curves_and_their_samples_follow_the_theme(application: Application) -> None:
+    themes, curve = application.desktop.theme, application.profile.simulation
+    for theme in ("dark", "light"):
+        themes.choose(theme)
+        QApplication.processEvents()
+        assert curve.opts["pen"].color() == seen_on(palette_of(theme), QColor(colours.SIMULATION))
+    themes.choose("system")
+
+
+def test_an_empty_check_box_can_be_seen_in_the_dark(qtbot: QtBot) -> None:
+    themes = ThemeController()
+    themes.choose("dark")
+    box = QCheckBox()
+    qtbot.addWidget(box)
+    box.show()
+    base, window = (
+        box.palette().color(r) for r in (QPalette.ColorRole.Base, QPalette.ColorRole.Window)
+    )
+    assert contrast(base, window) >= 3.0  # WCAG 2.1, success criterion 1.4.11
+    picture = box.grab().toImage()
+    middle = picture.pixelColor(8, picture.height() // 2)
+    assert contrast(middle, window) >= 3.0
+    themes.choose("system")

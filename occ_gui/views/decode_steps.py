@@ -3,15 +3,21 @@
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.views.plots import BAND, PACKETS_IN_VIEW, SIMULATION, THRESHOLD, new_plot, thin
+from occ_gui.widgets.inks import seen_on
 from occ_gui.widgets.line_legend import LineLegend
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import DecodeResult
 
 _CHIP_BAND = 0.16
 """Height of the chips' strip below the signal, as a share of the signal's range."""
+
+
+_COLOURS = (BAND, SIMULATION)
+"""Of the run lengths of zeros, and of ones."""
 
 
 class _LevelAxis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
@@ -48,7 +54,8 @@ class SignalPlot(QWidget):
         self.signal = self.plot.add_curve(thin(SIMULATION))
         self.model = self.plot.add_curve(thin(BAND, dash))
         self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
-        self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[], brush=SIMULATION)
+        self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[])
+        self.plot.dress_with(lambda palette: self.chips.setOpts(brush=seen_on(palette, SIMULATION)))
         for item in (self.threshold, self.chips):
             self.plot.addItem(item, ignoreBounds=True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -131,18 +138,23 @@ class RunLengthPlot(QWidget):
         )
         title = QLabel(self.tr("Run lengths: ones up, zeros down, splits dashed"))
         self.bars, self.splits = [], []
-        for colour in (BAND, SIMULATION):  # zeros, ones
-            bars = pg.BarGraphItem(x=[], height=[], width=0.8, brush=colour, pen=colour)
+        for colour in _COLOURS:
+            bars = pg.BarGraphItem(x=[], height=[], width=0.8)
             split = self.plot.add_curve(thin(colour, Qt.PenStyle.DashLine))
             self.plot.addItem(bars)
             self.bars.append(bars)
             self.splits.append(split)
+        self.plot.dress_with(self._dress)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(title)
         layout.addWidget(self.plot, 1)
+
+    def _dress(self, palette: QPalette) -> None:
+        for bars, colour in zip(self.bars, _COLOURS, strict=True):
+            bars.setOpts(brush=seen_on(palette, colour), pen=seen_on(palette, colour))
 
     def show_result(self, result: DecodeResult) -> None:
         """Show the histograms of this result, if it has any."""

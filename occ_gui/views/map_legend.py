@@ -2,13 +2,15 @@
 
 from collections.abc import Collection
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from occ_gui.views.map_plot import STYLES
 
 _SAMPLE = QSize(28, 12)
+
+_REDRAWN_AT = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
 
 
 class MapLegend(QWidget):
@@ -43,11 +45,11 @@ class MapLegend(QWidget):
             self.buttons[key] = button
             row.addWidget(button)
         row.addStretch(1)
+        self._draw_samples()
 
     def _button(self, key: str, text: str, meaning: str) -> QToolButton:
         button = QToolButton()
         button.setText(text)
-        button.setIcon(QIcon(self._sample(STYLES[key])))
         button.setIconSize(_SAMPLE)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         button.setAutoRaise(True)
@@ -59,8 +61,20 @@ class MapLegend(QWidget):
         button.toggled.connect(lambda shown: self.toggled.emit(key, shown))
         return button
 
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the palette and the screen's scale."""
+        super().changeEvent(event)
+        if event.type() in _REDRAWN_AT:
+            self._draw_samples()
+
+    def _draw_samples(self) -> None:
+        for key, button in self.buttons.items():
+            button.setIcon(QIcon(self._sample(STYLES[key])))
+
     def _sample(self, style: Qt.PenStyle) -> QPixmap:
-        pixmap = QPixmap(_SAMPLE)
+        scale = self.devicePixelRatioF()
+        pixmap = QPixmap(_SAMPLE * scale)
+        pixmap.setDevicePixelRatio(scale)
         pixmap.fill(Qt.GlobalColor.transparent)
         painter = QPainter(pixmap)
         painter.setPen(QPen(self.palette().color(QPalette.ColorRole.WindowText), 2, style))

@@ -144,6 +144,9 @@ class MapPlot(QWidget):
         for key, lines in self.lines.items():
             self._draw_lines(painter, key, lines)
         self._draw_marks(painter, area)
+        for key, lines in self.lines.items():  # over all that they stand beside
+            if lines and self.labels.get(key):
+                self._draw_label(painter, self.labels[key], max(lines, key=len))
 
     def _cell(self, x: int, y: int) -> QRectF:
         area = self.area()
@@ -197,8 +200,6 @@ class MapPlot(QWidget):
             for each in (casing, pen):
                 painter.setPen(each)
                 painter.drawPolyline(path)
-        if lines and self.labels.get(key):
-            self._draw_label(painter, self.labels[key], max(lines, key=len))
 
     def _draw_label(self, painter: QPainter, text: str, line: list[Point]) -> None:
         """Write beside a line what it is: at its upper end, or wherever there is room."""

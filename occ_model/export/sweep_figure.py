@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from occ_model import colours
 from occ_model.arrays import FloatArray
@@ -185,10 +185,22 @@ def _draw_map(ax: Axes, grid: FloatArray) -> None:
 
 def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> None:
     _, worth = _shown_unit(name, values)
+    axis.set_tick_params(labelsize=7)
+    at, words = _places(name, values, worth)
+    if words is None and len(at) > _TICKS and bool(np.all(np.diff(at) > 0)):
+        axis.set_ticks(*_round_ticks(at, _is_log(name, at)))
+        return
     step = _step(len(values))
     labels = [_number(value, worth) for value in values]
     axis.set_ticks(range(0, len(values), step), labels[::step])
-    axis.set_tick_params(labelsize=7)
+
+
+def _round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
+    """Number the cells of increasing values by round ones, which may lie between two cells."""
+    locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
+    marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
+    scale = np.log if is_log else np.asarray
+    return np.interp(scale(marks), scale(at), np.arange(len(at))), [f"{mark:g}" for mark in marks]
 
 
 def _step(count: int) -> int:

@@ -86,7 +86,7 @@ def marker(symbol: str, size: float, fill: QColor | None) -> Drawing:
     """Draw a point as a plot does, for a legend: filled, or a ring in the colour of text."""
 
     def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
-        ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5 / size)
+        ring = QPen(palette.color(QPalette.ColorRole.Text), 1.5 / size)  # scaled with the point
         painter.setPen(ring if fill is None else pg.mkPen(None))
         painter.setBrush(pg.mkBrush(None if fill is None else seen_on(palette, fill)))
         painter.translate(place.center())

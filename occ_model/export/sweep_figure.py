@@ -196,7 +196,7 @@ def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> No
 
 
 def _round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
-    """Number the cells of increasing values by round ones, which may lie between two cells."""
+    """Give places among the cells of increasing values for round ones, and their texts."""
     locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
     marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
     scale = np.log if is_log else np.asarray

@@ -58,28 +58,9 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(self.tr("Optical Camera Communication"))
         self.setDockNestingEnabled(True)
         self.setCentralWidget(image)
-        left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
-        bottom = Qt.DockWidgetArea.BottomDockWidgetArea
-        self.setCorner(Qt.Corner.BottomLeftCorner, left)
-        decoding = ScrollPane(decode, _LEAST_DECODING)
-        self.docks = {
-            "controls": self._dock("controls", self.tr("Scene"), controls, left),
-            "decode": self._dock("decode", self.tr("Decoding"), decoding, right),
-            "photo": self._dock("photo", self.tr("Photo"), photo, right),
-            "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
-            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
-            "map": self._dock("map", self.tr("Detection map"), detection, bottom),
-        }
-        self.tabifyDockWidget(self.docks["profile"], self.docks["accuracy"])
-        self.tabifyDockWidget(self.docks["accuracy"], self.docks["map"])
-        self.docks["profile"].raise_()
-        self.docks["photo"].hide()  # so that until it has its place it needs no room
+        self.docks = self._make_docks(controls, decode, photo, profile, accuracy, detection)
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
         self.docks["map"].visibilityChanged.connect(detection.set_seen)
-        self.resizeDocks([self.docks["profile"]], [308], Qt.Orientation.Vertical)
-        self.resizeDocks(
-            [self.docks["controls"], self.docks["decode"]], [340, 360], Qt.Orientation.Horizontal
-        )
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
         self.setAcceptDrops(True)
@@ -93,6 +74,37 @@ class MainWindow(QMainWindow):
         self.statusBar().addPermanentWidget(self.pointed)
         self.statusBar().addPermanentWidget(self._timing)
         self.resize(_FIRST_SIZE)
+
+    def _make_docks(
+        self,
+        controls: QWidget,
+        decode: QWidget,
+        photo: QWidget,
+        profile: QWidget,
+        accuracy: QWidget,
+        detection: QWidget,
+    ) -> dict[str, QDockWidget]:
+        left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+        bottom = Qt.DockWidgetArea.BottomDockWidgetArea
+        self.setCorner(Qt.Corner.BottomLeftCorner, left)
+        decoding = ScrollPane(decode, _LEAST_DECODING)
+        docks = {
+            "controls": self._dock("controls", self.tr("Scene"), controls, left),
+            "decode": self._dock("decode", self.tr("Decoding"), decoding, right),
+            "photo": self._dock("photo", self.tr("Photo"), photo, right),
+            "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
+            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
+            "map": self._dock("map", self.tr("Detection map"), detection, bottom),
+        }
+        self.tabifyDockWidget(docks["profile"], docks["accuracy"])
+        self.tabifyDockWidget(docks["accuracy"], docks["map"])
+        docks["profile"].raise_()
+        docks["photo"].hide()  # so that until it has its place it needs no room
+        self.resizeDocks([docks["profile"]], [308], Qt.Orientation.Vertical)
+        self.resizeDocks(
+            [docks["controls"], docks["decode"]], [340, 360], Qt.Orientation.Horizontal
+        )
+        return docks
 
     def _dock(
         self, name: str, title: str, content: QWidget, area: Qt.DockWidgetArea

@@ -19,6 +19,7 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
 
 _FIRST_SIZE = QSize(1280, 800)
+_ROOM_BELOW = 3
 _LEAST_DECODING = QSize(320, 300)
 
 
@@ -57,6 +58,7 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.setWindowTitle(self.tr("Optical Camera Communication"))
         self.setDockNestingEnabled(True)
+        self.setAnimated(False)  # each picture of a movement would draw all the plots
         self.setCentralWidget(image)
         self.docks = self._make_docks(controls, decode, photo, profile, accuracy, detection)
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
@@ -68,6 +70,7 @@ class MainWindow(QMainWindow):
         self._said_until = ""
         self._is_arranged = False
         self._behind = {"photo": "decode"}
+        self._above: dict[str, QDockWidget] = {}
         self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.pointed, self._timing = QLabel(), QLabel()
         self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
@@ -139,13 +142,24 @@ class MainWindow(QMainWindow):
             self._behind[name] = behind
         else:
             self.splitDockWidget(place, dock, Qt.Orientation.Vertical)
+            dock.toggleViewAction().triggered.connect(lambda: self._give_room(dock, place))
+            self._above[name] = place
         leave_drops_to_window(dock)
         self.menus.add_dock(dock)
         return dock
 
+    def _give_room(self, dock: QDockWidget, above: QDockWidget) -> None:
+        """Let a pane that appears under another one take a third of the window's height."""
+        wanted = self.height() // _ROOM_BELOW
+        if dock.isVisible() and dock.height() < wanted:
+            rest = above.height() + dock.height() - wanted
+            self.resizeDocks([above, dock], [rest, wanted], Qt.Orientation.Vertical)
+
     def bring_to_front(self, name: str) -> None:
         """Show a pane before those that share its place."""
         dock = self.docks[name]
+        if dock.isHidden() and name in self._above:
+            QTimer.singleShot(0, dock, lambda: self._give_room(dock, self._above[name]))
         dock.show()
         # A window that has just been shown lays its panes out once more, in an order of its own.
         QTimer.singleShot(0, dock, dock.raise_)

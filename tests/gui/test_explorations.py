@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app import PANES
@@ -187,3 +188,18 @@ def test_a_photo_that_is_missing_is_told(
     guide.choices[4].click()
     assert user.message == "The photo led-1khz is missing."
     user.rest()
+
+
+def test_the_explorations_come_with_room_to_be_read_and_keep_what_the_user_gives_them(
+    application: Application, guide: ExplorationView, qtbot: QtBot
+) -> None:
+    window = application.window
+    dock, above = window.docks["explorations"], window.docks["controls"]
+    third = window.height() // 3
+    qtbot.waitUntil(lambda: dock.height() == third)
+    both = above.height() + dock.height()
+    window.resizeDocks([above, dock], [both - third - 60, third + 60], Qt.Orientation.Vertical)
+    qtbot.waitUntil(lambda: dock.height() == third + 60)
+    window.bring_to_front("explorations")
+    qtbot.wait(20)
+    assert dock.height() == third + 60

@@ -39,8 +39,9 @@ class ResidualPlot(QWidget):
         self.plot.setClipToView(True)
         # Linked by pyqtgraph, one would be shifted by what their frames are apart on the screen.
         linked.getViewBox().sigXRangeChanged.connect(self._follow)
-        self.plot.getViewBox().sigXRangeChanged.connect(self._lead)
         self._linked = linked
+        self._follow(linked.getViewBox(), linked.viewRange()[0])
+        self.plot.getViewBox().sigRangeChangedManually.connect(self._lead)
         zero = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, Qt.PenStyle.DashDotLine))
         self.plot.addItem(zero, ignoreBounds=True)
         self.curve = self.plot.add_curve(thin(PHOTO))
@@ -53,8 +54,11 @@ class ResidualPlot(QWidget):
     def _follow(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
         self.plot.setXRange(*columns, padding=0)
 
-    def _lead(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
-        self._linked.setXRange(*columns, padding=0)
+    def _lead(self) -> None:
+        # As if the user had moved the other one: it follows neither panel nor packets any more.
+        self._linked.setXRange(*self.plot.viewRange()[0], padding=0)
+        box = self._linked.getViewBox()
+        box.sigRangeChangedManually.emit(box.mouseEnabled())
 
     def show_profile(self, profile: PhotoProfile) -> None:
         """Show what is left, or say why photo and simulation cannot be compared."""

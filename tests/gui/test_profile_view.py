@@ -126,13 +126,25 @@ def test_the_rest_stands_under_the_profiles_column_by_column_however_either_is_m
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
     boxes = [plot.getViewBox() for plot in (view.plot, view.residual.plot)]
     for one, other in (boxes, boxes[::-1]):
-        one.setXRange(10, 20 + len(boxes), padding=0)
-        assert other.viewRange()[0] == pytest.approx(one.viewRange()[0])
-        one.setXRange(50, 90, padding=0)
-        assert other.viewRange()[0] == pytest.approx((50, 90))
+        for columns in ((10, 22), (50, 90)):
+            one.setXRange(*columns, padding=0)
+            one.sigRangeChangedManually.emit([True, True])  # as by the mouse
+            assert other.viewRange()[0] == pytest.approx(columns)
     QApplication.processEvents()
     lefts = [plot.getAxis("left").width() for plot in (view.plot, view.residual.plot)]
     assert lefts[0] == lefts[1]
+
+
+def test_a_first_photo_does_not_move_the_columns_in_view(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_snapshot(snapshot_of())
+    before = view.plot.viewRange()[0]
+    view.show_photo_profile(PhotoProfile(Comparison(0, np.ones(5), np.ones(5), 0.0), photo.profile))
+    view.resize(view.width() + 50, view.height() + 50)
+    QApplication.processEvents()
+    for plot in (view.plot, view.residual.plot):
+        assert plot.viewRange()[0] == pytest.approx(before)
 
 
 def test_after_enhancement_shows_the_pictures_values_and_the_threshold(

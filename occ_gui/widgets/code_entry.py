@@ -7,6 +7,7 @@ from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
 from occ_gui.state.gesture import Gestures
+from occ_gui.widgets.undo_keys import leave_undo_to_window
 from occ_model.scene import Scene
 
 
@@ -36,6 +37,8 @@ class CodeEntry(QWidget):
         layout.addWidget(self.bits, 1)
         for line in (self.number.lineEdit(), self.bits):
             line.textEdited.connect(self._gestures.end)
+        for field in (self.number, self.bits):
+            leave_undo_to_window(field)
         self.number.valueChanged.connect(self._tell)
         self.bits.editingFinished.connect(self._read_bits)
 

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 from occ_gui.state.gesture import Gestures
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.quantity_edit import QuantityEdit
+from occ_gui.widgets.undo_keys import leave_undo_to_window
 from occ_model.declarations import (
     ChipPattern,
     Choice,
@@ -111,6 +112,7 @@ class CountRow(ParameterRow):
         self.field.setRange(declared.low, declared.high)
         self.field.setKeyboardTracking(False)
         keep_wheel_for_scrolling(self.field)
+        leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.lineEdit().textEdited.connect(self._gestures.end)
         self.field.valueChanged.connect(self._tell)
@@ -147,6 +149,7 @@ class PatternRow(ParameterRow):
         self._shown = ""
         self.field = QLineEdit()
         self.field.setPlaceholderText(self.tr("empty: packets"))
+        leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self._gestures.end)
         self.field.editingFinished.connect(self._read)

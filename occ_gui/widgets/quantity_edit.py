@@ -4,6 +4,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 
+from occ_gui.widgets.undo_keys import leave_undo_to_window
 from occ_model.declarations import Quantity
 from occ_model.errors import ParameterError
 
@@ -42,6 +43,7 @@ class QuantityEdit(QAbstractSpinBox):
         self.lineEdit().textEdited.connect(self._note_typing)
         self.editingFinished.connect(self.take_typed)
         self._typed = False
+        leave_undo_to_window(self)
         self._show()
 
     def value(self) -> float:

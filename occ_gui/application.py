@@ -131,6 +131,7 @@ class Application(QObject):
         self.photos.opened.connect(self._on_photo)
         self.photo.open_asked.connect(self.files.ask_for_photo)
         self.photo.form.refused.connect(self._say_refusal)
+        self.photo.form.edited.connect(self._edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.desk.matching.matched.connect(self._on_match)
         self.desk.matching.failed.connect(self._say_match_failure)

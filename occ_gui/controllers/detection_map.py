@@ -10,13 +10,14 @@ from PySide6.QtCore import QObject
 from occ_gui.controllers.lattice_stages import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.controllers.map_work import Points, leaves_out
 from occ_gui.state.gesture import NO_GESTURE
-from occ_gui.state.rate_map import PointFacts, RateMap, TheoryFields, lattice, quantity
+from occ_gui.state.rate_map import PointFacts, RateMap, TheoryFields, lattice
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Lane
 from occ_gui.tasks.parcel import Stage
 from occ_model.declarations import ParameterValue
 from occ_model.errors import OccError
+from occ_model.parameters import quantity
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import SweepPoint
 from occ_model.scene import Scene

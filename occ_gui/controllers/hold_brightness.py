@@ -2,9 +2,9 @@
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.state.rate_map import quantity
 from occ_gui.state.scene_store import SceneStore
 from occ_model.declarations import ParameterValue
+from occ_model.parameters import quantity
 from occ_model.scene import Scene
 
 _EXPOSURE, _ISO = "exposure_time", "iso"

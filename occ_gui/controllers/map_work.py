@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_gui.state.advice import Advice, TheoryNumbers
-from occ_gui.state.rate_map import LINES, TheoryFields, quantity
+from occ_gui.state.rate_map import LINES, TheoryFields
 from occ_gui.tasks.parcel import Pulse
 from occ_model.declarations import ParameterValue
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
+from occ_model.parameters import quantity
 from occ_model.results import RateSettings, SweepPoint, Way
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings

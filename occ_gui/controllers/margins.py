@@ -9,11 +9,12 @@ from PySide6.QtCore import QObject
 
 from occ_gui.controllers.detection_map import UNSEEN
 from occ_gui.controllers.map_work import Along, measure_along, rate_settings
-from occ_gui.state.rate_map import lattice, quantity
+from occ_gui.state.rate_map import lattice
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Lane
 from occ_gui.tasks.parcel import Parcel, Stage
+from occ_model.parameters import quantity
 from occ_model.receiver.decoders import PAPERS
 from occ_model.results import SweepPoint
 from occ_model.scene import Scene

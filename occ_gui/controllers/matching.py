@@ -7,11 +7,11 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.state.match_choice import MatchChoice
+from occ_gui.state.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.tasks.cancellable import Cancellable, Progress
 from occ_model.errors import OccError
-from occ_model.parameters import PARAMETERS
+from occ_model.parameters import PARAMETERS, quantity
 from occ_model.photo.load import Photo
 from occ_model.photo.match import ESTIMATES, match_photo
 from occ_model.presets import save_preset
@@ -72,7 +72,7 @@ def request_of(photo: Photo, scene: Scene, choice: MatchChoice) -> MatchRequest:
     """
     sent = choice.sent
     if sent == "square":
-        chips = 2 * choice.square_frequency
+        chips = CHIPS_OF_A_CYCLE * choice.square_frequency
         scene, sent = scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
     return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma)
 
@@ -97,13 +97,13 @@ def match(request: MatchRequest, progress: Progress) -> Match:
 
 def sources_of(found: Match, photo_name: str, known: str, day: date) -> dict[str, str]:
     """Say of every value that a match estimated where it comes from, and how sure it is."""
-    given = PARAMETERS[known]
-    value = given.format(found.scene.value(known))  # type: ignore[arg-type]
+    given = quantity(known)
+    value = given.format(float(found.scene.value(known)))
     where = f"photo {photo_name}, {day.isoformat()}, the {given.label.lower()} being {value}"
     sources = {}
     for name, spread in found.uncertainties.items():
         if name in PARAMETERS:
-            precision = PARAMETERS[name].format(spread, 3)  # type: ignore[arg-type, call-arg]
+            precision = quantity(name).format(spread, 3)
             sources[name] = f"measured to ±{precision} from {where}"
     for name in ("rows", "columns"):
         sources[name] = f"the size of the photo {photo_name}"

@@ -2,6 +2,12 @@
 
 from dataclasses import dataclass
 
+KNOWN = ("switching_frequency", "readout_time")
+"""Stripes tell the product of these alone: one has to be known for the other to be found."""
+
+CHIPS_OF_A_CYCLE = 2
+"""A blinking LED is on for one chip and off for the next."""
+
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:

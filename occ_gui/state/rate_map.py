@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.parameters import quantity
 from occ_model.results import SweepPoint
 
 MAP_PARAMETERS = (
@@ -25,14 +24,6 @@ STRIDES = (6, 3, 1)
 
 LINES = ("band", "null", "packets", "saturation")
 """The limits that theory gives."""
-
-
-def quantity(name: str) -> Quantity:
-    """Give the declaration of a parameter that has a slider."""
-    declared = PARAMETERS[name]
-    if not isinstance(declared, Quantity):
-        raise TypeError(f"{name} has no slider")
-    return declared
 
 
 def lattice(name: str, count: int) -> tuple[float, ...]:

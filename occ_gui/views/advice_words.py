@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject
 
 from occ_gui.state.advice import Advice, TheoryNumbers
-from occ_model.parameters import PARAMETERS
+from occ_model.parameters import quantity
 from occ_model.results import Edge, Limits, Reach, Trial
 from occ_model.units import HERTZ, SECOND
 
@@ -122,4 +122,4 @@ class AdviceWords(QObject):
 
 
 def _written(name: str, value: float) -> str:
-    return PARAMETERS[name].format(value, _DIGITS)  # type: ignore[arg-type, call-arg]
+    return quantity(name).format(value, _DIGITS)

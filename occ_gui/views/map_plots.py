@@ -7,12 +7,13 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from occ_gui.state.rate_map import LINES, RateMap, TheoryFields, quantity
+from occ_gui.state.rate_map import LINES, RateMap, TheoryFields
 from occ_gui.views.contours import Point, zero_lines
 from occ_gui.views.map_colours import DIFFERENCES, RATES, colour_table, image_of, painted
 from occ_gui.views.map_plot import MapPlot
 from occ_gui.widgets.colour_bar import ColourBar
 from occ_model.arrays import FloatArray
+from occ_model.parameters import quantity
 
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
 """What both ends of a colour map stand for, in percent."""

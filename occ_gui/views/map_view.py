@@ -13,12 +13,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.state.rate_map import MAP_PARAMETERS, PointFacts, RateMap, quantity
+from occ_gui.state.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.views.advice_view import AdviceView
 from occ_gui.views.map_legend import MapLegend
 from occ_gui.views.map_plots import MapPlots
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.word_choice import WordChoice
+from occ_model.parameters import quantity
 from occ_model.scene import Scene
 
 

@@ -12,12 +12,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.state.match_choice import MatchChoice
+from occ_gui.state.gesture import new_gesture
+from occ_gui.state.match_choice import CHIPS_OF_A_CYCLE, KNOWN, MatchChoice
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.parameter_rows import explain
 from occ_gui.widgets.quantity_edit import QuantityEdit
 from occ_gui.widgets.word_choice import WordChoice
 from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.parameters import quantity
 from occ_model.scene import Scene
 from occ_model.units import HERTZ
 
@@ -29,6 +31,8 @@ SQUARE_FREQUENCY = Quantity(
     unit=HERTZ, low=0.5, high=5e8, slider=(50.0, 2e4), scale="log", default=1000.0,
 )  # fmt: skip
 
+_FREQUENCY = KNOWN[0]
+
 _STEPS = 1000
 """Steps of the progress bar."""
 
@@ -38,6 +42,9 @@ class MatchForm(QWidget):
 
     asked = Signal(object)
     """A match is wanted: a MatchChoice."""
+
+    edited = Signal(str, object, int)
+    """What is known has been entered: name, value in SI units, and the number of the gesture."""
 
     cancelled = Signal()
     refused = Signal(str)
@@ -74,7 +81,7 @@ class MatchForm(QWidget):
                 "switching_frequency": self.tr("Frequency, readout time known"),
             },
         )
-        self.known = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self._make_known()
         self.gamma = QCheckBox(self.tr("Fit gamma too"))
         self.gamma.setToolTip(
             self.tr("Estimate the camera's gamma from the shape of the stripes' edges as well.")
@@ -86,6 +93,22 @@ class MatchForm(QWidget):
         self.square.edited.connect(self._show_known)
         self.square.refused.connect(self.refused)
         self._show_known()
+
+    def _make_known(self) -> None:
+        """Make the fields of what must be known: it can be entered where it is asked for."""
+        self.known: dict[str, QuantityEdit] = {}
+        for name in KNOWN:
+            declared = quantity(name)
+            field = self.known[name] = QuantityEdit(declared)
+            field.setAccessibleName(self.tr("Known: {label}").format(label=declared.label))
+            told = self.tr("What is known of the photo; entering it changes the scene.")
+            field.setToolTip(f"{told}\n\n{explain(declared)}")
+            field.edited.connect(lambda value, name=name: self._edit(name, value))
+            field.refused.connect(self.refused)
+        self.hint = ElidedLabel("", Qt.TextElideMode.ElideRight)
+
+    def _edit(self, name: str, value: float) -> None:
+        self.edited.emit(name, value, new_gesture())
 
     def _make_run(self) -> None:
         self.start = QPushButton(self.tr("&Match photo"))
@@ -108,7 +131,12 @@ class MatchForm(QWidget):
         grid.addWidget(self.square, 0, 2)
         grid.addWidget(QLabel(self.tr("Estimate")), 1, 0)
         grid.addWidget(self.estimate, 1, 1, 1, 2)
-        grid.addWidget(self.known, 2, 1, 1, 2)
+        known = QHBoxLayout()
+        for field in self.known.values():
+            known.addWidget(field)
+        known.addWidget(self.hint, 1)
+        grid.addWidget(QLabel(self.tr("Known")), 2, 0)
+        grid.addLayout(known, 2, 1, 1, 2)
         grid.setColumnStretch(1, 1)
         run = QHBoxLayout()
         run.addWidget(self.gamma)
@@ -123,7 +151,8 @@ class MatchForm(QWidget):
 
     def choice(self) -> MatchChoice:
         """Give what is chosen, and typed so far."""
-        self.square.take_typed()
+        for field in (self.square, *self.known.values()):
+            field.take_typed()
         return MatchChoice(
             sent=self.sent.key(),
             square_frequency=self.square.value(),
@@ -138,10 +167,14 @@ class MatchForm(QWidget):
 
     def show_running(self, running: bool) -> None:
         """Show the progress and a way out of it, or the button that starts a match."""
-        self.start.setVisible(not running)
-        self.gamma.setEnabled(not running)
+        goes, comes = (self.start, self.cancel) if running else (self.cancel, self.start)
+        had_focus = goes.hasFocus()
         for widget in (self.progress, self.cancel):
             widget.setVisible(running)
+        self.start.setVisible(not running)
+        if had_focus:  # or what is typed next would land in whatever field comes after it
+            comes.setFocus()
+        self.gamma.setEnabled(not running)
         self.progress.setValue(0)
 
     def show_progress(self, share: float) -> None:
@@ -152,15 +185,16 @@ class MatchForm(QWidget):
         square = self.sent.key() == "square"
         self.square.setVisible(square)
         of_frequency = self.estimate.key() == "readout_time"
-        name = "switching_frequency" if of_frequency else "readout_time"
-        declared = PARAMETERS[name]
-        if self._scene is None or not isinstance(declared, Quantity):
-            return
-        value = float(self._scene.value(name))
-        if of_frequency and square:
-            value = 2.0 * self.square.value()
-        self.known.set_full_text(
-            self.tr("known: {label} {value}").format(
-                label=declared.label.lower(), value=declared.format(value)
-            )
+        for name, field in self.known.items():
+            field.setVisible((name == _FREQUENCY) == of_frequency)
+            field.setEnabled(not (of_frequency and square))  # then it is told by the square wave
+            if self._scene is not None:
+                field.set_value(float(self._scene.value(name)))
+        if square:
+            self.known[_FREQUENCY].set_value(CHIPS_OF_A_CYCLE * self.square.value())
+        blinking = self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE
+        self.hint.set_full_text(
+            self.tr("chips: a blinking LED of {cycles}").format(cycles=HERTZ.format(blinking, 4))
+            if of_frequency
+            else ""
         )

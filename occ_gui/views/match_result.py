@@ -6,12 +6,20 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from occ_gui.state.match_choice import CHIPS_OF_A_CYCLE, KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.parameters import quantity
 from occ_model.results import Match
+from occ_model.scene import Scene
+from occ_model.units import HERTZ
 
 _ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+
+
+def _known_of(match: Match) -> str:
+    """Say which of the two, of which stripes tell only the product, was given."""
+    return next(name for name in KNOWN if name not in match.uncertainties)
 
 
 def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
@@ -49,6 +57,13 @@ class MatchResult(QWidget):
             self._form.addRow(title, label)
         fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         self.values["pattern"].setFont(fixed)
+        self._match: Match | None = None
+        self._scene: Scene | None = None
+        self._given = math.nan
+        self.stale = QLabel()
+        self.stale.setWordWrap(True)
+        self.stale.setAccessibleName(self.tr("Whether the match is still of what is known"))
+        self.stale.hide()
         self.apply = QPushButton(self.tr("&Apply to the scene"))
         self.apply.setToolTip(
             self.tr(
@@ -73,10 +88,11 @@ class MatchResult(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         layout.addLayout(self._form)
+        layout.addWidget(self.stale)
         layout.addLayout(buttons)
 
     def _titles(self) -> dict[str, str]:
-        estimates = {name: PARAMETERS[name].label for name in _ESTIMATES}
+        estimates = {name: quantity(name).label for name in _ESTIMATES}
         return {
             **estimates,
             "others": self.tr("or exposed for"),
@@ -88,6 +104,10 @@ class MatchResult(QWidget):
 
     def show_match(self, match: Match) -> None:
         """Show what was found."""
+        self._match = match
+        if self._scene is not None:
+            self._given = float(self._scene.value(_known_of(match)))
+        self._show_stale()
         for name, text in (self._estimates(match) | self._quality(match)).items():
             label = self.values[name]
             if isinstance(label, ElidedLabel):
@@ -96,23 +116,39 @@ class MatchResult(QWidget):
                 label.setText(text)
             self._form.setRowVisible(label, bool(text))
 
+    def show_scene(self, scene: Scene) -> None:
+        """Tell whether what was given for the match is still what this scene has."""
+        self._scene = scene
+        self._show_stale()
+
+    def _show_stale(self) -> None:
+        match, scene = self._match, self._scene
+        if match is None or scene is None:
+            return
+        declared = quantity(name := _known_of(match))
+        now, then = float(scene.value(name)), float(getattr(match, name))
+        self.stale.setText(
+            self.tr("Found with {then}; the scene has {now} now: match again.").format(
+                then=declared.format(then), now=declared.format(now)
+            )
+        )
+        self.stale.setVisible(now not in {then, self._given})
+
     def _estimates(self, match: Match) -> dict[str, str]:
         """Write the estimates, and what was known beside them; nothing for a gamma not fitted."""
         texts = {}
         for name in _ESTIMATES:
-            declared, spread = PARAMETERS[name], match.uncertainties.get(name)
-            if isinstance(declared, Quantity):
-                texts[name] = with_uncertainty(declared, getattr(match, name), spread)
+            spread = match.uncertainties.get(name)
+            texts[name] = with_uncertainty(quantity(name), getattr(match, name), spread)
             if spread is None:
                 known = name != "gamma"
-                texts[name] = self.tr("{value} (known)").format(value=texts[name]) if known else ""
-        exposure = PARAMETERS["exposure_time"]
-        others = (exposure.format(t, 4) for t in match.other_exposures)  # type: ignore[arg-type, call-arg]
+                texts[name] = self.tr("{value} (given)").format(value=texts[name]) if known else ""
+        exposure = quantity("exposure_time")
+        others = (exposure.format(t, 4) for t in match.other_exposures)
         return {**texts, "others": self.tr(" or ").join(others)}
 
     def _quality(self, match: Match) -> dict[str, str]:
         columns = 1.0 / (match.switching_frequency * match.readout_time)
-        how = self.tr("read") if match.pattern_was_read else self.tr("known")
         return {
             "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
                 columns=columns, chips=len(match.pattern)
@@ -123,5 +159,14 @@ class MatchResult(QWidget):
             "saturated": self.tr("{share:.1f} % of the region's pixels").format(
                 share=100 * match.stripes.saturated
             ),
-            "pattern": self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how),
+            "pattern": self._pattern(match),
         }
+
+    def _pattern(self, match: Match) -> str:
+        """Write what was sent; a blinking LED's cycles are what its maker gives, not its chips."""
+        how = self.tr("read") if match.pattern_was_read else self.tr("given")
+        text = self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how)
+        if len(match.pattern) != CHIPS_OF_A_CYCLE:
+            return text
+        cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, 4)
+        return self.tr("{pattern}: an LED blinking at {cycles}").format(pattern=text, cycles=cycles)

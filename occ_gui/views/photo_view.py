@@ -94,6 +94,7 @@ class PhotoView(QWidget):
     def show_scene(self, scene: Scene) -> None:
         """Show what is known from this scene."""
         self.form.show_scene(scene)
+        self.result.show_scene(scene)
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         """Show where the photo lies."""

@@ -7,7 +7,7 @@ the README's table are all made from these declarations. Values are in SI units.
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from occ_model.declarations import Parameter
+from occ_model.declarations import Parameter, Quantity
 from occ_model.errors import ParameterError
 from occ_model.parameters.camera import CAMERA, LENS, SENSOR
 from occ_model.parameters.light import SURROUNDINGS, TRANSMITTER
@@ -32,3 +32,17 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
     raise ParameterError(f"There is no parameter {name!r}; {hint}")
+
+
+def quantity(name: str) -> Quantity:
+    """Give the declaration of a parameter that is a quantity, with a unit and a slider.
+
+    Raises
+    ------
+    TypeError
+        It is a word, a count or a pattern.
+    """
+    declared = PARAMETERS[name]
+    if not isinstance(declared, Quantity):
+        raise TypeError(f"{name} is no quantity")
+    return declared

@@ -13,12 +13,13 @@ from pytestqt.qtbot import QtBot
 from occ_gui.application import Application
 from occ_gui.controllers import reach_desk
 from occ_gui.controllers.map_work import PRELOAD
-from occ_gui.state.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice, quantity
+from occ_gui.state.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice
 from occ_gui.tasks.worker_processes import WorkerProcesses
 from occ_gui.views.contours import zero_lines
 from occ_gui.views.map_colours import DIFFERENCES, RATES, painted
 from occ_gui.views.map_ticks import axis_title, ticks
 from occ_gui.views.map_view import MapView
+from occ_model.parameters import quantity
 from occ_model.results import SweepPoint
 from occ_model.scene import Scene
 

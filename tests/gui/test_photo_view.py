@@ -145,11 +145,59 @@ def test_what_is_known_beside_the_estimate_is_told(
 ) -> None:
     view.show_photo(photo)
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
-    assert view.form.known.toolTip() == "known: switching frequency 7 kHz"
+    frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
+    assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
+    assert view.form.hint.toolTip() == "chips: a blinking LED of 3.5 kHz"
     choose(qtbot, view.form.sent, "square")
-    assert view.form.known.toolTip() == "known: switching frequency 2 kHz"
+    assert (frequency.text(), frequency.isEnabled()) == ("2 kHz", False)
+    assert view.form.hint.toolTip() == "chips: a blinking LED of 1 kHz"
     choose(qtbot, view.form.estimate, "switching_frequency")
-    assert view.form.known.toolTip() == "known: readout time 9 µs"
+    assert (readout.text(), frequency.isVisible(), view.form.hint.text()) == ("9 µs", False, "")
+
+
+def test_what_is_known_can_be_entered_where_it_is_asked_for(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(occ.Scene())
+    told: list[tuple[str, float]] = []
+    view.form.edited.connect(lambda name, value, _: told.append((name, value)))
+    for name, typed in (("switching_frequency", "2kHz"), ("readout_time", "9us")):
+        field = view.form.known[name]
+        field.selectAll()
+        qtbot.keyClicks(field, typed)
+        qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
+        choose(qtbot, view.form.estimate, "switching_frequency")
+    assert told == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
+
+
+def test_a_match_of_what_is_no_longer_known_is_told_from_one_that_is(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    scene = occ.Scene().replace(switching_frequency=2e3)
+    view.show_scene(scene)
+    view.show_match(match)
+    for frequency, stale in ((2e3, False), (1e3, True), (2e3, False)):
+        view.show_scene(scene.replace(switching_frequency=frequency, exposure_time=5e-5))
+        assert view.result.stale.isVisible() == stale
+    view.show_scene(scene.replace(switching_frequency=1e3))
+    assert view.result.stale.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
+    view.show_match(replace(match, switching_frequency=1e3))
+    assert not view.result.stale.isVisible()
+
+
+def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
+    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.activateWindow()
+    qtbot.waitActive(view)
+    view.form.start.setFocus()
+    view.show_match_begun()
+    assert view.form.cancel.hasFocus()
+    view.show_match(match)
+    assert view.form.start.hasFocus()
 
 
 def test_a_frequency_that_cannot_be_is_refused_and_the_last_one_stays(
@@ -188,7 +236,7 @@ def test_what_was_found_stands_with_its_uncertainty_in_the_units_of_the_screen(
     texts = {name: label.text() for name, label in view.result.values.items()}
     assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
-    assert texts["switching_frequency"] == "2 kHz (known)"
+    assert texts["switching_frequency"] == "2 kHz (given)"
     assert texts["chip"] == f"{1 / (2e3 * 14.5777e-6):.3f} columns, 4 chips a period"
     assert texts["correlation"] == "0.9912, RMSE 2.00 grey levels"
     assert texts["saturated"].startswith("12.5 %")

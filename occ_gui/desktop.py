@@ -30,6 +30,7 @@ from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.command_palette import CommandPalette
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
+from occ_gui.views.photo_overlay import MODES
 from occ_gui.views.pointer import Pointer
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.views.shortcut_sheet import ShortcutSheet
@@ -39,7 +40,8 @@ from occ_model.presets import load_preset
 from occ_model.receiver.decoders import DECODERS
 from occ_model.settings import DEFAULT_PRESET
 
-_THEME, _HOLD, _YES = "view/theme", "edit/hold_brightness", "yes"
+_THEME, _OVERLAY = "view/theme", "view/overlay"
+_HOLD, _YES = "edit/hold_brightness", "yes"
 
 
 class Parts(Protocol):
@@ -58,6 +60,9 @@ class Parts(Protocol):
     profile: ProfileView
     decode: DecodeView
     accuracy: AccuracyView
+
+    def show_mode(self, mode: str) -> None:
+        """Show the photo beside the simulated picture or on it."""
 
 
 class Desktop(QObject):
@@ -150,6 +155,8 @@ class Desktop(QObject):
         if not fresh:
             self.layout.restore()
             self.theme.choose(memory.recall(_THEME))
+            if (mode := memory.recall(_OVERLAY)) in MODES:
+                self._parts.show_mode(mode)
             self.brightness.switch(memory.recall(_HOLD) == _YES)
         self.session.resume(autosave, session, scene_wins)
 
@@ -193,6 +200,7 @@ class Desktop(QObject):
         """Keep what is to be there at the next start."""
         if self.session.is_kept:
             self.layout.keep()
+            self._parts.memory.keep(_OVERLAY, self._parts.image.mode.key())
         self.session.end()
 
     def stop(self) -> None:

@@ -17,6 +17,9 @@ from occ_model.photo.load import Photo
 from occ_model.photo.stripes import find_stripes
 from occ_model.results import Comparison, Match, Stripes
 
+_FLAT = 0.5
+"""Grey levels of swing below which the simulated columns show no stripes."""
+
 
 class ProfilePane(Protocol):
     """A pane that shows a photo's profile beside the simulated one."""
@@ -126,6 +129,9 @@ class ComparisonController(QObject):
             comparison = self._beside(simulated)
         except MatchError as error:
             sentence = str(error)
+        if comparison is not None and float(np.ptp(comparison.simulated)) < _FLAT:
+            # A photo that is given the swing of nothing would agree with anything.
+            comparison, sentence = None, self.tr("The simulation has no stripes there to compare.")
         self._pane.show_photo_profile(
             PhotoProfile(comparison, photo.profile, placement.column, placement.scale, sentence)
         )

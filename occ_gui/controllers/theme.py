@@ -30,6 +30,9 @@ _LIGHT = {
     _ROLE.Light: "#ffffff", _ROLE.Midlight: "#cacaca", _ROLE.Mid: "#b8b8b8",
     _ROLE.Dark: "#9f9f9f", _ROLE.Shadow: "#767676", _ROLE.Accent: "#308cc6",
 }  # fmt: skip
+_SYSTEMS = "systemsStyleAndPalette"
+"""The application's property that keeps, while a theme of our own is shown, what was before."""
+
 _BOX = "#8a8a8a"
 """An empty check box in the dark: 3.6 times as light as the window."""
 
@@ -65,7 +68,6 @@ class ThemeController(QObject):
     def __init__(self) -> None:
         super().__init__()
         self.theme = THEMES[0]
-        self._before: tuple[str, QPalette] | None = None
 
     def choose(self, theme: str) -> None:
         """Show the window in this theme; an unknown one is the system's."""
@@ -77,11 +79,12 @@ class ThemeController(QObject):
         if not isinstance(application, QApplication):  # nothing is shown
             return
         application.styleHints().setColorScheme(_SCHEMES[theme])
-        if self._before is None:
-            self._before = (application.style().objectName(), application.palette())
+        if application.property(_SYSTEMS) is None:
+            found = (application.style().objectName(), application.palette())
+            application.setProperty(_SYSTEMS, found)
         if theme == THEMES[0]:
-            style, palette = self._before
-            self._before = None
+            style, palette = application.property(_SYSTEMS)
+            application.setProperty(_SYSTEMS, None)
             application.setStyle(style)
             application.setPalette(palette if _is_followed(application) is None else QPalette())
         else:

@@ -149,6 +149,12 @@ class RateMap:
         """Say where the model refuses, 1 for such points, shape (points along x, along y)."""
         return np.where((self.images > 0) & (self.sent == 0), 1, 0)
 
+    def refusal(self) -> str:
+        """Say why the model refuses, where it does so at every point that is known."""
+        if np.any(self.sent > 0) or not self.notes:
+            return ""
+        return next(iter(self.notes.values()))
+
     def owners(self) -> tuple[IndexArray, IndexArray]:
         """Give for every point the known one that it is drawn like: a coarse cell is a large one.
 

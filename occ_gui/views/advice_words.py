@@ -109,7 +109,7 @@ class AdviceWords(QObject):
             null=SECOND.format(theory.null_exposure, _DIGITS),
         )
         if math.isfinite(theory.saturation_exposure):
-            text += self.tr("; from {white} the panel is white").format(
+            text += self.tr("; from {white} what is lit throughout is white").format(
                 white=SECOND.format(theory.saturation_exposure, _DIGITS)
             )
         return f"{text}."

@@ -4,7 +4,7 @@ import html
 import re
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -19,6 +19,8 @@ from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.teaching import Exploration
 
 _INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
+
+_LEFT = "text-align: left; padding: 4px 8px;"
 
 _WANTED_HEIGHT = 320
 
@@ -143,9 +145,17 @@ class ExplorationView(QWidget):
             text.format(title=exploration.title, count=count, place=(reached or 0) + 1)
         )
         button.setToolTip(self.tr("Set the scene of its step and show its question."))
-        button.setStyleSheet("text-align: left; padding: 4px 8px;")
+        button.setStyleSheet(_LEFT)
         button.clicked.connect(lambda: self.chosen.emit(exploration.name))
         return button
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme: a button with a style of its own keeps the colours it began with."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            for button in self.choices:
+                button.setStyleSheet("")
+                button.setStyleSheet(_LEFT)
 
     def show_step(self, exploration: Exploration, place: int) -> None:
         """Show a step of an exploration."""

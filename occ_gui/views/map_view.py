@@ -51,7 +51,7 @@ class MapView(QWidget):
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._progress = self._failure = ""
+        self._progress = self._failure = self._refusal = ""
         self._facts: PointFacts | None = None
         self._axes = (MAP_PARAMETERS[0], MAP_PARAMETERS[1])
         self._make_choices(decoders)
@@ -147,6 +147,7 @@ class MapView(QWidget):
 
     def show_map(self, rates: RateMap) -> None:
         """Show what is known by now."""
+        self._refusal = rates.refusal()
         self.plots.show_map(rates)
         self.legend.show_there(self.plots.limits())
 
@@ -188,7 +189,7 @@ class MapView(QWidget):
     def _say(self) -> None:
         facts = self._facts
         if facts is None:
-            self.status.set_full_text(self._failure or self._progress)
+            self.status.set_full_text(self._failure or self._refusal or self._progress)
         elif facts.note:
             self.status.set_full_text(f"{self._where(facts)}: {facts.note}")
         else:

@@ -143,12 +143,17 @@ class MatchResult(QWidget):
             if spread is None:
                 known = name != "gamma"
                 texts[name] = self.tr("{value} (given)").format(value=texts[name]) if known else ""
+        if len(match.pattern) == CHIPS_OF_A_CYCLE:
+            # What a blinking LED's maker gives are its cycles, not its chips.
+            cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, 4)
+            texts["switching_frequency"] += self.tr(": blinks at {cycles}").format(cycles=cycles)
         exposure = quantity("exposure_time")
         others = (exposure.format(t, 4) for t in match.other_exposures)
         return {**texts, "others": self.tr(" or ").join(others)}
 
     def _quality(self, match: Match) -> dict[str, str]:
         columns = 1.0 / (match.switching_frequency * match.readout_time)
+        how = self.tr("read") if match.pattern_was_read else self.tr("given")
         return {
             "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
                 columns=columns, chips=len(match.pattern)
@@ -159,14 +164,5 @@ class MatchResult(QWidget):
             "saturated": self.tr("{share:.1f} % of the region's pixels").format(
                 share=100 * match.stripes.saturated
             ),
-            "pattern": self._pattern(match),
+            "pattern": self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how),
         }
-
-    def _pattern(self, match: Match) -> str:
-        """Write what was sent; a blinking LED's cycles are what its maker gives, not its chips."""
-        how = self.tr("read") if match.pattern_was_read else self.tr("given")
-        text = self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how)
-        if len(match.pattern) != CHIPS_OF_A_CYCLE:
-            return text
-        cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, 4)
-        return self.tr("{pattern}: an LED blinking at {cycles}").format(pattern=text, cycles=cycles)

@@ -184,6 +184,8 @@ class ProfileView(QWidget):
         if profile is not None:
             self.residual.show_profile(profile)
         self._fit_levels()
+        if self._snapshot is not None:
+            self._fit_columns(self._snapshot)
 
     def _redraw(self) -> None:
         snapshot = self._snapshot
@@ -239,8 +241,16 @@ class ProfileView(QWidget):
         if last - first < 1.0:  # the panel is out of the picture
             first, last = 0.0, float(last_column)
         if self._packets.isChecked():
+            first = self._first_of_photo(first, last)
             last = min(last, first + PACKETS_IN_VIEW * snapshot.packet_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
+
+    def _first_of_photo(self, first: float, last: float) -> float:
+        """Begin where a photo does that lies further to the right, so that it can be compared."""
+        comparison = None if self._photo is None else self._photo.comparison
+        if comparison is None or not first < comparison.first_column < last:
+            return first
+        return float(comparison.first_column)
 
     def columns_in_view(self) -> tuple[int, int]:
         """Give the first column that is seen, and the one behind the last."""

@@ -109,7 +109,8 @@ def _by_theory(scene: Scene) -> list[str]:
         lines.append(f"  below {HERTZ.format(packets, _DIGITS)} no two packets fit the picture;")
     white = theory.saturation_exposure(scene)
     if math.isfinite(white):
-        lines.append(f"  from an exposure of {SECOND.format(white, _DIGITS)} the panel is white.")
+        exposure = SECOND.format(white, _DIGITS)
+        lines.append(f"  from an exposure of {exposure} what is lit throughout is white.")
     else:
         lines.append("  there is no light that could saturate.")
     return lines

@@ -71,7 +71,7 @@ def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[2]
     assert "below 3.468 kHz no two packets" in lines[2]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[5]
-    assert "from 1.17 ms the panel is white" in lines[5]
+    assert "from 1.17 ms what is lit throughout is white" in lines[5]
 
 
 def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scene) -> None:

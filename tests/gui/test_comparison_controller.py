@@ -212,6 +212,19 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
     assert bench.comparison is not None
 
 
+def test_where_the_simulation_has_no_stripes_there_is_nothing_to_compare(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    bench.controller.show_photo(photo)
+    bench.rest()
+    bench.controller.show_snapshot(snapshot_of(exposure_time=5.0))  # white from rim to rim
+    assert bench.last.comparison is None
+    assert bench.last.sentence == "The simulation has no stripes there to compare."
+    bench.controller.show_snapshot(snapshot_of())
+    assert bench.comparison is not None
+    assert bench.last.sentence == ""
+
+
 def match_with(photo: Photo, stripes: Stripes) -> Match:
     return Match(
         scene=occ.Scene(), stripes=stripes, readout_time=8e-6, switching_frequency=1e4,

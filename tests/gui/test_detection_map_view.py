@@ -40,6 +40,16 @@ def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -
     return rates
 
 
+def test_why_the_whole_map_is_refused_stands_in_its_place(view: MapView) -> None:
+    every = tuple(range(SHAPE[0] * SHAPE[1]))
+    view.show_map(rates_of({}, refused=every))
+    view.show_progress(len(every), len(every), 1)
+    assert view.status.toolTip() == "It cannot be."
+    view.show_map(whole((10, 10), refused=(45,)))
+    view.show_progress(len(every), len(every), 1)
+    assert "points" in view.status.toolTip()
+
+
 def whole(count: tuple[int, int], refused: tuple[int, ...] = ()) -> RateMap:
     points = SHAPE[0] * SHAPE[1]
     return rates_of({i: count for i in range(points) if i not in refused}, refused)

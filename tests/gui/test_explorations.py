@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app import PANES
@@ -203,3 +204,12 @@ def test_the_explorations_come_with_room_to_be_read_and_keep_what_the_user_gives
     window.bring_to_front("explorations")
     qtbot.wait(20)
     assert dock.height() == third + 60
+
+
+def test_the_list_follows_the_theme(application: Application, guide: ExplorationView) -> None:
+    for theme, is_light in (("dark", False), ("light", True), ("dark", False), ("system", True)):
+        application.desktop.theme.choose(theme)
+        QApplication.processEvents()
+        picture = guide.choices[0].grab().toImage()
+        back = picture.pixelColor(picture.width() - 12, picture.height() // 2)
+        assert (back.lightness() > 128) == is_light, theme

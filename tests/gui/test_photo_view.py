@@ -243,6 +243,15 @@ def test_what_was_found_stands_with_its_uncertainty_in_the_units_of_the_screen(
     assert view.result.values["pattern"].toolTip() == "1001 (read)"
 
 
+def test_a_blinking_led_is_told_by_its_cycles_too(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(replace(match, pattern="10"))
+    told = view.result.values["switching_frequency"].text()
+    assert told == "2 kHz (given): blinks at 1 kHz"
+
+
 def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, match: Match) -> None:
     view.show_photo(photo)
     for changes, there in (

@@ -215,7 +215,7 @@ def test_the_command_answers_in_sentences(capsys: pytest.CaptureFixture[str]) ->
     assert " of 20 bits (" in lines[2]
     assert "below it was not searched" in lines[4]
     assert lines[-3].startswith("By theory the band model ends at 7.353 kHz and an alternating")
-    assert lines[-1] == "  from an exposure of 1.17 ms the panel is white."
+    assert lines[-1] == "  from an exposure of 1.17 ms what is lit throughout is white."
 
 
 def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[str]) -> None:

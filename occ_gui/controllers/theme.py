@@ -14,8 +14,8 @@ _ROLE = QPalette.ColorRole
 
 _DARK = {
     _ROLE.Window: "#343434", _ROLE.WindowText: "#ececec", _ROLE.Base: "#1c1c1c",
-    _ROLE.AlternateBase: "#262626", _ROLE.Text: "#ececec", _ROLE.Button: "#454545",
-    _ROLE.ButtonText: "#ececec", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#2f7fc0",
+    _ROLE.AlternateBase: "#262626", _ROLE.Text: "#ececec", _ROLE.Button: "#525252",
+    _ROLE.ButtonText: "#ffffff", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#2f7fc0",
     _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#3a3a3a", _ROLE.ToolTipText: "#ececec",
     _ROLE.Link: "#6cb6f5", _ROLE.LinkVisited: "#b79cf0", _ROLE.PlaceholderText: "#9a9a9a",
     _ROLE.Light: "#4a4a4a", _ROLE.Midlight: "#404040", _ROLE.Mid: "#7a7a7a",

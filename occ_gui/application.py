@@ -20,6 +20,7 @@ from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.state.snapshot import Snapshot
+from occ_gui.state.spoken import spoken
 from occ_gui.views.accuracy_view import AccuracyView
 from occ_gui.views.decode_view import DecodeView
 from occ_gui.views.image_view import ImageView
@@ -246,7 +247,7 @@ class Application(QObject):
         self.window.say(sentence, until=_MATCH)
 
     def _say_refusal(self, sentence: str) -> None:
-        self.window.say(sentence, until=_CHANGE)
+        self.window.say(spoken(sentence), until=_CHANGE)
 
     def _on_shown(self, snapshot: Snapshot) -> None:
         self.window.happened(_PICTURE)

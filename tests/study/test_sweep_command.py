@@ -157,7 +157,7 @@ def test_a_cluster_that_does_not_answer_is_a_sentence_within_its_time(
 def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None:
     out = tmp_path / "r.csv"
     program = "import sys; from occ_model.cli import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", program, "sweep", "--vary", "iso=100:400:1", "--images", "9"]
+    command = [sys.executable, "-c", program, "sweep", "--vary", "iso=100:4000:1", "--images", "9"]
     running = subprocess.Popen([*command, "--out", out], stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 30
     while not out.exists() or out.read_bytes().count(b",threshold,") < 5:
@@ -169,9 +169,9 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
     written = out.read_bytes().count(b",threshold,")
     *_, last = error.splitlines()
     told = int(last.split()[3])
-    assert 5 <= told <= written <= told + 1 < 301  # stopped just before it was counted, perhaps
+    assert 5 <= told <= written <= told + 1 < 3901  # stopped just before it was counted, perhaps
     assert last == (
-        f"occ-model: stopped after {told} of 301 points; they are in {out}, and the same command "
+        f"occ-model: stopped after {told} of 3901 points; they are in {out}, and the same command "
         "goes on from there."
     )
 

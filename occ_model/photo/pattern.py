@@ -81,6 +81,11 @@ def read_pattern(profile: FloatArray, evened: FloatArray, period: float) -> Read
     -------
     ReadPattern or None
         None where no sequence does.
+
+    Notes
+    -----
+    Chips may be misread, or not be read, where the exposure is shorter than a column's readout:
+    edges sharper than a column lie anywhere in it.
     """
     lines = _harmonics(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))

@@ -10,11 +10,84 @@ import os
 from math import inf
 from statistics import median
 from time import perf_counter
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from occ_gui.application import Application
+    from occ_gui.state.rate_map import RateMap
+
+# Qt not at the top, either: worker processes import this file, too, and need no window.
 
 _CHANGES, _SECONDS = 60, 1.0
 _BEAT_MS = 2
 _PATIENCE_S = 30.0
 _COARSE_POINTS = 5 * 3
+
+
+class Beat:
+    """Ticks on the window's thread, and notes how late each tick comes."""
+
+    def __init__(self) -> None:
+        from PySide6.QtCore import Qt, QTimer
+
+        self.late: list[float] = []
+        """Milliseconds, one a tick."""
+        self._last = 0.0
+        self._timer = QTimer(timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._tick)
+
+    def _tick(self) -> None:
+        now = perf_counter()
+        self.late.append(1e3 * (now - self._last) - _BEAT_MS)
+        self._last = now
+
+    def start(self) -> None:
+        """Tick from now on."""
+        self._last = perf_counter()
+        self._timer.start(_BEAT_MS)
+
+    def stop(self) -> None:
+        """Tick no more."""
+        self._timer.stop()
+
+    def percentile(self, share: float) -> float:
+        """Say what this share of the ticks was not later than, in milliseconds."""
+        return sorted(self.late)[int(share * len(self.late))]
+
+    def waiting(self, share: float) -> float:
+        """Say what this share of events that come at any moment has to wait at most, in ms.
+
+        Unlike ticks, of which there are none while the window is held up.
+        """
+        gaps = sorted((late + _BEAT_MS for late in self.late), reverse=True)
+        most, beyond = (1.0 - share) * sum(gaps), 0.0
+        for count, gap in enumerate(gaps, 1):
+            beyond += gap
+            shorter = gaps[count] if count < len(gaps) else 0.0
+            if beyond - count * shorter >= most:
+                return (beyond - most) / count
+        return 0.0
+
+
+class _PaintedMaps:
+    """Paints every map at once, and notes when: the time, whether coarse, and whether full."""
+
+    def __init__(self, application: "Application") -> None:
+        self.times: list[tuple[float, bool, bool]] = []
+        self._reach, self._pane = application.reach.map, application.detection.plots
+        self._show_map = self._pane.show_map
+        self._pane.show_map = self._show  # type: ignore[method-assign]
+
+    def _show(self, rates: "RateMap") -> None:
+        self._show_map(rates)
+        for plot in self._pane.plots:
+            plot.repaint()
+        coarse = self._reach.is_current and rates.known >= _COARSE_POINTS
+        self.times.append((perf_counter(), coarse, self._reach.is_full))
+
+    def end(self) -> None:
+        """Let the maps be painted as they are otherwise."""
+        self._pane.show_map = self._show_map  # type: ignore[method-assign]
 
 
 def main() -> None:
@@ -25,7 +98,6 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     options = parser.parse_args()
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
-    # Not at the top: worker processes import this file, too, and need no window.
     import occ_model as occ
     from occ_gui.app import start, wait_until_shown
 
@@ -49,64 +121,41 @@ def main() -> None:
         print(f"  {title:32s}{median(values):8.1f} ({worst:.1f})   {wanted}")
 
 
-def _round(application, number):
+def _round(application: "Application", number: int) -> tuple[float, ...]:
     """Drag once; give all that is measured, times in milliseconds."""
     from PySide6.QtCore import QEventLoop, Qt, QTimer
 
     reach = application.reach.map
     slider = application.controls.main_rows()["exposure_time"].slider
-    late, painted = [], []
-    beat = QTimer(timerType=Qt.TimerType.PreciseTimer)
-    last = [perf_counter()]
+    beat, maps = Beat(), _PaintedMaps(application)
+    loop, ticker = QEventLoop(), QTimer(timerType=Qt.TimerType.PreciseTimer)
+    changes: list[float] = []
 
-    def count_late():
-        now = perf_counter()
-        late.append(1e3 * (now - last[0]) - _BEAT_MS)
-        last[0] = now
-
-    beat.timeout.connect(count_late)
-    pane = application.detection.plots
-    show_map = pane.show_map
-
-    def paint_now(rates):
-        show_map(rates)
-        for plot in pane.plots:
-            plot.repaint()
-        coarse = reach.is_current and rates.known >= _COARSE_POINTS
-        painted.append((perf_counter(), coarse, reach.is_full))
-
-    pane.show_map = paint_now
-    loop, stop = QEventLoop(), [inf]
-    ticker = QTimer(timerType=Qt.TimerType.PreciseTimer)
-
-    def change():
+    def change() -> None:
         done = len(changes)
         if done == _CHANGES:
-            if reach.is_full or perf_counter() > stop[0] + (1.0 if not reach.map else _PATIENCE_S):
+            patience = _PATIENCE_S if reach.map else 1.0
+            if reach.is_full or perf_counter() > changes[-1] + patience:
                 loop.quit()
             return
         slider.setValue(200 + 10 * (done if number % 2 == 0 else _CHANGES - done))
         changes.append(perf_counter())
-        if done == _CHANGES - 1:
-            stop[0] = perf_counter()
 
-    changes = []
     ticker.timeout.connect(change)
     slider.setSliderDown(True)
-    last[0] = perf_counter()
-    beat.start(_BEAT_MS)
+    beat.start()
     ticker.start(round(1e3 * _SECONDS / _CHANGES))
     loop.exec()
-    for timer in (beat, ticker):
-        timer.stop()
+    beat.stop()
+    ticker.stop()
     slider.setSliderDown(False)
-    pane.show_map = show_map
-    late.sort()
-    first = next((at for at, coarse, _ in painted if coarse and at >= stop[0]), inf)
-    full = next((at for at, _, is_full in painted if is_full and at >= stop[0]), inf)
-    during = sum(at < stop[0] for at, *_ in painted)
-    times = (1e3 * (first - stop[0]), 1e3 * (full - stop[0]))
-    return (*times, median(late), late[int(0.95 * len(late))], late[-1], during)
+    maps.end()
+    stop = changes[-1]
+    first = next((at for at, coarse, _ in maps.times if coarse and at >= stop), inf)
+    full = next((at for at, _, is_full in maps.times if is_full and at >= stop), inf)
+    during = sum(at < stop for at, *_ in maps.times)
+    times = (1e3 * (first - stop), 1e3 * (full - stop))
+    return (*times, median(beat.late), beat.percentile(0.95), max(beat.late), during)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,303 @@
+"""What a soak does to a window: random things, each by the way that a user has for it."""
+
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.application import Application
+from occ_gui.controllers.files import sample_photos
+from occ_gui.desktop_menus import THEMES
+from occ_gui.state.gesture import NO_GESTURE, new_gesture
+from occ_gui.state.settings_store import FIRST_SETTINGS
+from occ_gui.views.exploration_view import ExplorationView
+from occ_gui.views.photo_overlay import MODES
+from occ_model.declarations import Choice, Quantity
+from occ_model.effects.registry import NAMES
+from occ_model.parameters import PARAMETERS
+from occ_model.results.teaching import Exploration
+from occ_model.scene import Scene
+from occ_model.scene_inside import ENDINGS
+from occ_model.teaching.explorations import explorations
+
+_HEAVY = ("rows", "columns", "point_spread", "distance", "panel_width", "panel_height")
+"""What would make pictures so large, or blurs so wide, that a soak is about them alone."""
+
+_PATIENCE_MS = 60_000
+"""All figures in all formats take some seconds, and other programs may be at work, too."""
+
+
+_FIRST_SIZE = (1280, 800)
+
+
+def smaller(scene: Scene) -> Scene:
+    """Give a scene whose picture takes a few milliseconds."""
+    return scene.replace(rows=150, columns=1200)
+
+
+def smaller_explorations() -> tuple[Exploration, ...]:
+    """Give the explorations with pictures that take a few milliseconds."""
+    return tuple(
+        replace(each, steps=tuple(replace(step, scene=smaller(step.scene)) for step in each.steps))
+        for each in explorations()
+    )
+
+
+class FileDialogs:
+    """Answers every dialog that asks for a file or a folder with the path that was laid ready."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.path = Path()
+        for name in ("getOpenFileName", "getSaveFileName"):
+            monkeypatch.setattr(QFileDialog, name, lambda *_: (str(self.path), ""))
+        monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(self.path))
+
+
+class Monkey:
+    """Does random things to a window.
+
+    Parameters
+    ----------
+    application
+        The window's.
+    qtbot
+        Waits.
+    dialogs
+        Answers in place of a user.
+    folder
+        Where files are written to.
+    seed
+        Of what is done.
+    """
+
+    def __init__(
+        self, application: Application, qtbot: QtBot, dialogs: FileDialogs, folder: Path, seed: int
+    ) -> None:
+        self._application = application
+        self._qtbot = qtbot
+        self._dialogs, self._folder = dialogs, folder
+        self._random = random.Random(seed)
+        self._gesture = new_gesture()
+        # In an order in which each finds at the first time what it needs.
+        self._deeds: dict[Callable[[], object], int] = {
+            self.move_a_slider: 1200,
+            self.choose_a_word: 80,
+            self.change_the_code: 80,
+            self.undo_or_redo: 120,
+            self.load_a_preset: 60,
+            self.force_an_effect: 40,
+            self.change_the_tolerance: 40,
+            self.open_a_sample: 20,
+            self.choose_a_mode: 60,
+            self.lay_the_photo_over: 20,
+            self.toggle_a_dock: 60,
+            self.ask_for_what_cannot_be: 40,
+            self.resize: 20,
+            self.hold_the_brightness: 20,
+            self.toggle_the_margins: 10,
+            self.pin: 20,
+            self.go_to_what_is_pinned: 10,
+            self.clear_the_pins: 6,
+            self.choose_an_exploration: 10,
+            self.step_on_or_back: 20,
+            self.leave_the_exploration: 6,
+            self.choose_a_theme: 6,
+            self.save_the_scene: 10,
+            self.open_the_saved_scene: 10,
+            self.export_a_figure: 12,
+            self.copy_a_figure: 6,
+            self.export_all: 1,
+            self.open_an_exported_figure: 10,
+            self.close_the_photo: 20,
+            self.reset_the_layout: 8,
+        }
+        self._never_done = list(self._deeds)
+
+    def act(self) -> None:
+        """Do something: at first each of all things once, then whatever comes."""
+        if self._never_done:
+            self._never_done.pop(0)()
+            return
+        (deed,) = self._random.choices(list(self._deeds), list(self._deeds.values()))
+        deed()
+
+    def wait(self) -> None:
+        """Wait until all that was asked for is shown and written."""
+        self._qtbot.wait(1)  # also where nothing has to be simulated: events wait, too
+        self._qtbot.waitUntil(lambda: self._application.is_idle, timeout=_PATIENCE_MS)
+
+    def come_home(self, scene: Scene) -> None:
+        """Leave what is open, so that the memory of two times can be compared."""
+        self.wait()  # what is still being copied would be there again
+        settings = self._application.settings
+        settings.set_tolerance(FIRST_SETTINGS.tolerance)
+        for effect in NAMES:
+            settings.force(effect, None)
+        self._application.store.put(scene, "home")
+        self._show_a_photo_everywhere()
+        self.close_the_photo()
+        self.clear_the_pins()
+        self.leave_the_exploration()
+        self._application.desktop.theme.choose(THEMES[0])
+        self.reset_the_layout()
+        self._application.window.resize(*_FIRST_SIZE)
+        QGuiApplication.clipboard().clear()
+        self.wait()
+
+    def _show_a_photo_everywhere(self) -> None:
+        """Let all panes keep the same photo: each keeps what it has shown last."""
+        self._application.open_photo(sample_photos()[0])
+        self.wait()
+        for mode in reversed(MODES):
+            self._trigger(f"show_{mode}")
+            self.wait()
+
+    def _trigger(self, name: str) -> None:
+        self._application.window.actions_by_name[name].trigger()
+
+    def move_a_slider(self) -> None:
+        names = [n for n, p in PARAMETERS.items() if isinstance(p, Quantity) and n not in _HEAVY]
+        declared = PARAMETERS[self._random.choice(names)]
+        assert isinstance(declared, Quantity)
+        if self._random.random() < 0.3:
+            self._gesture = new_gesture()
+        value = declared.at(self._random.random())
+        self._application.store.change(self._gesture, **{declared.name: value})
+
+    def choose_a_word(self) -> None:
+        names = [n for n, p in PARAMETERS.items() if isinstance(p, Choice)]
+        declared = PARAMETERS[self._random.choice(names)]
+        assert isinstance(declared, Choice)
+        word = self._random.choice(declared.choices)
+        self._application.store.change(NO_GESTURE, **{declared.name: word})
+
+    def change_the_code(self) -> None:
+        self._application.store.change(code=self._random.randrange(1024), bits=10)
+
+    def undo_or_redo(self) -> None:
+        stack = self._application.store.undo_stack
+        self._random.choice([stack.undo, stack.redo])()
+
+    def load_a_preset(self) -> None:
+        scene = occ.load_preset(self._random.choice(occ.presets()))
+        self._application.store.put(smaller(scene), "preset")
+
+    def force_an_effect(self) -> None:
+        included = self._random.choice([True, False, None, None])
+        self._application.settings.force(self._random.choice(NAMES), included)
+
+    def change_the_tolerance(self) -> None:
+        self._application.settings.set_tolerance(10.0 ** self._random.uniform(-1.0, 2.0))
+
+    def open_a_sample(self) -> None:
+        self._application.open_photo(self._random.choice(sample_photos()))
+
+    def close_the_photo(self) -> None:
+        self._application.photos.close()
+
+    def choose_a_mode(self) -> None:
+        self._application.image.set_mode(self._random.choice(MODES))
+
+    def lay_the_photo_over(self) -> None:
+        image = self._application.image
+        self._trigger(f"show_{self._random.choice(MODES)}")
+        image.opacity.setValue(self._random.randrange(101))
+        image.gain.setCurrentIndex(self._random.randrange(image.gain.count()))
+        image.gain.chosen.emit(image.gain.key())
+
+    def toggle_a_dock(self) -> None:
+        docks = list(self._application.window.docks.values())
+        self._random.choice(docks).toggleViewAction().trigger()
+
+    def reset_the_layout(self) -> None:
+        self._trigger("reset_layout")
+
+    def ask_for_what_cannot_be(self) -> None:
+        self._application.store.change(exposure_time=-1.0)
+        self._application.settings.set_tolerance(float("nan"))
+        self._application.open_photo(Path("/nowhere/photo.png"))
+
+    def resize(self) -> None:
+        width = self._random.randrange(1000, 1600)
+        self._application.window.resize(width, self._random.randrange(700, 1000))
+
+    def hold_the_brightness(self) -> None:
+        self._trigger("hold_brightness")
+        slider = self._application.controls.main_rows()["exposure_time"].slider
+        slider.setValue(self._random.randint(slider.minimum(), slider.maximum()))
+
+    def toggle_the_margins(self) -> None:
+        self._trigger("margins")
+
+    def choose_a_theme(self) -> None:
+        self._trigger(f"theme_{self._random.choice(THEMES)}")
+
+    def pin(self) -> None:
+        self._trigger(f"pin_{self._random.choice('ab')}")
+
+    def go_to_what_is_pinned(self) -> None:
+        self._trigger(f"go_to_{self._random.choice('ab')}")
+
+    def clear_the_pins(self) -> None:
+        self._trigger("clear_pins")
+
+    def _guide(self) -> ExplorationView:
+        guide = self._application.teaching.guide.pane
+        if not guide.choices:
+            self._trigger("explorations")
+            self._qtbot.waitUntil(lambda: bool(guide.choices))
+        return guide
+
+    def choose_an_exploration(self) -> None:
+        guide = self._guide()
+        guide.all.click()
+        self._random.choice(guide.choices).click()
+
+    def step_on_or_back(self) -> None:
+        guide = self._guide()
+        if not guide.next.isVisibleTo(guide):
+            guide.choices[0].click()
+        buttons = (guide.next, guide.next, guide.back, guide.again, guide.reveal)
+        self._random.choice(buttons).click()
+
+    def leave_the_exploration(self) -> None:
+        self._guide().all.click()
+
+    def save_the_scene(self) -> None:
+        self._dialogs.path = self._folder / "scene.toml"
+        self._trigger(self._random.choice(["save_scene", "save_scene_as"]))
+
+    def open_the_saved_scene(self) -> None:
+        self._dialogs.path = self._folder / "scene.toml"
+        self._trigger("open_scene")
+
+    def export_a_figure(self) -> None:
+        name = self._random.choice(list(self._application.desktop.figures.titles))
+        self._dialogs.path = self._folder / f"{name}{self._random.choice(ENDINGS)}"
+        self._trigger(f"export_{name}")
+
+    def copy_a_figure(self) -> None:
+        if self._random.random() < 0.5:
+            self._trigger("copy_figure")
+        else:
+            titles = self._application.desktop.figures.titles
+            self._application.desktop.export.controller.copy(self._random.choice(list(titles)))
+
+    def export_all(self) -> None:
+        self._dialogs.path = self._folder / "all"
+        self._trigger("export_all")
+
+    def open_an_exported_figure(self) -> None:
+        self.wait()
+        path = self._random.choice(sorted((self._folder / "all").iterdir()))
+        if self._random.random() < 0.5:
+            self._dialogs.path = path
+            self._trigger("open_scene")
+        else:
+            self._application.window.dropped.emit([path])

@@ -158,7 +158,13 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
     out = tmp_path / "r.csv"
     program = "import sys; from occ_model.cli import main; sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-c", program, "sweep", "--vary", "iso=100:4000:1", "--images", "9"]
-    running = subprocess.Popen([*command, "--out", out], stderr=subprocess.PIPE, text=True)
+    running = subprocess.Popen(
+        [*command, "--out", out],
+        stderr=subprocess.PIPE,
+        text=True,
+        # Whoever runs the tests in the background may have let them ignore Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     deadline = time.monotonic() + 30
     while not out.exists() or out.read_bytes().count(b",threshold,") < 5:
         assert time.monotonic() < deadline

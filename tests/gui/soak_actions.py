@@ -34,6 +34,7 @@ _PATIENCE_MS = 60_000
 
 
 _FIRST_SIZE = (1280, 800)
+_MANY = 60
 
 
 def smaller(scene: Scene) -> Scene:
@@ -292,6 +293,16 @@ class Monkey:
     def export_all(self) -> None:
         self._dialogs.path = self._folder / "all"
         self._trigger("export_all")
+
+    def export_many(self) -> None:
+        """Export more figures in a row than a soak ever will.
+
+        Those that are drawn are collected only from time to time, and the heap stays as large as
+        they have made it.
+        """
+        for _ in range(_MANY):
+            self.export_a_figure()
+        self.wait()
 
     def open_an_exported_figure(self) -> None:
         self.wait()

@@ -1,4 +1,12 @@
-"""Errors whose message is a whole sentence for the person at the screen."""
+"""Errors whose message is a whole sentence for the person at the screen; values quoted in them."""
+
+import reprlib
+
+_LONGEST_VALUE = 80
+"""Characters of a value that a sentence quotes."""
+
+_LONGEST_NAME = 200
+"""Characters of a name or title that a sentence or a label shows."""
 
 
 class OccError(Exception):
@@ -43,3 +51,40 @@ class MatchError(OccError):
 
 class OutputError(OccError):
     """A result cannot be written where it was asked for."""
+
+
+class _ShortRepr(reprlib.Repr):
+    """A ``repr`` that is short and never fails, whatever a file or a caller holds."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel = 3
+        self.maxstring = self.maxother = self.maxlong = _LONGEST_VALUE
+
+    def repr_int(self, value: int, level: int) -> str:
+        """Write a whole number, also one of more digits than Python agrees to write out."""
+        try:
+            return super().repr_int(value, level)
+        except ValueError:
+            return f"a whole number of {value.bit_length():,} bits"
+
+
+def shown(value: object) -> str:
+    """Write any value as part of a sentence, as ``repr`` would but short.
+
+    Long texts, long numbers, deep nesting, line breaks and control characters do no harm.
+    """
+    text = _ShortRepr().repr(value)
+    half = _LONGEST_VALUE // 2
+    return text if len(text) <= _LONGEST_VALUE + 3 else f"{text[:half]}...{text[-half:]}"
+
+
+def one_line(text: str, longest: int = _LONGEST_NAME) -> str:
+    """Write a name or title from elsewhere in one line: control characters are shown escaped."""
+    start = text[: longest + 1]
+    if len(start) > longest:
+        start = f"{start[: longest - 1]}…"
+    return "".join(
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode("ascii")
+        for letter in start
+    )

@@ -4,33 +4,30 @@ Every bit is two chips with a transition between them. A bit 0 has a transition 
 well, a bit 1 has none. A run of equal chips is therefore never longer than two.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from occ_model.arrays import ByteArray
 
 
-def encode(bits: Sequence[int], level: int = 0) -> ByteArray:
+def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
     """Turn bits into chips.
 
     Parameters
     ----------
-    bits
+    bits : array_like of int, shape (..., bits)
         The bits, first sent first.
     level
         The chip that comes before.
 
     Returns
     -------
-    ndarray of uint8, shape (2 x bits,)
+    ndarray of uint8, shape (..., 2 x bits)
     """
-    chips: list[int] = []
-    for bit in bits:
-        first = level if bit else 1 - level
-        level = 1 - first
-        chips += [first, level]
-    return np.array(chips, dtype=np.uint8)
+    # A bit 0 leaves the level as it was, having two transitions; a bit 1 inverts it.
+    after = np.bitwise_xor.accumulate(np.asarray(bits, dtype=np.uint8), axis=-1) ^ np.uint8(level)
+    chips = np.stack([1 - after, after], axis=-1)
+    return chips.reshape(*after.shape[:-1], 2 * after.shape[-1])
 
 
 def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, IndexArray
 from occ_model.scene import Scene, Transmitter
 from occ_model.transmitter import line_code
 
@@ -50,10 +50,22 @@ def _sent_chips(code: int, bits: int, pattern: str) -> ByteArray:
     if pattern:
         chips = np.frombuffer(pattern.encode("ascii"), dtype=np.uint8) - np.uint8(ord("0"))
     else:
-        data = line_code.encode(bits_of(code, bits), level=HEADER[-1])
-        chips = np.concatenate([np.array(HEADER, dtype=np.uint8), data])
+        chips = packets(np.array([code]), bits)[0]
     chips.flags.writeable = False
     return chips
+
+
+def packets(codes: IndexArray, bits: int) -> ByteArray:
+    """Give the packets of some codes.
+
+    Returns
+    -------
+    ndarray of uint8, shape (codes, chips)
+    """
+    places = np.arange(bits)[::-1]
+    data = line_code.encode(codes[:, None] >> places & 1, level=HEADER[-1])
+    header = np.broadcast_to(np.array(HEADER, dtype=np.uint8), (len(codes), len(HEADER)))
+    return np.concatenate([header, data], axis=1)
 
 
 def packet(scene: Scene) -> ByteArray:

@@ -69,6 +69,12 @@ def test_the_convention_is_that_of_ieee_802_5(
     assert encode(bits, level).tolist() == chips
 
 
+@every_level
+def test_many_codes_are_turned_into_chips_as_each_by_itself(level: int) -> None:
+    many = list(product((0, 1), repeat=4))
+    np.testing.assert_array_equal(encode(many, level), [encode(bits, level) for bits in many])
+
+
 @given(bits=bit_strings, level=levels)
 def test_the_other_level_before_turns_every_chip_round(bits: list[int], level: int) -> None:
     np.testing.assert_array_equal(encode(bits, level) ^ 1, encode(bits, 1 - level))

@@ -7,8 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.scene import Transmitter
-from occ_model.transmitter.packet import packet_length, sent_chips
+from occ_model.transmitter.packet import HEADER, packet_length, packets
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 BINS_PER_CHIP = 8
@@ -25,14 +24,14 @@ _ROUNDING = 1e-12
 class CodeBook:
     """What a packet of each code looks like through an exposure.
 
-    A profile is a sum of the chips' responses: that of code c at bin b is the sum over j of
-    ``chips[c, j] * response[b - j * BINS_PER_CHIP]``, so that a correlation with every code at
-    every phase is one correlation with the response and one product with the chips.
+    A profile is a sum of the chips' responses: that of code c at bin b is the sum over its lit
+    chips j of ``response[b - j * BINS_PER_CHIP]``. So a correlation with every code is one
+    correlation with the response, and its sums over the lit chips (:func:`sums_of_halves`).
 
     Parameters
     ----------
-    chips : ndarray of float64, shape (codes, chips)
-        The packets.
+    bits : int
+        Bits of a code.
     response : ndarray of float64, shape (bins,)
         Lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
     energy : ndarray of float64, shape (codes,)
@@ -42,14 +41,14 @@ class CodeBook:
         Lit fractions that the codes' profiles take: evenly spaced quantiles of all of them.
     """
 
-    chips: FloatArray
+    bits: int
     response: FloatArray
     energy: FloatArray
     levels: FloatArray
 
     def profiles(self, codes: IndexArray) -> FloatArray:
         """Give the lit fraction over one packet of some codes, shape (codes, bins)."""
-        return _profiles(self.chips[codes], self.response)
+        return _profiles(codes, self.bits, self.response)
 
 
 @lru_cache(maxsize=16)
@@ -64,7 +63,6 @@ def code_book(bits: int, exposure: Fraction) -> CodeBook:
         The exposure time in chips, exactly.
     """
     period = packet_length(bits)
-    packets = _packets(bits)
     first_chip = np.zeros(period, dtype=np.uint8)
     first_chip[0] = 1
     bins = np.arange(period * BINS_PER_CHIP)
@@ -72,38 +70,91 @@ def code_book(bits: int, exposure: Fraction) -> CodeBook:
     duration = Duration.of(exposure, period)
     lit = Waveform(first_chip).lit_chips(starts, duration)
     response = lit / duration.in_chips(period)
-    some = packets[:: max(1, len(packets) // _TONE_CODES)]
+    some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
     shares = (bins + 0.5) / len(bins)
-    levels = np.quantile(_profiles(some, response), shares)
-    book = CodeBook(packets, response, _energies(packets, response), levels)
-    for array in (book.chips, book.response, book.energy, book.levels):
+    levels = np.quantile(_profiles(some, bits, response), shares)
+    book = CodeBook(bits, response, _energies(bits, response), levels)
+    for array in (book.response, book.energy, book.levels):
         array.flags.writeable = False  # it is kept, and given to everyone
     return book
 
 
-@lru_cache(maxsize=4)
-def _packets(bits: int) -> FloatArray:
-    """Give the chips of every code's packet, shape (codes, chips); they need no exposure."""
-    codes = range(2**bits)
-    return np.stack([sent_chips(Transmitter(code=code, bits=bits)) for code in codes]).astype(
-        np.float64
+def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:
+    """Sum values over the chips that are lit, in each half of every packet.
+
+    A bit lights one of its two chips: the first where the level after it is 0, the second where
+    it is 1. A bit's chips depend on the bits before it, by the level that they leave; but they
+    depend on no other level than that after the bit itself. So the sum over a packet is that over
+    its first half, of which there are only 2^(bits / 2), and that over its second.
+
+    Parameters
+    ----------
+    values : ndarray of float64, shape (chips, n)
+        Values for each chip of a packet.
+    bits
+        Bits of a code.
+
+    Returns
+    -------
+    first : ndarray of float64, shape (2 ** (bits // 2), n)
+        Over the header and the first ``bits // 2`` bits, by the levels after each of them, read
+        as a binary number.
+    second : ndarray of float64, shape (2 ** (bits - bits // 2), n)
+        Over the other bits, in the same way.
+    """
+    header = np.array(HEADER, dtype=np.float64) @ values[: len(HEADER)]
+    pairs = values[len(HEADER) :].reshape(bits, 2, -1)
+    half = bits // 2
+    return _add_bits(header[None], pairs[:half]), _add_bits(
+        np.zeros_like(header[None]), pairs[half:]
     )
 
 
-def _profiles(packets: FloatArray, response: FloatArray) -> FloatArray:
+def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
+    """Add to each sum, bit after bit, the values of the one chip and those of the other."""
+    for pair in pairs:
+        sums = (sums[:, None] + pair).reshape(-1, sums.shape[1])
+    return sums
+
+
+@lru_cache(maxsize=4)
+def codes_by_levels(bits: int) -> IndexArray:
+    """Give the code whose bits leave these levels after them, the levels read as a binary number.
+
+    Returns
+    -------
+    ndarray of int64, shape (2 ** bits,), read-only
+    """
+    after = np.arange(2**bits)
+    before = after >> 1 | HEADER[-1] << (bits - 1)
+    codes: IndexArray = after ^ before  # a bit is 1 where the level changes
+    codes.flags.writeable = False
+    return codes
+
+
+def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
     """Give the profiles of some codes, shape (codes, bins)."""
-    impulses = np.zeros((len(packets), len(response)))
-    impulses[:, ::BINS_PER_CHIP] = packets
+    impulses = np.zeros((len(codes), len(response)))
+    impulses[:, ::BINS_PER_CHIP] = packets(codes, bits)
     spectrum = np.fft.rfft(impulses, axis=1) * np.fft.rfft(response)
     return np.asarray(np.fft.irfft(spectrum, len(response), axis=1))
 
 
-def _energies(packets: FloatArray, response: FloatArray) -> FloatArray:
-    """Give each profile's sum of squares about its mean, from autocorrelations alone."""
-    bins = len(response)
-    own = np.fft.irfft(np.abs(np.fft.rfft(response)) ** 2, bins)[::BINS_PER_CHIP]
-    spectrum = np.abs(np.fft.rfft(packets, axis=1)) ** 2
-    lags = np.fft.irfft(spectrum, packets.shape[1], axis=1)
-    sums = packets.sum(axis=1) * response.sum()
-    energies = lags @ own - sums**2 / bins
-    return np.where(energies > _ROUNDING * bins, energies, np.inf)
+def _energies(bits: int, response: FloatArray) -> FloatArray:
+    """Give each profile's sum of squares about its mean, from the response's autocorrelation.
+
+    It is the sum of the autocorrelation over all pairs of lit chips: of pairs within the first
+    half of a packet, within the second, and across.
+    """
+    period = packet_length(bits)
+    spectrum = np.abs(np.fft.rfft(response)) ** 2
+    spectrum[0] = 0.0  # about the mean
+    own = np.fft.irfft(spectrum, len(response))[::BINS_PER_CHIP]
+    chips = np.arange(period)
+    first, second = sums_of_halves(own[(chips[:, None] - chips) % period], bits)
+    within_first, across = sums_of_halves(first.T, bits)
+    within_second = sums_of_halves(second.T, bits)[1]
+    sums = within_first.diagonal()[:, None] + 2.0 * across.T + within_second.diagonal()
+    energies = np.empty(2**bits)
+    energies[codes_by_levels(bits)] = sums.ravel()
+    return np.where(energies > _ROUNDING * len(response), energies, np.inf)

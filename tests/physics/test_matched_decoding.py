@@ -1,16 +1,25 @@
 """What the matched decoder must read, past where thresholds end."""
 
+import tracemalloc
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.receiver.code_book import BINS_PER_CHIP, code_book
+from occ_model.receiver.code_book import (
+    BINS_PER_CHIP,
+    CodeBook,
+    code_book,
+    codes_by_levels,
+    sums_of_halves,
+)
+from occ_model.receiver.decoders.matched import most_likely
 from occ_model.scene import Scene
 from occ_model.study.success_rate import success_rate
-from occ_model.transmitter.packet import packet_length
+from occ_model.transmitter.packet import packet_length, packets
 
 HIGH_CONFIDENCE = 0.5
 
@@ -73,6 +82,97 @@ def test_the_code_book_holds_the_forward_model_of_every_code() -> None:
         )
         about_mean = lit_fraction(scene) - lit_fraction(scene).mean()
         assert book.energy[code] == pytest.approx(about_mean @ about_mean)
+
+
+def _correlations(signal: FloatArray, book: CodeBook, codes: IndexArray) -> FloatArray:
+    """Correlate a signal with each code's profile at each phase, shape (codes, phases)."""
+    profiles = book.profiles(codes)
+    profiles -= profiles.mean(axis=1, keepdims=True)
+    norms = np.where(np.isfinite(book.energy[codes]), np.linalg.norm(profiles, axis=1), np.inf)
+    spectrum = np.fft.rfft(signal - signal.mean()) * np.conj(np.fft.rfft(profiles, axis=1))
+    return np.fft.irfft(spectrum, len(signal), axis=1) / norms[:, None]
+
+
+def _exposures(bits: int) -> list[Fraction]:
+    """Give exposures in chips: short, long, of whole chips (where codes tie), at a null."""
+    packet = packet_length(bits)
+    null = [Fraction(packet) * (1 + Fraction(1, 10**place)) for place in (3, 6, 9)]
+    return [Fraction(1, 10), Fraction(13, 7), Fraction(2), Fraction(packet, 2), *null]
+
+
+def _signals(book: CodeBook, rng: np.random.Generator) -> list[FloatArray]:
+    """Give signals: some code's profile at some phase, alone and under noise, and noise alone."""
+    bins = len(book.levels)
+    profile = book.profiles(rng.integers(0, len(book.energy), 1))[0]
+    profile = np.roll(profile, int(rng.integers(bins)))
+    noise = rng.normal(0.0, 1.0, bins)
+    return [profile, profile + np.ptp(profile) * noise, noise]
+
+
+@pytest.mark.parametrize("bits", range(2, 11))
+def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> None:
+    rng = np.random.default_rng(bits)
+    every = np.arange(2**bits)
+    for exposure in _exposures(bits):
+        book = code_book(bits, exposure)
+        for signal in _signals(book, rng):
+            found, phases = most_likely(signal, book)
+            correlations = _correlations(signal, book, every)
+            largest = correlations.max(axis=1)
+            # Codes that tie may be exchanged, but none that correlates better is left out.
+            assert len(set(found.tolist())) == len(found) == min(16, len(every))
+            limit = 1e-7 * abs(largest).max()
+            np.testing.assert_allclose(correlations[found, phases], largest[found], atol=limit)
+            np.testing.assert_allclose(
+                np.sort(largest[found]), np.sort(largest)[-len(found) :], atol=limit
+            )
+
+
+@pytest.mark.parametrize("exposure", _exposures(16))
+def test_no_code_of_sixteen_bits_that_correlates_better_is_left_out(exposure: Fraction) -> None:
+    rng = np.random.default_rng(16)
+    book = code_book(16, exposure)
+    sample = rng.integers(0, 2**16, 2000)
+    for signal in _signals(book, rng):
+        found, phases = most_likely(signal, book)
+        correlations = _correlations(signal, book, found)
+        limit = 1e-7 * abs(correlations).max()
+        np.testing.assert_allclose(
+            correlations[range(16), phases], correlations.max(axis=1), atol=limit
+        )
+        others = sample[~np.isin(sample, found)]
+        assert _correlations(signal, book, others).max() <= correlations.max(axis=1).min() + limit
+
+
+@pytest.mark.parametrize("bits", range(2, 12))
+def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
+    values = np.random.default_rng(bits).normal(size=(packet_length(bits), 3))
+    first, second = sums_of_halves(values, bits)
+    sums = (first[:, None] + second).reshape(-1, 3)
+    np.testing.assert_allclose(sums, packets(codes_by_levels(bits), bits) @ values, atol=1e-12)
+
+
+@pytest.mark.parametrize("bits", range(2, 12))
+def test_energies_are_those_of_the_profiles(bits: int) -> None:
+    for exposure in _exposures(bits):
+        book = code_book(bits, exposure)
+        profiles = book.profiles(np.arange(2**bits))
+        energies = len(book.levels) * profiles.var(axis=1)
+        known = np.isfinite(book.energy)
+        np.testing.assert_allclose(book.energy[known], energies[known], rtol=1e-5)
+        assert (energies[~known] <= 2e-12 * len(book.levels)).all()
+
+
+def test_codes_of_sixteen_bits_take_little_memory() -> None:
+    scene = occ.load_preset("phone-136us").replace(bits=16, code=54321, switching_frequency=19e3)
+    profile = occ.column_profile(scene)
+    tracemalloc.start()
+    try:
+        assert occ.decode(profile, scene, "matched").code == scene.transmitter.code
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 2**23  # as numbers, the packets of all codes take 19 MB
 
 
 def test_confidence_is_near_one_for_a_clear_picture_and_near_none_for_noise() -> None:

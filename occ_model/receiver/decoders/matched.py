@@ -12,7 +12,13 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import column_phases
-from occ_model.receiver.code_book import BINS_PER_CHIP, CodeBook, code_book
+from occ_model.receiver.code_book import (
+    BINS_PER_CHIP,
+    CodeBook,
+    code_book,
+    codes_by_levels,
+    sums_of_halves,
+)
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
@@ -28,12 +34,8 @@ _LEAST_CONFIDENCE = 0.05
 _LIKELY = 16
 """Codes that are compared more closely."""
 
-_CODES_AT_ONCE = 4096
-"""Codes compared at once, so that codes of 16 bits need no gigabytes."""
-
-_ONE_THREAD = 2**18
-"""Multiplications up to which OpenBLAS starts no threads. They would wait for each other: where the
-processor has other work, too, one large product takes many times as long as small ones."""
+_AT_ONCE = 2**15
+"""Correlations, of codes at phases, that are held at once: they fit the processor's cache."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -97,7 +99,7 @@ def _best_code(result: DecodeResult, folded: FloatArray, book: CodeBook, bits: i
     # What the camera did to the grey levels kept their order. So a bin's rank says which lit
     # fraction it stands for, and no gamma or enhancement needs to be known.
     rank = folded.argsort(kind="stable").argsort()
-    likely, shifts = _most_likely(book.levels[rank], book)
+    likely, shifts = most_likely(book.levels[rank], book)
     models = book.profiles(likely)
     # Each code has levels of its own, which say so more exactly than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
@@ -120,7 +122,7 @@ def _best_code(result: DecodeResult, folded: FloatArray, book: CodeBook, bits: i
     return replace(result, code=code, bits=np.array(bits_of(code, bits), dtype=np.uint8))
 
 
-def _most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexArray]:
+def most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexArray]:
     """Find the codes that correlate best with the signal over all phases, and their phases.
 
     Returns
@@ -128,32 +130,38 @@ def _most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexA
     codes, phases : ndarray of int64, shape (_LIKELY,) or fewer
         A phase is the bin at which a code's packet starts.
     """
-    bins, period = len(signal), book.chips.shape[1]
+    bins, period = len(signal), packet_length(book.bits)
     about_mean = signal - signal.mean()
     spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(book.response))
     with_response = np.fft.irfft(spectrum, bins)
     places = np.arange(period)[:, None] * BINS_PER_CHIP + np.arange(bins)
-    with_chips = with_response[places % bins]
-    best, phase = [], []
-    for start in range(0, len(book.chips), _CODES_AT_ONCE):
-        products = _products(book.chips[start : start + _CODES_AT_ONCE], with_chips)
-        phases = products.argmax(axis=1)
-        best.append(np.take_along_axis(products, phases[:, None], axis=1)[:, 0])
-        phase.append(phases)
-    scores = np.concatenate(best) / np.sqrt(book.energy)
+    first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], book.bits)
+    codes = codes_by_levels(book.bits)
+    scores = _largest_sums(first, second).ravel() / np.sqrt(book.energy[codes])
     count = min(_LIKELY, len(scores))
     likely = np.argpartition(scores, -count)[-count:]
-    return likely, np.concatenate(phase)[likely]
+    of_first, of_second = np.divmod(likely, len(second))
+    return codes[likely], (first[of_first] + second[of_second]).argmax(axis=1)
 
 
-def _products(chips: FloatArray, signal: FloatArray) -> FloatArray:
-    """Multiply two matrices in pieces that one thread does alone."""
-    products = np.empty((len(chips), signal.shape[1]))
-    step = max(1, _ONE_THREAD // signal.size)
-    for first in range(0, len(chips), step):
-        piece = slice(first, first + step)
-        np.matmul(chips[piece], signal, out=products[piece])
-    return products
+def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Give the largest value of each sum of a row of one array and a row of the other.
+
+    Returns
+    -------
+    ndarray of float64, shape (rows of ``first``, rows of ``second``)
+    """
+    columns, shape = first.shape[1], (len(first), len(second))
+    # Neighbours in memory are different sums, of which the processor takes several at a time.
+    first, second = first.T[:, :, None].copy(), second.T[:, None].copy()
+    step = max(1, _AT_ONCE // (shape[0] * shape[1]))
+    sums = np.empty((min(step, columns), *shape))
+    largest = np.full(shape, -np.inf)
+    for start in range(0, columns, step):
+        part = slice(start, start + step)
+        some = np.add(first[part], second[part], out=sums[: len(first[part])])
+        np.maximum(largest, some.reshape(len(some), -1).max(axis=0).reshape(shape), out=largest)
+    return largest
 
 
 def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -5,7 +5,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from matplotlib import rc_context
+from matplotlib import rc_context, rcParamsDefault
 from matplotlib.figure import Figure
 
 from occ_model import colours
@@ -33,8 +33,10 @@ _LOOK: dict[Any, Any] = {
 
 
 def house_style() -> AbstractContextManager[None]:
-    """Give all figures drawn within the same look."""
-    return rc_context(_LOOK)
+    """Give all figures drawn within the same look, whatever has been set before."""
+    # The backend opens windows; a figure that becomes a file has none.
+    defaults = {name: value for name, value in rcParamsDefault.items() if name != "backend"}
+    return rc_context(defaults | _LOOK)
 
 
 def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:

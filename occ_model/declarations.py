@@ -8,20 +8,12 @@ from dataclasses import dataclass
 from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
-from occ_model.errors import ParameterError
-from occ_model.units import Unit
+from occ_model.errors import ParameterError, shown
+from occ_model.units import LONGEST_TEXT, Unit
 
 ParameterValue: TypeAlias = float | int | str
 
 MAX_PATTERN_CHIPS = 4096
-
-
-def _written(value: object) -> str:
-    """Write what was given, or what can be said of a number that Python refuses to write."""
-    try:
-        return repr(value)
-    except ValueError:
-        return "a number of thousands of digits"
 
 
 def _whole(value: object) -> int | None:
@@ -70,6 +62,14 @@ class Declaration:
         """Make the error that names the parameter, what is wrong and what is allowed."""
         return ParameterError(f"{self.name} {problem}; allowed: {allowed}.")
 
+    def _check_length(self, text: str, allowed: str) -> None:
+        """Refuse a text that is too long to be read as a number."""
+        if len(text) > LONGEST_TEXT:
+            raise self.refuse(
+                f"is a text of {len(text):,} characters",
+                f"{allowed}, written in up to {LONGEST_TEXT} characters",
+            )
+
 
 @dataclass(frozen=True, slots=True)
 class Quantity(Declaration):
@@ -96,7 +96,7 @@ class Quantity(Declaration):
     def check(self, value: object) -> float:
         """Return ``value`` as a float, or raise :class:`ParameterError`."""
         if isinstance(value, bool) or not isinstance(value, Real):
-            raise self.refuse(f"is {_written(value)}, which is not a number", self.allowed)
+            raise self.refuse(f"is {shown(value)}, which is not a number", self.allowed)
         try:
             number = float(value)
         except OverflowError:
@@ -114,10 +114,11 @@ class Quantity(Declaration):
 
     def parse(self, text: str, plain: float = 1.0) -> float:
         """Read a value as people write it; a number without a unit is worth ``plain`` in SI."""
+        self._check_length(text, self.allowed)
         number = self.unit.parse(text, plain)
         if number is None:
             unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
-            raise self.refuse(f"is {text!r}, which is not a number{unit}", self.allowed)
+            raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
         return self.check(number)
 
     def format(self, value: float, digits: int = 6) -> str:
@@ -161,17 +162,18 @@ class Count(Declaration):
         """Return ``value`` as an int, or raise :class:`ParameterError`."""
         number = _whole(value)
         if number is None:
-            raise self.refuse(f"is {_written(value)}", self.allowed)
+            raise self.refuse(f"is {shown(value)}", self.allowed)
         if not self.low <= number <= self.high:
-            raise self.refuse(f"is {_written(number)}", self.allowed)
+            raise self.refuse(f"is {shown(number)}", self.allowed)
         return number
 
     def parse(self, text: str) -> int:
         """Read a whole number, also as ``0b...``, ``0x...`` or ``007``."""
+        self._check_length(text, self.allowed)
         try:
             number = _read_whole(text)
         except ValueError:
-            raise self.refuse(f"is {text!r}", self.allowed) from None
+            raise self.refuse(f"is {shown(text)}", self.allowed) from None
         return self.check(number)
 
     def format(self, value: int) -> str:
@@ -194,7 +196,7 @@ class Choice(Declaration):
     def check(self, value: object) -> str:
         """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or value not in self.choices:
-            raise self.refuse(f"is {_written(value)}", self.allowed)
+            raise self.refuse(f"is {shown(value)}", self.allowed)
         return value
 
     def parse(self, text: str) -> str:
@@ -220,7 +222,7 @@ class ChipPattern(Declaration):
     def check(self, value: object) -> str:
         """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or set(value) - {"0", "1"}:
-            raise self.refuse(f"is {_written(value)}", self.allowed)
+            raise self.refuse(f"is {shown(value)}", self.allowed)
         if len(value) > MAX_PATTERN_CHIPS:
             raise self.refuse(f"has {len(value)} chips", self.allowed)
         return value

@@ -21,7 +21,10 @@ _PREFIXES = {
 }
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_QUANTITY = re.compile(rf"\s*({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*?)\s*", re.DOTALL)
+_QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
+
+LONGEST_TEXT = 200
+"""Characters of a text that may be a quantity: several times what 17 digits and a unit take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +79,11 @@ class Unit:
         Returns
         -------
         float or None
-            The value in SI, None when the text is no quantity of this unit.
+            The value in SI, None when the text is no quantity of this unit, or is too long for
+            one.
         """
-        match = _QUANTITY.fullmatch(text)
+        # Stripped before: to look for the end of a unit among spaces takes a square of their time.
+        match = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST_TEXT else None
         if match is None:
             return None
         number, divisor, unit = match.groups()

@@ -116,6 +116,29 @@ def test_a_refused_text_says_which_unit_was_expected() -> None:
 
 
 @pytest.mark.parametrize("declaration", PARAMETERS.values(), ids=lambda p: p.name)
+@pytest.mark.parametrize(
+    "piece", ["7", " x", "a\nb", "\0"], ids=["digits", "spaces", "lines", "nul"]
+)
+def test_a_long_text_is_refused_in_a_short_line(declaration: Parameter, piece: str) -> None:
+    with pytest.raises(ParameterError) as refused:
+        declaration.parse(piece * 10**5)
+    assert len(str(refused.value)) < 400
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("declaration", [*QUANTITIES, *COUNTS], ids=lambda p: p.name)
+def test_a_text_too_long_for_a_number_is_refused_by_its_length(
+    declaration: Quantity | Count,
+) -> None:
+    with pytest.raises(ParameterError) as refused:
+        declaration.parse("1" + " " * 31998 + "x")
+    assert str(refused.value) == (
+        f"{declaration.name} is a text of 32,000 characters; allowed: {declaration.allowed}, "
+        "written in up to 200 characters."
+    )
+
+
+@pytest.mark.parametrize("declaration", PARAMETERS.values(), ids=lambda p: p.name)
 @pytest.mark.parametrize("power", [400, 5000], ids=["beyond-float", "beyond-print"])
 def test_a_whole_number_too_large_to_hold_is_refused_like_any_other(
     declaration: Parameter, power: int

@@ -132,6 +132,23 @@ def test_another_quantity_s_unit_is_not_understood(unit: Unit, text: str) -> Non
     assert unit.parse(text) is None
 
 
+@pytest.mark.parametrize(
+    "text",
+    [f"1 k{' ' * 10**6}Hz", "1" * 10**6, " " * 10**6 + "1 Hz", f"1 {'k' * 10**6}"],
+    ids=["spaces", "digits", "spaces before", "prefixes"],
+)
+def test_a_text_too_long_for_a_quantity_is_not_understood_at_once(text: str) -> None:
+    for unit in UNITS:
+        assert unit.parse(text) is None
+
+
+@given(value=st.floats(-1e290, 1e290), space=st.text(" \t\n\u2003", max_size=50))
+def test_space_around_a_quantity_and_before_its_unit_does_not_matter(
+    value: float, space: str
+) -> None:
+    assert HERTZ.parse(f"{space}{value!r}{space}Hz{space}") == value
+
+
 @given(text=st.text(max_size=20), unit=st.sampled_from(UNITS))
 def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
     value = unit.parse(text)

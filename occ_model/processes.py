@@ -2,6 +2,7 @@
 
 import os
 import signal
+import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -10,6 +11,14 @@ from typing import Any
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 """What tells linear algebra how many threads it may start."""
+
+NO_PROCESSES = (OSError, ImportError, NotImplementedError)
+"""What is raised where a system has no processes to give: no semaphores (a /dev/shm that cannot be
+written to), no memory or files left for one more."""
+
+_LONGEST_FOLDER = 70
+"""Bytes of a temporary folder's path. A server's socket has a name of 32 bytes in it, and a path of
+at most 103 bytes on macOS and 107 on Linux."""
 
 
 def process_context(preload: Sequence[str]) -> Any:
@@ -22,11 +31,20 @@ def process_context(preload: Sequence[str]) -> Any:
     """
     # A forked process has the locks of threads that it does not have: only a server that has
     # none is forked, and where there is no such server a process starts from nothing.
-    method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+    has_server = "forkserver" in get_all_start_methods() and _has_room_for_a_socket()
+    method = "forkserver" if has_server else "spawn"
     context: Any = get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload(list(preload))
     return context
+
+
+def _has_room_for_a_socket() -> bool:
+    """Say whether a server's socket can stand in the folder for temporary files."""
+    try:
+        return len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_FOLDER
+    except OSError:  # there is none that can be written to
+        return False
 
 
 @contextmanager

@@ -1,6 +1,7 @@
 """Success rates over any parameters, at as many points as it takes."""
 
 import math
+import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, closing
@@ -13,6 +14,7 @@ import numpy as np
 
 from occ_model.checks import check_count
 from occ_model.declarations import ParameterValue
+from occ_model.errors import one_line
 from occ_model.receiver.decoders import PAPERS
 from occ_model.results import RateSettings, SweepPoint, SweepRequest, SweepTable, Way
 from occ_model.scene import Scene
@@ -69,7 +71,8 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
         process finishes the sweep, with a ``RuntimeWarning`` that says so. None: ``jobs``.
     jobs
         How many processes of its own the sweep starts, and starts again where they die; 1: none, it
-        runs in this process. As with all processes of Python, the module that starts them must not
+        runs in this process, which it does with a ``RuntimeWarning`` also where the system has no
+        processes to give. As with all processes of Python, the module that starts them must not
         do so when it is imported (``if __name__ == "__main__":``).
     progress
         Called after each point, and several times a second while a point takes longer, with the
@@ -151,9 +154,18 @@ def measure(
         return measure_by(GivenWorkers(executor), request, todo, pulse)
     if jobs > 1:
         # Only who wants processes pays for importing what starts them.
+        from occ_model.processes import NO_PROCESSES
         from occ_model.study.sweep_pool import OwnWorkers
 
-        return measure_by(OwnWorkers(jobs), request, todo, pulse)
+        try:
+            return measure_by(OwnWorkers(jobs), request, todo, pulse)
+        except NO_PROCESSES as error:
+            warnings.warn(
+                f"No processes can be started ({one_line(str(error))}); this one does the sweep "
+                "alone.",
+                RuntimeWarning,
+                stacklevel=2,
+            )
     return measure_here(request, todo, pulse)
 
 

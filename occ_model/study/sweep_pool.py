@@ -3,7 +3,7 @@
 from concurrent.futures import Future, ProcessPoolExecutor
 from time import monotonic
 
-from occ_model.processes import begin_worker, process_context, single_threads
+from occ_model.processes import NO_PROCESSES, begin_worker, process_context, single_threads
 from occ_model.study.sweep_work import Delivery, Parcel, measure_parcel
 
 _GRACE = 0.2
@@ -17,6 +17,11 @@ class OwnWorkers:
     ----------
     count
         How many.
+
+    Raises
+    ------
+    OSError, ImportError or NotImplementedError
+        The system has no processes to give.
     """
 
     def __init__(self, count: int) -> None:
@@ -32,9 +37,12 @@ class OwnWorkers:
             return self._pool.submit(measure_parcel, parcel)
 
     def renew(self) -> bool:
-        """Start new processes in place of those that died."""
+        """Start new processes in place of those that died, where there are any to be had."""
         self.close()
-        self._pool = self._start()
+        try:
+            self._pool = self._start()
+        except NO_PROCESSES:
+            return False
         return True
 
     def close(self) -> None:

@@ -11,6 +11,9 @@ from typing import Any, Protocol
 
 from occ_gui.tasks.failure import sentence_of
 from occ_gui.tasks.parcel import Outcome, Parcel, Stage, Stages, Task, Workers
+from occ_gui.tasks.worker_thread import WorkerThread
+from occ_model.errors import one_line
+from occ_model.processes import NO_PROCESSES
 
 _AHEAD = 2
 """Parcels in flight to a worker: one at work, and one that it can go on with."""
@@ -156,7 +159,7 @@ class Conductor(threading.Thread):
             run, leg = chosen
             try:
                 if self.workers is None:
-                    self.workers = self._start_workers()
+                    self.workers = self._new_workers(run)
                 if len(self._flying) >= _AHEAD * self.workers.count:
                     return
                 parcel = leg.waiting.popleft()
@@ -172,6 +175,14 @@ class Conductor(threading.Thread):
             leg.flying += 1
             self._flying[future] = (run, leg, parcel)
             future.add_done_callback(lambda done: self._inbox.put(lambda: self._land(done)))
+
+    def _new_workers(self, run: Run) -> Workers:
+        """Start the workers, or a thread where there are no processes to be had."""
+        try:
+            return self._start_workers()
+        except NO_PROCESSES as error:
+            self._listener.said(run.lane, run.number, _alone(error))
+            return WorkerThread()
 
     def _next(self) -> tuple[Run, _Leg] | None:
         """Choose the run whose parcel goes next, and end those that have none left."""
@@ -251,15 +262,23 @@ class Conductor(threading.Thread):
             return
         self._lost = False
         self._losses += 1
-        self.workers.renew()
+        said = "A process in the background ended; its work is done again."
+        try:
+            self.workers.renew()
+        except NO_PROCESSES as error:
+            self.workers, said = WorkerThread(), _alone(error)
         for run in list(self._runs.values()):
             if self._losses >= _TRIES:
                 self._fail(
                     run, f"Processes in the background ended {_TRIES} times without a result."
                 )
             else:
-                self._listener.said(
-                    run.lane,
-                    run.number,
-                    "A process in the background ended; its work is done again.",
-                )
+                self._listener.said(run.lane, run.number, said)
+
+
+def _alone(error: Exception) -> str:
+    """Say that there are no processes, and what is done about it."""
+    return (
+        f"No processes can be started ({one_line(str(error))}): the window does their work "
+        "itself, and answers more slowly meanwhile."
+    )

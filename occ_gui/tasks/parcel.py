@@ -1,6 +1,6 @@
 """Pieces of work that processes take over from the window; nothing here needs Qt."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, MutableSequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
@@ -52,6 +52,9 @@ class Stage:
     stays: bool = False
 
 
+SLOTS = 8
+"""Lanes that there can be, and places to count pulses in."""
+
 Stages: TypeAlias = Callable[[], Iterable[Stage]]
 """Gives the stages of some work, one after the other; it is called off the window's thread."""
 
@@ -79,6 +82,32 @@ class Outcome:
 
     result: Any
     abandoned: bool = False
+
+
+def do_task(task: Task, floors: MutableSequence[int], counts: MutableSequence[int]) -> Outcome:
+    """Do a task.
+
+    Parameters
+    ----------
+    task
+        What is to be done.
+    floors
+        The earliest run of each lane that is not abandoned; looked at with every pulse.
+    counts
+        The pulses of each slot, which those of the task are added to.
+    """
+    parcel = task.parcel
+
+    def pulse() -> None:
+        if floors[task.lane] > task.run:
+            raise Abandoned
+        counts[parcel.slot] += 1
+
+    try:
+        pulse()
+        return Outcome(parcel.function(*parcel.arguments, pulse))
+    except Abandoned:
+        return Outcome(None, abandoned=True)
 
 
 class Workers(Protocol):

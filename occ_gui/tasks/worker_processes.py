@@ -5,11 +5,8 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from time import monotonic
 from typing import Any
 
-from occ_gui.tasks.parcel import Abandoned, Outcome, Task
+from occ_gui.tasks.parcel import SLOTS, Outcome, Task, do_task
 from occ_model.processes import begin_worker, process_context, single_threads
-
-_SLOTS = 8
-"""Lanes that there can be, and places to count pulses in."""
 
 _NICENESS = 10
 """How far the processes stand back behind the window."""
@@ -27,14 +24,19 @@ class WorkerProcesses:
         How many.
     preload
         A module that they will need: what can be shared is imported only once.
+
+    Raises
+    ------
+    OSError, ImportError or NotImplementedError
+        The system has no processes to give.
     """
 
     def __init__(self, count: int, preload: str) -> None:
         self.count = count
         self._context = process_context([__name__, preload])
         # No locks: a process that dies with one in its hand would stop the others.
-        self._floors = self._context.RawArray("q", _SLOTS)
-        self._counts = self._context.RawArray("q", _SLOTS)
+        self._floors = self._context.RawArray("q", SLOTS)
+        self._counts = self._context.RawArray("q", SLOTS)
         self._pool = self._start()
 
     def _start(self) -> ProcessPoolExecutor:
@@ -96,16 +98,4 @@ def _begin(floors: Any, counts: Any) -> None:
 
 def work(task: Task) -> Outcome:
     """Do a task in a worker."""
-    floors, counts = _shared["floors"], _shared["counts"]
-    parcel = task.parcel
-
-    def pulse() -> None:
-        if floors[task.lane] > task.run:
-            raise Abandoned
-        counts[parcel.slot] += 1
-
-    try:
-        pulse()
-        return Outcome(parcel.function(*parcel.arguments, pulse))
-    except Abandoned:
-        return Outcome(None, abandoned=True)
+    return do_task(task, _shared["floors"], _shared["counts"])

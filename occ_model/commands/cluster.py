@@ -53,10 +53,13 @@ def cluster_executor(address: str) -> Iterator[Executor]:
 async def _workers(address: str) -> int:
     """Ask a scheduler how many workers it has: clients that nobody answers are slow to go away."""
     from distributed.core import rpc
+    from distributed.security import Security
 
     try:
+        # As the client does: certificates for tls:// are what dask's configuration says.
+        keys: Any = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
         async with asyncio.timeout(_SECONDS):
-            async with rpc(address) as scheduler:  # type: ignore[no-untyped-call]
+            async with rpc(address, connection_args=keys) as scheduler:  # type: ignore[no-untyped-call]
                 known = await scheduler.identity()
             return len(known["workers"])
     except TimeoutError:

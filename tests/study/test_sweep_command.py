@@ -146,6 +146,23 @@ def test_what_cannot_be_is_a_sentence_and_nothing_is_written(
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_cluster_is_asked_with_the_certificates_of_dasks_configuration(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def rpc(address: str, connection_args: object = None) -> None:
+        raise ConnectionError(f"{address} by {connection_args}")
+
+    monkeypatch.setattr("distributed.core.rpc", rpc)
+    monkeypatch.setattr(
+        "distributed.security.Security.get_connection_args", lambda _, role: f"keys of a {role}"
+    )
+    with (
+        pytest.raises(cluster.ClusterError, match="tls://there:1 by keys of a client"),
+        cluster.cluster_executor("tls://there:1"),
+    ):
+        pass
+
+
 def test_a_cluster_that_does_not_answer_is_a_sentence_within_its_time(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

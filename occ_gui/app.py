@@ -185,6 +185,7 @@ def start(
         raise occ.OccError(_NO_DISPLAY)
     gc.disable()  # from here on garbage is collected on this thread, when there is time for it
     # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
+    from PySide6.QtCore import QLocale
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.application import Application
@@ -195,6 +196,8 @@ def start(
     # The threads that hand work to processes take turns with the window's: shorter ones suit both.
     sys.setswitchinterval(_TURN_S)
     log_qt_messages(_end_without_display)
+    # Numbers are read and written in one way in the whole window, as in the files and sentences.
+    QLocale.setDefault(QLocale.c())
     qt = QApplication(arguments)
     log_qt_messages()
     garbage = GarbageCollector(qt)

@@ -104,7 +104,8 @@ class AdvisorController(QObject):
         self._crew, self._lane, self._pane = crew, lane, pane
         self._with_image_effects = False
         self._counted = 0
-        self._look = QTimer(self, interval=_LOOK_MS)
+        self._look = QTimer(self)
+        self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._tell_progress)
         lane.came.connect(self._take)
         lane.finished.connect(lambda _request: self._end(""))

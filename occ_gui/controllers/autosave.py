@@ -52,7 +52,8 @@ class Autosave(QObject):
         self._lock: QLockFile | None = None
         self._path: Path | None = None
         self._has_failed = False
-        self._timer = QTimer(self, singleShot=True, interval=REST_MS)
+        self._timer = QTimer(self, singleShot=True)
+        self._timer.setInterval(REST_MS)
         self._timer.timeout.connect(self.write)
         self.recovered: Scene | None = None
         """The scene of a window that did not come to its end."""

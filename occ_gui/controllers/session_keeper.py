@@ -50,7 +50,8 @@ class SessionKeeper(QObject):
         self._memory = memory
         self._photo = photo
         self._autosave: Autosave | None = None
-        self._timer = QTimer(self, singleShot=True, interval=_REST_MS)
+        self._timer = QTimer(self, singleShot=True)
+        self._timer.setInterval(_REST_MS)
         self._timer.timeout.connect(self.keep)
 
     def resume(self, autosave: Autosave, session: Session, scene_wins: bool) -> None:

@@ -93,7 +93,8 @@ class CompareView(QWidget):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         # A decoder's reason is a sentence: it needs another height at every width, once all
         # columns have theirs.
-        self._fitting = QTimer(self, singleShot=True, interval=0)
+        self._fitting = QTimer(self, singleShot=True)
+        self._fitting.setInterval(0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
         header.sectionResized.connect(lambda: self._fitting.start())
 

@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from occ_gui.views.log_axis import LogAxis
+from occ_gui.views.axes import LogAxis
 from occ_gui.views.plots import BAND, NOISE, PHOTO, SIMULATION, marker, new_plot, thin
 from occ_gui.views.point_numbers import PointNumbers
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -47,6 +47,12 @@ _MARGIN = 0.35
 _RING = 10.0
 """Pixels that a ring needs on each side."""
 
+_FARTHEST_POWER = 12.0
+"""The power of ten of milliseconds or levels, or of one over it, that can be brought into view."""
+
+_LEAST_POWERS = 0.01
+"""Powers of ten across which the plot can be zoomed in."""
+
 
 class AccuracyPlot(QWidget):
     """What each way of simulating costs in time, and how wrong it is.
@@ -71,6 +77,8 @@ class AccuracyPlot(QWidget):
             left=LogAxis("left", _FLOOR),
             bottom=LogAxis("bottom"),
         )
+        for side in ("left", "bottom"):
+            self.plot.limit(side, _FARTHEST_POWER, _LEAST_POWERS)
         box = self.plot.getViewBox()
         box.sigRangeChangedManually.connect(self._stop_following)
         box.sigResized.connect(self._fit)

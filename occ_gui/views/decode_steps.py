@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from occ_gui.views.axes import Axis
 from occ_gui.views.plots import BAND, PACKETS_IN_VIEW, SIMULATION, THRESHOLD, new_plot, thin
 from occ_gui.widgets.inks import seen_on
 from occ_gui.widgets.line_legend import LineLegend
@@ -20,13 +21,13 @@ _COLOURS = (BAND, SIMULATION)
 """Of the run lengths of zeros, and of ones."""
 
 
-class _LevelAxis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
+class _LevelAxis(Axis):
     """An axis without numbers below zero, where no level lies but only the chips' strip."""
 
     def tickStrings(  # noqa: N802 - pyqtgraph's name
         self, values: list[float], scale: float, spacing: float
     ) -> list[str]:
-        texts = super().tickStrings(values, scale, spacing)
+        texts: list[str] = super().tickStrings(values, scale, spacing)
         return [text if value >= 0 else "" for value, text in zip(values, texts, strict=True)]
 
 
@@ -115,7 +116,7 @@ class SignalPlot(QWidget):
         )
 
 
-class _CountAxis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
+class _CountAxis(Axis):
     """An axis on which bars that hang down count as those that stand."""
 
     def tickStrings(  # noqa: N802 - pyqtgraph's name

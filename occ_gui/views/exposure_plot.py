@@ -24,6 +24,9 @@ _MICRO = 1e6
 _SHADE = 60
 _LEAST_HEIGHT = 92
 
+_LEAST_SPAN = 1e-6
+"""Share of the time that is drawn across which the plot can be zoomed in."""
+
 
 class ExposurePlot(QWidget):
     """The chips as a step curve, the exposure shaded, what of it is lit hatched, and a sentence."""
@@ -115,6 +118,7 @@ class ExposurePlot(QWidget):
         for item in (self.shade, self.chips):
             item.show()
         self.lit.setVisible(len(parts) > 0)
+        self.plot.limit("bottom", 2.0 * last, _LEAST_SPAN * last)
         self.plot.setXRange(0.0, last, padding=0.01)
         share = window.on_time / window.exposure_time
         text = self.tr(

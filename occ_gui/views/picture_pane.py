@@ -14,6 +14,15 @@ from occ_model.results import Region
 
 _REGION_PEN = pg.mkPen(REGION, width=2)
 
+_FARTHEST = 1e7
+"""Pixels from the first one that can be brought into view."""
+
+_LARGEST_SPAN = 4e6
+"""Pixels that can be in view side by side."""
+
+_LEAST_SPAN = 0.5
+"""Pixels that are in view at least."""
+
 
 class PicturePane(QWidget):
     """One picture with its caption, and the region that was read.
@@ -33,6 +42,11 @@ class PicturePane(QWidget):
         self.graphics.setBackground(self.palette().dark().color())
         self.graphics.setAccessibleName(caption)
         self.box = pg.ViewBox(lockAspect=True, invertY=True, enableMenu=False)
+        self.box.setLimits(
+            xMin=-_FARTHEST, xMax=_FARTHEST, yMin=-_FARTHEST, yMax=_FARTHEST,
+            minXRange=_LEAST_SPAN, minYRange=_LEAST_SPAN,
+            maxXRange=_LARGEST_SPAN, maxYRange=_LARGEST_SPAN,
+        )  # fmt: skip
         self.graphics.setCentralItem(self.box)
         self._picture = AveragedImage()
         self._region = QGraphicsRectItem()

@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy
 
+from occ_gui.views.axes import Axis
 from occ_gui.widgets.inks import pen_on, seen_on
 from occ_gui.widgets.line_legend import Drawing
 from occ_model import colours
@@ -23,6 +24,12 @@ BEFORE = QColor("#8A8A8A")
 
 PACKETS_IN_VIEW = 2
 """Packets that a plot over columns shows at first; the rest can be panned to."""
+
+_FARTHEST = 2e6
+"""Columns, levels or runs from zero that can be brought into view: twice the most columns."""
+
+_LEAST_SPAN = 0.01
+"""Columns, levels or runs across which a plot can be zoomed in."""
 
 _LEAST_HEIGHT = 86
 _NAMED_FROM = 76
@@ -55,6 +62,22 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
         curve = self.plot(pen=pen)
         self.dress_with(lambda palette: curve.setPen(pen_on(palette, pen)))
         return curve
+
+    def limit(self, side: str, farthest: float, least_span: float) -> None:
+        """Set how far a view goes, so that no turn of the wheel asks for what cannot be drawn.
+
+        Parameters
+        ----------
+        side
+            The axis, ``"left"`` or ``"bottom"``.
+        farthest
+            The distance from zero that can be brought into view, in the axis's unit.
+        least_span
+            What the axis shows at least, in its unit.
+        """
+        axis = "X" if side == "bottom" else "Y"
+        ends = {f"{axis.lower()}Min": -farthest, f"{axis.lower()}Max": farthest}
+        self.getViewBox().setLimits(**ends, **{f"min{axis}Range": least_span})
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         """Follow the palette, as when the theme changes."""
@@ -117,9 +140,8 @@ def new_plot(
     left, bottom
         The axes, where plain ones do not suit.
     """
-    axes = {"left": left, "bottom": bottom}
-    own = {side: axis for side, axis in axes.items() if axis is not None}
-    plot = Plot(axisItems=own, enableMenu=False)
+    axes = {"left": left or Axis("left"), "bottom": bottom or Axis("bottom")}
+    plot = Plot(axisItems=axes, enableMenu=False)
     plot.setAccessibleName(name)
     for side, label in (("bottom", x), ("left", y)):
         plot.setLabel(side, label)
@@ -129,5 +151,7 @@ def new_plot(
     # As high as there is room for; what a plot would like by itself is out of all proportion.
     plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
     plot.hideButtons()
+    for side in ("left", "bottom"):
+        plot.limit(side, _FARTHEST, _LEAST_SPAN)
     plot.getViewBox().disableAutoRange()
     return plot

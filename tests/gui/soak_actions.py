@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from gui.wheel import turn_wheel, views_of
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
@@ -35,6 +36,9 @@ _PATIENCE_MS = 60_000
 
 _FIRST_SIZE = (1280, 800)
 _MANY = 60
+
+_NOTCHES = 200
+"""Of the wheel, from one end to the other and farther."""
 
 
 def smaller(scene: Scene) -> Scene:
@@ -100,6 +104,7 @@ class Monkey:
             self.toggle_a_dock: 60,
             self.ask_for_what_cannot_be: 40,
             self.resize: 20,
+            self.zoom_every_plot: 4,
             self.hold_the_brightness: 20,
             self.toggle_the_margins: 10,
             self.pin: 20,
@@ -227,6 +232,12 @@ class Monkey:
     def resize(self) -> None:
         width = self._random.randrange(1000, 1600)
         self._application.window.resize(width, self._random.randrange(700, 1000))
+
+    def zoom_every_plot(self) -> None:
+        for towards in self._random.choice([(-1, 1), (1, -1)]):
+            for view in views_of(self._application.window):
+                turn_wheel(view, towards * _NOTCHES)
+            self.wait()  # until it is drawn
 
     def hold_the_brightness(self) -> None:
         self._trigger("hold_brightness")

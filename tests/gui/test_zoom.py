@@ -1,0 +1,86 @@
+"""Every plot can be zoomed as far as the wheel turns, and stays drawn in a moment."""
+
+import sys
+
+import pyqtgraph as pg
+import pytest
+from gui.wheel import turn_wheel, views_of
+from hypothesis import given
+from hypothesis import strategies as st
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.files import sample_photos
+from occ_gui.views.axes import LogAxis
+from occ_gui.views.plots import new_plot
+
+NOTCHES = 200
+
+_MOST_TICKS = 300
+"""Of an axis: what is drawn at every painting."""
+
+
+def ticks(view: pg.GraphicsView) -> int:
+    """Count what the axes of a plot would draw, without drawing it."""
+    sides = ("left", "bottom") if isinstance(view, pg.PlotWidget) else ()
+    axes = [view.getAxis(side) for side in sides]
+    levels = [level for axis in axes for level in axis.tickValues(*axis.range, 600)]
+    return sum(len(values) for _, values in levels)
+
+
+@pytest.mark.parametrize("towards", [-1, 1], ids=["out", "in"])
+def test_every_plot_of_the_window_has_an_end_to_its_zoom(
+    application: Application, qtbot: QtBot, towards: int
+) -> None:
+    application.open_photo(sample_photos()[0])
+    for dock in application.window.docks.values():
+        dock.show()
+    application.window.actions_by_name["pin_a"].trigger()
+    qtbot.waitUntil(lambda: application.is_idle and application.study.is_idle, timeout=60_000)
+    views = views_of(application.window)
+    assert len(views) >= 9
+    for view in views:
+        turn_wheel(view, towards * NOTCHES)
+        box = view.getViewBox() if isinstance(view, pg.PlotWidget) else view.centralWidget
+        reached = box.viewRange()
+        turn_wheel(view, towards)
+        # Looked at before anything is drawn: without an end, drawing would fill the memory.
+        assert box.viewRange() == [pytest.approx(ends) for ends in reached]
+        assert ticks(view) < _MOST_TICKS
+        view.grab()
+    QApplication.processEvents()
+
+
+@given(
+    middle=st.floats(-1e15, 1e15),
+    span=st.floats(1e-9, 1e300),
+    size=st.floats(0.0, 4000.0),
+    side=st.sampled_from(["left", "bottom"]),
+)
+def test_an_axis_of_logarithms_has_no_more_ticks_than_pixels(
+    qapp: QApplication, middle: float, span: float, size: float, side: str
+) -> None:
+    axis = LogAxis(side, least=-3)
+    levels = axis.tickValues(middle - span / 2, middle + span / 2, size)
+    assert sum(len(values) for _, values in levels) <= size + 20
+    for spacing, values in levels:
+        assert len(axis.tickStrings(values, 1.0, spacing)) == len(values)
+
+
+def test_an_axis_that_cannot_be_numbered_stays_empty_and_is_told_of(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(sys, "excepthook", lambda _kind, error, _trace: told.append(str(error)))
+
+    def fail(*_range: float) -> None:
+        raise OverflowError("too many decades")
+
+    plot = new_plot("Test", "column", "level", QPalette())
+    qtbot.addWidget(plot)
+    for side in ("left", "bottom"):
+        monkeypatch.setattr(plot.getAxis(side), "tickValues", fail)
+    plot.grab()
+    assert told == ["too many decades"] * 2

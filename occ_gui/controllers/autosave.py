@@ -1,6 +1,7 @@
 """The scene is kept on the disk at all times, so that a crash loses a second of work at most."""
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -14,8 +15,8 @@ from occ_model.scene import Scene
 STATE_FOLDER = "OCC_STATE"
 """The environment variable that names another folder for what the program keeps."""
 
-REST_MS = 1000
-"""How long the scene must not have moved before it is written."""
+LONGEST_WAIT_MS = 1000
+"""How long a change waits at most until it is written; those that come meanwhile go with it."""
 
 _WINDOWS = 8
 """Windows that can be open at a time, each with a file of its own."""
@@ -30,6 +31,30 @@ def state_folder() -> Path:
     from platformdirs import user_state_path
 
     return user_state_path("occ-explorer", appauthor=False)
+
+
+class WriteTimer(QTimer):
+    """Calls for a writing some time after the first change, whatever changes after that.
+
+    A timer that every change starts anew would never run out while a slider keeps moving.
+
+    Parameters
+    ----------
+    parent
+        The owner.
+    write
+        Writes all that has changed by then.
+    """
+
+    def __init__(self, parent: QObject, write: Callable[[], None]) -> None:
+        super().__init__(parent, singleShot=True)
+        self.setInterval(LONGEST_WAIT_MS)
+        self.timeout.connect(write)
+
+    def note_change(self) -> None:
+        """Tell of a change that is to be written."""
+        if not self.isActive():
+            self.start()
 
 
 class Autosave(QObject):
@@ -52,9 +77,7 @@ class Autosave(QObject):
         self._lock: QLockFile | None = None
         self._path: Path | None = None
         self._has_failed = False
-        self._timer = QTimer(self, singleShot=True)
-        self._timer.setInterval(REST_MS)
-        self._timer.timeout.connect(self.write)
+        self._timer = WriteTimer(self, self.write)
         self.recovered: Scene | None = None
         """The scene of a window that did not come to its end."""
         self._folder = folder
@@ -80,7 +103,7 @@ class Autosave(QObject):
     def follow(self, store: SceneStore) -> None:
         """Write this store's scene from now on."""
         self._store = store
-        store.changed.connect(self._timer.start)
+        store.changed.connect(self._timer.note_change)
 
     def write(self) -> None:
         """Write the scene now."""

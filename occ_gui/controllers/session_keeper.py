@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 
-from occ_gui.controllers.autosave import Autosave
+from occ_gui.controllers.autosave import Autosave, WriteTimer
 from occ_gui.controllers.document import Document
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
@@ -14,8 +14,6 @@ from occ_gui.state.settings_store import SettingsStore
 from occ_model.errors import OccError
 from occ_model.scene import Scene
 from occ_model.settings import read_scene_file
-
-_REST_MS = 1000
 
 
 class SessionKeeper(QObject):
@@ -50,9 +48,7 @@ class SessionKeeper(QObject):
         self._memory = memory
         self._photo = photo
         self._autosave: Autosave | None = None
-        self._timer = QTimer(self, singleShot=True)
-        self._timer.setInterval(_REST_MS)
-        self._timer.timeout.connect(self.keep)
+        self._timer = WriteTimer(self, self.keep)
 
     def resume(self, autosave: Autosave, session: Session, scene_wins: bool) -> None:
         """Take up a session, and keep this one from now on.
@@ -75,7 +71,7 @@ class SessionKeeper(QObject):
             self._put_back(left, asked, scene_wins)
         autosave.follow(self._store)
         for store in (self._store, self._settings):
-            store.changed.connect(self._timer.start)
+            store.changed.connect(self._timer.note_change)
         self.note()
 
     @property
@@ -86,7 +82,7 @@ class SessionKeeper(QObject):
     def note(self) -> None:
         """Keep the session in a moment: something of it has changed."""
         if self._autosave is not None:
-            self._timer.start()
+            self._timer.note_change()
 
     def _put_back(self, left: Scene, asked: Scene, scene_wins: bool) -> None:
         title = self.tr("restoring of the last session")

@@ -1,12 +1,21 @@
 """The scene on the disk at all times: each window its own, and a full disk told of once."""
 
+import itertools
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QSettings, QTimer
 from pytestqt.qtbot import QtBot
 
+from occ_gui.application import Application
+from occ_gui.controllers import autosave as autosave_room
 from occ_gui.controllers.autosave import Autosave
+from occ_gui.controllers.session_keeper import SessionKeeper
+from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
+from occ_gui.state.session import Session
 from occ_model.scene import Scene
 
 
@@ -70,3 +79,53 @@ def test_the_scene_is_written_a_moment_after_it_was_changed(tmp_path: Path, qtbo
     (path,) = tmp_path.glob("*.toml")
     assert Scene.from_toml(path.read_text(encoding="utf-8")) == store.scene
     autosave.end()
+
+
+@contextmanager
+def scene_in_motion(store: SceneStore) -> Iterator[None]:
+    """Change a scene again and again, sooner than any writing waits."""
+    values = itertools.count(100.0)
+    moves = QTimer()
+    moves.timeout.connect(lambda: store.change(iso=next(values)))
+    moves.start(5)
+    yield
+    assert moves.isActive()
+    moves.stop()
+
+
+def test_a_scene_that_never_rests_is_written_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(autosave_room, "LONGEST_WAIT_MS", 100)
+    autosave, store = Autosave(tmp_path), SceneStore(Scene())
+    autosave.follow(store)
+    written: set[str] = set()
+
+    def is_written_twice() -> bool:
+        written.update(path.read_text(encoding="utf-8") for path in tmp_path.glob("*.toml"))
+        return len(written) == 2
+
+    with scene_in_motion(store):
+        qtbot.waitUntil(is_written_twice)
+    autosave.end()
+
+
+def test_the_session_of_a_scene_that_never_rests_is_kept_all_the_same(
+    application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(autosave_room, "LONGEST_WAIT_MS", 100)
+    memory = Memory(QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat))
+    store = application.store
+    keeper = SessionKeeper(
+        store, application.settings, application.desktop.document, memory, lambda: None
+    )
+    keeper.resume(Autosave(tmp_path), Session(), scene_wins=True)
+    kept: set[str] = set()
+
+    def is_kept_twice() -> bool:
+        kept.update({memory.recall("session/scene")} - {""})
+        return len(kept) == 2
+
+    with scene_in_motion(store):
+        qtbot.waitUntil(is_kept_twice)
+    keeper.end()

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
 from occ_gui.starting import Start, Unasked, start_of
+from occ_model.errors import one_line
 from occ_model.output import write_whole
 from occ_model.scene import Scene
 from occ_model.settings import (
@@ -46,6 +47,9 @@ THEMES = ("system", "light", "dark")
 
 _NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
+_LONGEST = 4000
+"""Characters of a sentence on the terminal."""
+
 _TURN_MS = 200
 
 _TURN_S = 0.001
@@ -70,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _refuse(sentence: str) -> int:
-    print(f"occ-gui: {sentence}", file=sys.stderr, flush=True)  # noqa: T201 - the command line
+    print(f"occ-gui: {one_line(sentence, _LONGEST)}", file=sys.stderr, flush=True)  # noqa: T201 - the command line
     return 2
 
 

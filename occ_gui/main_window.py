@@ -16,7 +16,9 @@ from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
 from occ_gui.widgets.drops import leave_drops_to_window
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.errors import one_line
 
 _FIRST_SIZE = QSize(1280, 800)
 _ROOM_BELOW = 3
@@ -191,7 +193,7 @@ class MainWindow(QMainWindow):
             What :meth:`happened` will be told of.
         """
         self._said_until = until
-        self.statusBar().showMessage(sentence)
+        self.statusBar().showMessage(one_line(sentence, LONGEST))
 
     def happened(self, what: str) -> None:
         """Clear the sentence that was to be shown until this happened."""

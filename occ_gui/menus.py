@@ -9,6 +9,8 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
 from occ_gui.views.photo_overlay import MODES
+from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
+from occ_model.errors import one_line
 from occ_model.photo.load import SCAN_AXES
 
 _WITH_PHOTO = ("close_photo", "match", "use_settings")
@@ -196,6 +198,6 @@ def _in_words(name: str) -> str:
 
 
 def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], None]) -> None:
-    action = menu.addAction(text.replace("&", "&&"))
-    action.setToolTip(str(path))
+    action = menu.addAction(in_menu(text))
+    action.setToolTip(in_tool_tip(one_line(str(path), LONGEST)))
     action.triggered.connect(lambda: open_file(path))

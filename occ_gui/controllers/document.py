@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QWidget
 
 from occ_gui.controllers.files import FileController
 from occ_gui.state.scene_store import SceneStore
+from occ_gui.widgets.plain_text import in_title
 from occ_model.scene import Scene
 
 
@@ -60,8 +61,8 @@ class Document(QObject):
     def _show_title(self) -> None:
         title = self.tr("Optical Camera Communication")
         # Work that has no name yet is kept without being saved: no mark asks for it.
-        scene = "" if self.path is None else f"{self.path.name}[*]"
-        names = [name for name in (self._photo, scene) if name]
+        scene = "" if self.path is None else f"{in_title(self.path.name)}[*]"
+        names = [name for name in (in_title(self._photo or ""), scene) if name]
         self._window.setWindowTitle(" – ".join((*names, title)))  # noqa: RUF001 - a dash
         self._mark(self._store.scene)
 

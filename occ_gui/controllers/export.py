@@ -11,6 +11,7 @@ from occ_gui.controllers.export_work import Exported, ExportJob, Sketch, export
 from occ_gui.controllers.figures import Figures, NothingToDraw
 from occ_gui.state.memory import Memory
 from occ_gui.tasks.latest_wins import LatestWins
+from occ_model.errors import one_line
 from occ_model.scene_inside import ENDINGS
 
 
@@ -127,13 +128,13 @@ class ExportController(QObject):
         if job.folder is not None:
             self._memory.visit(job.folder / "figure")
             said = self.tr("Exported {count} files into {folder}.").format(
-                count=len(done.files), folder=job.folder.name
+                count=len(done.files), folder=one_line(job.folder.name)
             )
             left_out = self.tr("Left out: {what}").format(what=self._left_out)
             self.said.emit(f"{said} {left_out}" if self._left_out else said)
         elif job.path is not None:
             self._memory.visit(job.path)
-            self.said.emit(self.tr("Exported {name}").format(name=job.path.name))
+            self.said.emit(self.tr("Exported {name}").format(name=one_line(job.path.name)))
         else:
             self._to_clipboard(done.png)
 

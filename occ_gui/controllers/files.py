@@ -10,7 +10,8 @@ from occ_gui.controllers.photo import PhotoController
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
-from occ_model.errors import OccError
+from occ_gui.widgets.plain_text import LONGEST
+from occ_model.errors import OccError, one_line
 from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.photo.load import Photo
 from occ_model.resource_files import resource_path
@@ -112,7 +113,9 @@ class FileController(QObject):
             self.open_file(path)
             return
         self._memory.drop(path)
-        self.said.emit(self.tr("{path} is no longer there.").format(path=path))
+        self.said.emit(
+            self.tr("{path} is no longer there.").format(path=one_line(str(path), LONGEST))
+        )
 
     def open_sample(self, path: Path) -> None:
         """Open a photo that comes with the program, with the scene that belongs to it."""
@@ -127,7 +130,9 @@ class FileController(QObject):
         scenes = [path for path in files if _has_scene(path)]
         photos = [path for path in files if path not in scenes]
         if not files:
-            what = self.tr("{path} is no file").format(path=paths[0]) if paths else ""
+            what = (
+                self.tr("{path} is no file").format(path=one_line(str(paths[0]))) if paths else ""
+            )
             what = what or self.tr("What was dropped is no file of this computer")
             self.said.emit(self.tr("{what}; drop a photo or a scene (.toml).").format(what=what))
             return
@@ -135,7 +140,7 @@ class FileController(QObject):
             self.open_scene(path)
         for path in photos[:1]:
             self._photos.open(path)
-        opened = [path.name for path in (*scenes[:1], *photos[:1])]
+        opened = [one_line(path.name) for path in (*scenes[:1], *photos[:1])]
         if len(paths) > len(opened):
             self.said.emit(
                 self.tr("Of {count} things that were dropped, only {names} can be shown.").format(
@@ -153,7 +158,7 @@ class FileController(QObject):
             else:
                 said = self.tr("Opened {name}")
                 self.scene_opened.emit(path)
-            self.said.emit(said.format(name=path.name))
+            self.said.emit(said.format(name=one_line(path.name)))
 
     def _put_scene(self, path: Path) -> bool:
         try:
@@ -161,7 +166,7 @@ class FileController(QObject):
         except OccError as error:
             self.said.emit(str(error))
             return False
-        self._store.put(scene, self.tr("opening of {name}").format(name=path.name))
+        self._store.put(scene, self.tr("opening of {name}").format(name=one_line(path.name)))
         return True
 
     def ask_to_save_scene(self) -> None:
@@ -205,7 +210,7 @@ class FileController(QObject):
             self.said.emit(str(error))
             return False
         self._memory.visit(path)
-        self.said.emit(self.tr("Saved {name}").format(name=path.name))
+        self.said.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
         return True
 
     def _in_folder(self, name: str) -> str:

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 from occ_gui.controllers.matching import MatchController
 from occ_gui.state.gesture import new_gesture
 from occ_gui.state.scene_store import SceneStore
-from occ_model.errors import OccError
+from occ_model.errors import OccError, one_line
 from occ_model.presets import Preset, delete_preset, preset_named, presets, user_presets
 from occ_model.scene import Scene
 
@@ -74,7 +74,7 @@ class PresetController(QObject):
             re.sub(r"[^A-Za-z0-9 _-]+", "-", photo.camera or photo.path.stem).strip(" -_")[:60],
         )
         if wanted and self._may_replace(name):
-            title = self.tr("Measured from {photo}").format(photo=photo.path.name)
+            title = self.tr("Measured from {photo}").format(photo=one_line(photo.path.name))
             self._matching.save(name, title)
 
     def ask_to_delete(self) -> None:

@@ -5,7 +5,7 @@ from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from occ_gui.state.gesture import NO_GESTURE
 from occ_model.declarations import ParameterValue
-from occ_model.errors import OccError
+from occ_model.errors import OccError, one_line
 from occ_model.parameters import PARAMETERS
 from occ_model.scene import Scene
 
@@ -83,7 +83,7 @@ class _Step(QUndoCommand):
     def __init__(
         self, store: SceneStore, before: Scene, after: Scene, title: str, gesture: int
     ) -> None:
-        super().__init__(title)
+        super().__init__(one_line(title).replace("&", "&&"))  # for the menu, which marks keys by it
         self._store = store
         self.before, self.after = before, after
         self.gesture = gesture

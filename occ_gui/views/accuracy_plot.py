@@ -141,6 +141,7 @@ class AccuracyPlot(QWidget):
         self._fit_button.setToolTip(self.tr("Show all points."))
         self._fit_button.clicked.connect(self._follow)
         self.key = QLabel()
+        self.key.setTextFormat(Qt.TextFormat.PlainText)
         self.key.setAccessibleName(self.tr("Numbered points"))
         self.key.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.key.hide()

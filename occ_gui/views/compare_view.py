@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from occ_gui.state.pinned import ComparedRow, Pin, Pinned
 from occ_gui.views.plots import BAND, PACKETS_IN_VIEW, SIMULATION, new_plot, thin
 from occ_gui.widgets.line_legend import LineLegend
+from occ_gui.widgets.plain_text import in_tool_tip
 
 _LEAST_TABLE = 250
 
@@ -200,7 +201,7 @@ class CompareView(QWidget):
         self.table.insertRow(place)
         for column, text in enumerate((row.what, row.a, row.b)):
             item = QTableWidgetItem(text)
-            item.setToolTip(row.meaning if column == 0 else text)
+            item.setToolTip(in_tool_tip(row.meaning if column == 0 else text))
             item.setTextAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
             self.table.setItem(place, column, item)
 

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.teaching import Exploration
 
@@ -142,7 +143,7 @@ class ExplorationView(QWidget):
         }
         text = words.get(reached, self.tr("{title} (step {place} of {count})"))
         button = QPushButton(
-            text.format(title=exploration.title, count=count, place=(reached or 0) + 1)
+            text.format(title=in_menu(exploration.title), count=count, place=(reached or 0) + 1)
         )
         button.setToolTip(self.tr("Set the scene of its step and show its question."))
         button.setStyleSheet(_LEFT)
@@ -161,8 +162,10 @@ class ExplorationView(QWidget):
         """Show a step of an exploration."""
         step, count = exploration.steps[place], len(exploration.steps)
         self.place.setText(
-            self.tr("{title}, step {place} of {count}").format(
-                title=exploration.title, place=place + 1, count=count
+            _set(
+                self.tr("{title}, step {place} of {count}").format(
+                    title=exploration.title, place=place + 1, count=count
+                )
             )
         )
         self.text.setText(_set(step.text))

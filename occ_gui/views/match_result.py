@@ -52,6 +52,7 @@ class MatchResult(QWidget):
             # A pattern can be as long as it likes.
             label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            label.setTextFormat(Qt.TextFormat.PlainText)
             label.setAccessibleName(title)
             self.values[name] = label
             self._form.addRow(title, label)
@@ -62,6 +63,7 @@ class MatchResult(QWidget):
         self._given = math.nan
         self.stale = QLabel()
         self.stale.setWordWrap(True)
+        self.stale.setTextFormat(Qt.TextFormat.PlainText)
         self.stale.setAccessibleName(self.tr("Whether the match is still of what is known"))
         self.stale.hide()
         self.apply = QPushButton(self.tr("&Apply to the scene"))

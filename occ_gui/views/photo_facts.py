@@ -4,8 +4,10 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_gui.widgets.word_choice import WordChoice
 from occ_model.declarations import Quantity
+from occ_model.errors import one_line
 from occ_model.parameters import PARAMETERS
 from occ_model.photo.load import Photo
 
@@ -87,7 +89,7 @@ class PhotoFacts(QWidget):
     def show_photo(self, photo: Photo) -> None:
         """Show what is known of a photo."""
         self.name.set_full_text(photo.path.name)
-        self.name.setToolTip(str(photo.path))
+        self.name.setToolTip(in_tool_tip(one_line(str(photo.path), LONGEST)))
         rows, columns = photo.image.shape
         width, height = (rows, columns) if photo.turned else (columns, rows)
         size = self.tr("{width} x {height} px, {channel}").format(

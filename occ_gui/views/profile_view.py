@@ -71,6 +71,7 @@ class ProfileView(QWidget):
         self._make_curves()
         self.reason = QLabel()
         self.reason.setWordWrap(True)
+        self.reason.setTextFormat(Qt.TextFormat.PlainText)
         self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
         self._make_controls()
         self.plot.getAxis("left").setWidth(_AXIS_WIDTH)

@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
 from occ_gui.widgets.code_entry import CodeEntry
 from occ_gui.widgets.parameter_panel import ParameterPanel
 from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_model.errors import one_line
 from occ_model.parameters import PARAMETERS
 from occ_model.scene import GROUPS, Scene
 
@@ -102,7 +104,8 @@ class ControlPanel(QWidget):
         self.preset.clear()
         for name, title in presets:
             self.preset.addItem(name, name)
-            self.preset.setItemData(self.preset.count() - 1, title, Qt.ItemDataRole.ToolTipRole)
+            tip = in_tool_tip(one_line(title, LONGEST))
+            self.preset.setItemData(self.preset.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         self.preset.setCurrentIndex(-1)
 
     def main_rows(self) -> dict[str, QuantityRow]:

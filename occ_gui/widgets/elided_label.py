@@ -4,6 +4,9 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
+from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_model.errors import one_line
+
 
 class ElidedLabel(QLabel):
     """Shows as much of a text as fits, all of it in the tooltip.
@@ -30,9 +33,9 @@ class ElidedLabel(QLabel):
         self.set_full_text(text)
 
     def set_full_text(self, text: str) -> None:
-        """Show a text."""
-        self._full = text
-        self.setToolTip(text)
+        """Show a text, in one line."""
+        self._full = one_line(text, LONGEST)
+        self.setToolTip(in_tool_tip(self._full))
         self._fit()
 
     def _fit(self) -> None:

@@ -4,6 +4,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import in_tool_tip
 
 LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
 
@@ -33,7 +34,7 @@ def test_a_text_that_fits_is_shown_whole_and_literally(label: ElidedLabel) -> No
 
 def test_the_tooltip_tells_the_whole_text(label: ElidedLabel) -> None:
     label.resize(40, 20)
-    assert label.toolTip() == LONG
+    assert label.toolTip() == in_tool_tip(LONG)
     label.set_full_text("short")
     assert (label.text(), label.toolTip()) == ("short", "short")
 

@@ -1,0 +1,144 @@
+"""Text from files is text: names, titles and notes never become marks of Qt's."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+from PySide6.QtCore import Qt
+from PySide6.QtGui import Qt as RichText
+from PySide6.QtGui import QTextDocument
+from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.commands import plain
+from occ_gui.controllers.document import Document
+from occ_gui.controllers.explorations import ExplorationController
+from occ_gui.views.exploration_view import ExplorationView
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import in_tool_tip
+from occ_model.presets import USER_FOLDER, save_preset
+from occ_model.scene import Scene
+from occ_model.teaching.explorations import explorations
+
+User = Any  # the fixture of that name
+
+TAG = "<img src=nothing.png>"
+NAME = f"{TAG} & <b>bold\n\x1b[31m\u202egnp"
+SHOWN = f"{TAG} & <b>bold\\n\\x1b[31m\\u202egnp"
+MODEL = 0x0110
+"""Of a camera, among the notes in a photo."""
+
+
+def seen(tip: str) -> str:
+    """Give what a tooltip shows, as Qt reads it."""
+    if not RichText.mightBeRichText(tip):
+        return tip
+    document = QTextDocument()
+    document.setHtml(tip)
+    return document.toPlainText()
+
+
+@pytest.fixture
+def hostile_photo(tmp_path: Path, photo_file: Path) -> Path:
+    path = tmp_path / f"{NAME}.png"
+    notes = Image.Exif()
+    notes[MODEL] = TAG
+    with Image.open(photo_file) as photo:
+        photo.save(path, exif=notes)
+    return path
+
+
+def texts(window: QWidget) -> Iterator[str]:
+    """Give every text of a window in which Qt would find rich text."""
+    for widget in window.findChildren(QWidget):
+        yield widget.toolTip()
+        if isinstance(widget, QLabel) and widget.textFormat() != Qt.TextFormat.PlainText:
+            yield widget.text()
+    for menu in window.findChildren(QMenu):
+        if menu.toolTipsVisible():
+            yield from (action.toolTip() for action in menu.actions())
+
+
+@pytest.mark.parametrize("text", [NAME, TAG, "a < b & c", "&lt;b&gt;", "1\n2 <b>3</b>\n4", "<!--"])
+def test_a_tool_tip_shows_a_text_letter_by_letter(qapp: QApplication, text: str) -> None:
+    assert seen(in_tool_tip(text)).split() == text.split()
+    assert seen(in_tool_tip(text)).count("\n") == text.count("\n")
+
+
+def test_a_label_and_its_tool_tip_show_the_same_line(qtbot: QtBot) -> None:
+    label = ElidedLabel(NAME)
+    qtbot.addWidget(label)
+    label.resize(4000, 20)
+    label.show()
+    assert (label.text(), seen(label.toolTip())) == (SHOWN, SHOWN)
+
+
+def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
+    application: Application, user: User, hostile_photo: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(USER_FOLDER, str(hostile_photo.parent / "presets"))
+    save_preset("hostile", Scene(), title=NAME)
+    window = application.window
+    application.presets._update()
+    application.files.open_file(hostile_photo)
+    user.rest()
+    facts = application.photo.facts
+    assert seen(facts.name.toolTip()).endswith(f"{SHOWN}.png")
+    assert seen(facts.size_line.toolTip()).startswith(f"{TAG}, ")
+    assert window.windowTitle().startswith(f"{SHOWN}.png")
+    combo = application.controls.preset
+    place = combo.findData("hostile")
+    assert seen(combo.itemData(place, Qt.ItemDataRole.ToolTipRole)) == SHOWN
+    recent = window.menus.recent.actions()[0]
+    assert plain(recent.text()) == f"{SHOWN}.png"
+    assert seen(recent.toolTip()).endswith(f"{SHOWN}.png")
+    scene = hostile_photo.with_suffix(".toml")
+    application.files.save_scene(scene)
+    assert window.statusBar().currentMessage() == f"Saved {SHOWN}.toml"
+    application.store.change(iso=321.0)
+    application.files.open_scene(scene)
+    assert window.statusBar().currentMessage() == f"Opened {SHOWN}.toml"
+    undo = application.store.undo_stack.undoText()
+    assert plain(undo) == f"opening of {SHOWN}.toml"
+    marked = [text for text in texts(window) if RichText.mightBeRichText(text) and "<img" in text]
+    assert not marked
+
+
+def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> None:
+    document: Document = application.desktop.document
+    document.resume(Path("/a[*]b.toml"), application.store.scene)
+    assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
+
+
+def test_an_explorations_title_is_text(
+    application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hostile = tuple(replace(each, title=f"{TAG} & co") for each in explorations())
+    monkeypatch.setattr("occ_gui.controllers.explorations.explorations", lambda: hostile)
+    view = ExplorationView()
+    qtbot.addWidget(view)
+    controller = ExplorationController(application.store, application.photos, view)
+    controller.set_seen(True)
+    assert plain(view.choices[0].text()).startswith(f"{TAG} & co")
+    controller.choose(hostile[0].name)
+    assert seen(view.place.text()).startswith(f"{TAG} & co, step 1")
+
+
+def test_a_name_that_is_no_utf_8_is_shown_and_remembered(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    path = Path(os.fsdecode(os.fsencode(photo_file.parent) + b"/caf\xe9.png"))
+    photo_file.rename(path)
+    application.open_photo(path)
+    user.rest()
+    assert application.photo.facts.name.text().endswith("caf\\udce9.png")
+    application.files.save_scene(path.with_suffix(".toml"))
+    assert application.window.statusBar().currentMessage() == "Saved caf\\udce9.toml"
+    assert path.with_suffix(".toml").is_file()
+    recent = application.window.menus.recent.actions()[0]
+    assert recent.text() == "caf\\udce9.toml"

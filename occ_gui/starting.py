@@ -3,6 +3,7 @@
 import os
 from argparse import Namespace
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_model.effects.registry import NAMES
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
 
     from occ_gui.application import Application
     from occ_gui.state.session import Session
+
+
+_NAMES = ("occ-explorer", "occ-gui")
+"""Under which the settings are kept where nothing else is asked for."""
 
 
 class Unasked(str):
@@ -90,10 +95,17 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
 
 def kept_settings() -> "QSettings":
     """Open what is remembered from one start to the next."""
-    from PySide6.QtCore import QSettings
+    from PySide6.QtCore import QSettings, QStandardPaths
 
     from occ_gui.controllers.autosave import STATE_FOLDER, state_folder
+    from occ_gui.state.kept_file import is_something_else
 
-    if os.environ.get(STATE_FOLDER):
-        return QSettings(str(state_folder() / "settings.ini"), QSettings.Format.IniFormat)
-    return QSettings("occ-explorer", "occ-gui")
+    is_named = bool(os.environ.get(STATE_FOLDER))
+    if is_named:
+        path = state_folder() / "settings.ini"
+    else:
+        place = QStandardPaths.StandardLocation.GenericConfigLocation
+        path = Path(QStandardPaths.writableLocation(place), *_NAMES).with_suffix(".conf")
+    if is_something_else(path):  # which Qt would read, and wait: another one beside it
+        return QSettings(str(path.with_stem(f"{path.stem}-new")), QSettings.Format.IniFormat)
+    return QSettings(str(path), QSettings.Format.IniFormat) if is_named else QSettings(*_NAMES)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
+from occ_gui.state.kept_file import is_something_else, read_kept
 from occ_gui.state.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.output import make_folder, write_whole
@@ -91,6 +92,8 @@ class Autosave(QObject):
         """Take a place that no other window holds: one with work left behind, if there is one."""
         places = [folder / f"scene-{number}.toml" for number in range(1, _WINDOWS + 1)]
         for path in sorted(places, key=lambda path: not path.exists()):
+            if is_something_else(path.with_suffix(".lock")):  # which Qt would read, and wait
+                continue
             lock = QLockFile(str(path.with_suffix(".lock")))
             lock.setStaleLockTime(0)  # only that of a process that is gone is broken
             if not lock.tryLock(0):
@@ -139,8 +142,8 @@ class Autosave(QObject):
 def _scene_in(path: Path) -> Scene | None:
     """Read what was left behind; what cannot be read stays beside it, for its owner to look at."""
     try:
-        return Scene.from_toml(path.read_text(encoding="utf-8"))
-    except (OccError, OSError, UnicodeDecodeError):
+        return Scene.from_toml(read_kept(path))
+    except Exception:  # noqa: BLE001 - whatever is in it, the window starts
         with suppress(OSError):
             path.replace(path.with_suffix(".unreadable"))
         return None

@@ -10,7 +10,8 @@ from occ_gui.controllers.files import sample_photos
 from occ_gui.controllers.photo import PhotoController
 from occ_gui.state.gesture import new_gesture
 from occ_gui.state.scene_store import SceneStore
-from occ_model.errors import OccError
+from occ_gui.widgets.plain_text import LONGEST
+from occ_model.errors import OccError, one_line
 from occ_model.photo.load import Photo
 from occ_model.results.teaching import Exploration, Step
 from occ_model.teaching.explorations import explorations
@@ -66,7 +67,12 @@ class ExplorationController(QObject):
             try:
                 self._all = explorations()
             except OccError as error:
-                failure = str(error)
+                failure = one_line(str(error), LONGEST)
+            except Exception as error:  # noqa: BLE001 - whatever is in them, the window works on
+                reason = one_line(f"{type(error).__name__}: {error}")
+                failure = self.tr("The explorations cannot be read: {reason}.").format(
+                    reason=reason
+                )
             self._pane.list_explorations(self._all, {}, failure)
 
     def choose(self, name: str) -> None:

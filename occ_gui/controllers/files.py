@@ -10,7 +10,6 @@ from occ_gui.controllers.photo import PhotoController
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
-from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.photo.load import Photo
@@ -34,6 +33,14 @@ def _has_scene(path: Path) -> bool:
     except OccError:
         return False
     return True
+
+
+def _is_file(path: Path) -> bool:
+    """Say whether a path is a regular file; one that can be no path is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def sample_photos() -> list[Path]:
@@ -109,13 +116,11 @@ class FileController(QObject):
 
     def open_recent(self, path: Path) -> None:
         """Open a file that was opened before; one that has gone is forgotten."""
-        if path.is_file():
+        if _is_file(path):
             self.open_file(path)
             return
         self._memory.drop(path)
-        self.said.emit(
-            self.tr("{path} is no longer there.").format(path=one_line(str(path), LONGEST))
-        )
+        self.said.emit(self.tr("{path} is no longer there.").format(path=one_line(str(path))))
 
     def open_sample(self, path: Path) -> None:
         """Open a photo that comes with the program, with the scene that belongs to it."""
@@ -126,7 +131,7 @@ class FileController(QObject):
 
     def open_dropped(self, paths: Sequence[Path]) -> None:
         """Open the first scene and the first photo of what was dropped on the window."""
-        files = [path for path in paths if path.is_file()]
+        files = [path for path in paths if _is_file(path)]
         scenes = [path for path in files if _has_scene(path)]
         photos = [path for path in files if path not in scenes]
         if not files:

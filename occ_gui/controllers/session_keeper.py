@@ -7,11 +7,11 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.controllers.autosave import Autosave, WriteTimer
 from occ_gui.controllers.document import Document
+from occ_gui.state.kept_file import is_readable
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.session import Session, keep_session
 from occ_gui.state.settings_store import SettingsStore
-from occ_model.errors import OccError
 from occ_model.scene import Scene
 from occ_model.settings import read_scene_file
 
@@ -114,6 +114,6 @@ class SessionKeeper(QObject):
 
 def _saved_in(path: Path) -> Scene | None:
     try:
-        return read_scene_file(path)
-    except OccError:
+        return read_scene_file(path) if is_readable(path) else None
+    except Exception:  # noqa: BLE001 - whatever is in it, the window starts
         return None

@@ -10,6 +10,12 @@ MOST_RECENT = 8
 _FILES, _FOLDER = "files/recent", "files/folder"
 _MARGINS, _NO = "view/margins", "no"
 
+_LONGEST = 1_000_000
+"""Characters of a text that is recalled."""
+
+_LONGEST_PATH = 4096
+"""Characters of a path that is recalled: no system takes a longer one."""
+
 
 class Memory(QObject):
     """The files that were opened last, the folder that they were in, and what is shown.
@@ -38,7 +44,11 @@ class Memory(QObject):
     @property
     def folder(self) -> str:
         """The folder that a dialog begins in, empty for the system's own choice."""
-        return str(self._folder) if self._folder is not None and self._folder.is_dir() else ""
+        try:
+            is_there = self._folder is not None and self._folder.is_dir()
+        except OSError:  # such as a name that is too long for the file system
+            is_there = False
+        return str(self._folder) if is_there else ""
 
     @property
     def margins(self) -> bool:
@@ -67,18 +77,18 @@ class Memory(QObject):
     def visit(self, path: Path) -> None:
         """Remember a file's folder only."""
         self._folder = path.absolute().parent
-        self._write(_FOLDER, str(self._folder))
+        self._write(_FOLDER, text_of(self._folder))
 
     def _keep(self, files: tuple[Path, ...]) -> None:
         if files != self._files:
             self._files = files
-            self._write(_FILES, [str(path) for path in files])
+            self._write(_FILES, [text for path in files if (text := text_of(path))])
             self.changed.emit()
 
     def recall(self, key: str) -> str:
         """Give the text that was kept under a key; empty where there is none."""
         value = self._value(key)
-        return value if isinstance(value, str) else ""
+        return value if isinstance(value, str) and len(value) <= _LONGEST else ""
 
     def keep(self, key: str, text: str) -> None:
         """Remember a text."""
@@ -92,9 +102,19 @@ class Memory(QObject):
             self._settings.setValue(key, value)
 
 
+def text_of(path: Path) -> str:
+    """Write a path as it is remembered; empty where its name is no text, which Qt would change."""
+    text = str(path)
+    return text if text == text.encode("utf-8", "replace").decode("utf-8") else ""
+
+
+def _can_be_path(text: str) -> bool:
+    return "\0" not in text and len(text) <= _LONGEST_PATH
+
+
 def _paths(value: object) -> tuple[Path, ...]:
     """Read what was remembered, leaving out what is no path of a file."""
     texts = value if isinstance(value, list) else [value]
-    paths = [Path(text) for text in texts if isinstance(text, str) and "\0" not in text]
+    paths = [Path(text) for text in texts if isinstance(text, str) and _can_be_path(text)]
     absolute = [path for path in paths if path.is_absolute()]
     return tuple(dict.fromkeys(absolute))[:MOST_RECENT]

@@ -5,9 +5,8 @@ from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from occ_gui.state.memory import Memory
+from occ_gui.state.memory import Memory, text_of
 from occ_model.checks import check_seed
-from occ_model.errors import OccError
 from occ_model.scene import Scene
 from occ_model.simulation_settings import (
     NOISE_SOURCES,
@@ -66,13 +65,13 @@ def keep_session(memory: Memory, session: Session) -> None:
     memory.keep(_SCENE, "" if scene is None else scene.to_toml())
     memory.keep(_SETTINGS, "" if settings is None else json.dumps(asdict(settings)))
     for key, path in ((_SCENE_FILE, session.scene_file), (_PHOTO, session.photo)):
-        memory.keep(key, "" if path is None else str(path.absolute()))
+        memory.keep(key, "" if path is None else text_of(path.absolute()))
 
 
 def _scene(text: str) -> Scene | None:
     try:
         return Scene.from_toml(text) if text else None
-    except OccError:
+    except Exception:  # noqa: BLE001 - whatever was kept, the window starts
         return None
 
 
@@ -88,9 +87,9 @@ def _settings(text: str, effects: Collection[str]) -> SimulationSettings | None:
             seed=values["seed"],
         )
         check_seed(settings.seed)
-    except (OccError, ValueError, KeyError, TypeError):
+        is_known = settings.observable in OBSERVABLES and settings.noise in NOISE_SOURCES
+    except Exception:  # noqa: BLE001 - whatever was kept, the window starts
         return None
-    is_known = settings.observable in OBSERVABLES and settings.noise in NOISE_SOURCES
     return settings if is_known else None
 
 

@@ -1,0 +1,160 @@
+"""Whatever stands in the files that the window reads at its start, it starts."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QSettings
+from PySide6.QtWidgets import QLabel
+from pytestqt.qtbot import QtBot
+
+from occ_gui.application import Application
+from occ_gui.controllers.autosave import Autosave
+from occ_gui.controllers.explorations import ExplorationController
+from occ_gui.state.kept_file import LARGEST
+from occ_gui.state.memory import Memory
+from occ_gui.state.session import Session, keep_session, recall_session
+from occ_gui.views.exploration_view import ExplorationView
+from occ_model.effects.registry import NAMES
+from occ_model.scene import Scene
+from occ_model.simulation_settings import SimulationSettings
+
+PROJECT = Path(__file__).resolve().parents[2]
+
+LONG_NUMBER = "9" * 4000
+DEEP = 1500
+
+DAMAGED_SCENES = {
+    "a number of 4,000 digits": f"format = 1\n[camera]\niso = {LONG_NUMBER}\n",
+    "a format of 4,000 digits": f"format = {LONG_NUMBER}\n",
+    "a longer number": f"format = 1\n[camera]\niso = {LONG_NUMBER * 2}\n",
+    "a deep key": f"format = 1\n{'a.' * DEEP}a = 1\n",
+    "a deep list": f"format = 1\na = {'[' * DEEP}{']' * DEEP}\n",
+    "a very deep list": f"format = 1\na = {'[' * 100_000}\n",
+    "a deep parameter": f"format = 1\n[camera]\niso = {'{a=' * DEEP}1{'}' * DEEP}\n",
+    "much": "format = 1\n#" + LARGEST * "x",
+    "no text": "\ud800",
+}
+
+DAMAGED_SETTINGS = {
+    "a seed below zero of 4,000 digits": '"seed": -' + LONG_NUMBER,
+    "a tolerance below zero of 4,000 digits": '"tolerance": -' + LONG_NUMBER,
+    "a longer number": '"seed": ' + LONG_NUMBER * 2,
+    "a deep list": '"observable": ' + "[" * DEEP + "]" * DEEP,
+    "a very deep list": '"observable": ' + "[" * 100_000,
+    "a deep switch": '"force": ' + '{"vignetting": ' * DEEP + "1" + "}" * DEEP,
+}
+
+
+def make_large(path: Path) -> None:
+    """Make a file that has no end, as far as anybody would wait."""
+    with path.open("wb") as file:
+        file.truncate(2**40)
+
+
+Damage = Callable[[Path], object]
+NO_FILES: dict[str, Damage] = {
+    "a pipe": os.mkfifo,
+    "an endless device": lambda path: path.symlink_to("/dev/zero"),
+    "a folder": Path.mkdir,
+    "a link to nothing": lambda path: path.symlink_to("nowhere"),
+    "a link to itself": lambda path: path.symlink_to(path.name),
+    "a large file": make_large,
+}
+
+
+@pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
+def test_a_damaged_scene_in_the_session_is_left_out(tmp_path: Path, text: str) -> None:
+    class Damaged(Memory):
+        def _value(self, key: str) -> object:
+            return text if key == "session/scene" else None
+
+    assert recall_session(Damaged(), NAMES) == Session()
+
+
+@pytest.mark.parametrize("text", DAMAGED_SETTINGS.values(), ids=DAMAGED_SETTINGS)
+def test_damaged_settings_in_the_session_are_left_out(tmp_path: Path, text: str) -> None:
+    kept = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+    memory = Memory(kept)
+    keep_session(memory, Session(Scene(), SimulationSettings()))
+    whole = memory.recall("session/settings")
+    assert recall_session(memory, NAMES).settings == SimulationSettings()
+    kept.setValue("session/settings", whole[:-1] + ", " + text + "}")
+    assert recall_session(memory, NAMES).settings is None
+
+
+@pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
+def test_a_damaged_scene_of_a_crash_is_kept_aside(tmp_path: Path, qtbot: QtBot, text: str) -> None:
+    (tmp_path / "scene-1.toml").write_text(text, "utf-8", "surrogatepass")
+    autosave = Autosave(tmp_path)
+    assert autosave.recovered is None
+    assert (tmp_path / "scene-1.unreadable").exists()
+    autosave.end()
+
+
+LOOK = """
+import sys
+from PySide6.QtCore import QTimer
+import occ_gui.app as app
+
+begin = app.start
+def start(*arguments):
+    qt, application = begin(*arguments)
+    application.store.change(iso=321.0)
+    QTimer.singleShot(0, application.window.close)
+    return qt, application
+app.start = start
+sys.exit(app.main([]))
+"""
+
+
+@pytest.mark.parametrize("damage", NO_FILES.values(), ids=NO_FILES)
+@pytest.mark.parametrize("name", ["scene-1.toml", "scene-1.lock", "settings.ini"])
+def test_what_is_no_file_does_not_keep_the_window_from_starting(
+    tmp_path: Path, name: str, damage: Damage
+) -> None:
+    damage(tmp_path / name)
+    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "OCC_STATE": str(tmp_path)}
+    window = subprocess.run(
+        [sys.executable, "-c", LOOK],
+        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert (window.returncode, window.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("folder", ["/" + "a" * 300, "/a" * 4000, "/\x00", "/dev/null/a", "a" * 9])
+def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
+    application: Application, tmp_path: Path, folder: str
+) -> None:
+    kept = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+    kept.setValue("files/folder", folder)
+    kept.setValue("files/recent", [folder, folder])
+    memory = Memory(kept)
+    assert memory.folder == ""
+    for path in (*memory.files, Path(folder)):
+        application.files.open_recent(path)
+        assert "no longer there" in application.window.statusBar().currentMessage()
+        application.files.open_dropped([path])
+        assert "is no file" in application.window.statusBar().currentMessage()
+
+
+@pytest.mark.parametrize(
+    "error",
+    [RecursionError("too deep"), ValueError("9" * 5000), AttributeError("get"), KeyError(1)],
+)
+def test_explorations_that_cannot_be_read_are_told_of(
+    application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def fail() -> None:
+        raise error
+
+    monkeypatch.setattr("occ_gui.controllers.explorations.explorations", fail)
+    view = ExplorationView()
+    qtbot.addWidget(view)
+    ExplorationController(application.store, application.photos, view).set_seen(True)
+    told = [label.text() for label in view.findChildren(QLabel)]
+    assert any(type(error).__name__ in text for text in told)
+    assert not view.choices

@@ -212,7 +212,7 @@ class Application(QObject):
         self.controls.show_preset(self.presets.name_of(scene))
 
     def _list_presets(self) -> None:
-        self.controls.list_presets(self.presets.titles)
+        self.controls.list_presets(self.presets.titles, self.presets.unreadable)
         self.controls.show_preset(self.presets.name_of(self.store.scene))
 
     def _list_recent(self) -> None:

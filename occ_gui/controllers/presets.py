@@ -1,6 +1,7 @@
 """Presets: those of the program and the user's own, loaded, saved and deleted."""
 
 import re
+from collections.abc import Collection
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
@@ -8,8 +9,16 @@ from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 from occ_gui.controllers.matching import MatchController
 from occ_gui.state.gesture import new_gesture
 from occ_gui.state.scene_store import SceneStore
-from occ_model.errors import OccError, one_line
-from occ_model.presets import Preset, delete_preset, preset_named, presets, user_presets
+from occ_gui.widgets.plain_text import LONGEST
+from occ_model.errors import OccError, PresetError, one_line
+from occ_model.presets import (
+    Preset,
+    delete_preset,
+    preset_named,
+    presets,
+    user_folder,
+    user_presets,
+)
 from occ_model.scene import Scene
 
 
@@ -38,6 +47,7 @@ class PresetController(QObject):
         self._store = store
         self._matching = matching
         self._presets: list[Preset] = []
+        self._unreadable: dict[str, str] = {}
         self._read()
         matching.saved.connect(self._tell_saved)
 
@@ -45,6 +55,11 @@ class PresetController(QObject):
     def titles(self) -> list[tuple[str, str]]:
         """Names and titles of the presets: the program's first, then the user's own."""
         return [(preset.name, preset.title) for preset in self._presets]
+
+    @property
+    def unreadable(self) -> list[tuple[str, str]]:
+        """Names of the user's own preset files that cannot be read, and why."""
+        return list(self._unreadable.items())
 
     def name_of(self, scene: Scene) -> str | None:
         """Give the name of the preset that a scene is, None if it is none."""
@@ -54,8 +69,8 @@ class PresetController(QObject):
         """Put a preset's scene in place of the scene, as one step."""
         try:
             scene = preset_named(name).scene
-        except OccError as error:  # its file has gone or changed meanwhile
-            self.said.emit(str(error))
+        except Exception as error:  # noqa: BLE001 - its file may have become anything meanwhile
+            self.said.emit(_reason(error))
             self._update()
             return
         self._store.put(scene, self.tr("preset {name}").format(name=name), new_gesture())
@@ -79,7 +94,7 @@ class PresetController(QObject):
 
     def ask_to_delete(self) -> None:
         """Let the user choose one of the own presets, and delete it."""
-        own = user_presets()
+        own = [*user_presets(), *self._unreadable]
         if not own:
             self.said.emit(self.tr("There is no preset of your own."))
             return
@@ -97,7 +112,7 @@ class PresetController(QObject):
         self.said.emit(self.tr("Deleted the preset {name}").format(name=name))
 
     def _may_replace(self, name: str) -> bool:
-        if name not in user_presets():
+        if name not in user_presets() and name not in self._unreadable:
             return True
         answer = QMessageBox.question(
             self._window,
@@ -115,4 +130,27 @@ class PresetController(QObject):
         self.changed.emit()
 
     def _read(self) -> None:
-        self._presets = [preset_named(name) for name in presets()]
+        self._presets, self._unreadable = [], {}
+        known = presets()
+        for name in (*known, *_files_beside(known)):
+            try:
+                self._presets.append(preset_named(name))
+            except PresetError:  # its name can be none, or there is no such file any more
+                continue
+            except Exception as error:  # noqa: BLE001 - whatever is in it, the others can be used
+                self._unreadable[name] = _reason(error)
+
+
+def _files_beside(known: Collection[str]) -> list[str]:
+    """Name the user's own files that are not among the presets which are known to be readable."""
+    try:
+        names = {path.stem for path in user_folder().glob("*.toml")}
+    except (OSError, ValueError):  # no folder, or none that may be read
+        return []
+    return sorted(names.difference(known))
+
+
+def _reason(error: Exception) -> str:
+    """Say why a preset cannot be used; what is no sentence of the model's own with its kind."""
+    text = str(error) if isinstance(error, OccError) else f"{type(error).__name__}: {error}"
+    return one_line(text, LONGEST)

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
@@ -99,14 +100,36 @@ class ControlPanel(QWidget):
             pages.addTab(scroll, title)
         layout.addWidget(pages, 1)
 
-    def list_presets(self, presets: Sequence[tuple[str, str]]) -> None:
-        """Offer these presets, given by their names and titles, in place of the last ones."""
+    def list_presets(
+        self, presets: Sequence[tuple[str, str]], unreadable: Sequence[tuple[str, str]] = ()
+    ) -> None:
+        """Offer these presets in place of the last ones.
+
+        Parameters
+        ----------
+        presets
+            Names and titles.
+        unreadable
+            Names of those that cannot be loaded, and why: they are listed, and cannot be chosen.
+        """
         self.preset.clear()
         for name, title in presets:
-            self.preset.addItem(name, name)
-            tip = in_tool_tip(one_line(title, LONGEST))
-            self.preset.setItemData(self.preset.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self._list(one_line(name), name, title)
+        for name, reason in unreadable:
+            text = self.tr("{name}: cannot be read").format(name=one_line(name))
+            place = self._list(text, None, reason)
+            entries = self.preset.model()
+            if isinstance(entries, QStandardItemModel):
+                entries.item(place).setEnabled(False)
         self.preset.setCurrentIndex(-1)
+
+    def _list(self, text: str, name: str | None, tip: str) -> int:
+        """Add an entry, and give its place."""
+        self.preset.addItem(text, name)
+        place = self.preset.count() - 1
+        tip = in_tool_tip(one_line(tip, LONGEST))
+        self.preset.setItemData(place, tip, Qt.ItemDataRole.ToolTipRole)
+        return place
 
     def main_rows(self) -> dict[str, QuantityRow]:
         """Give the rows of the main sliders, by the names of their parameters."""

@@ -5,11 +5,20 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 import occ_model as occ
 from occ_gui.application import Application
-from occ_model.presets import USER_FOLDER, delete_preset, preset_named, save_preset, user_presets
+from occ_gui.controllers import presets as controller_room
+from occ_model.presets import (
+    USER_FOLDER,
+    Preset,
+    delete_preset,
+    preset_named,
+    save_preset,
+    user_presets,
+)
 from occ_model.scene import Scene
 
 User = Any  # the fixture of that name
@@ -59,17 +68,55 @@ def names(application: Application) -> list[str]:
 def test_rubbish_in_the_folder_does_not_keep_the_window_from_starting(
     application: Application,
 ) -> None:
-    assert names(application) == list(occ.presets())
-    assert "rubbish" not in names(application)
+    assert names(application) == [*occ.presets(), "rubbish: cannot be read"]
+    place = len(occ.presets())
+    entries = application.controls.preset.model()
+    assert not entries.flags(entries.index(place, 0)) & Qt.ItemFlag.ItemIsEnabled
+    tip = application.controls.preset.itemData(place, Qt.ItemDataRole.ToolTipRole)
+    assert "The preset file rubbish.toml cannot be read" in tip
+
+
+@pytest.mark.parametrize(
+    "error", [RecursionError("deep"), ValueError("9" * 5000), TypeError("\n"), MemoryError()]
+)
+def test_whatever_comes_of_reading_a_preset_the_others_can_be_used(
+    application: Application, user: User, own: Path, monkeypatch: pytest.MonkeyPatch,
+    error: Exception,
+) -> None:  # fmt: skip
+    def read(name: str) -> Preset:
+        if name == "bad":
+            raise error
+        return preset_named(name)
+
+    save_preset("bad", Scene())
+    save_preset("good", Scene(), title="good")
+    with monkeypatch.context() as patched:
+        patched.setattr(controller_room, "preset_named", read)
+        application.presets.load("bad")
+        assert type(error).__name__ in user.message
+        listed = [name for name in names(application) if name not in occ.presets()]
+        assert listed == ["bad: cannot be read", "rubbish: cannot be read"]
+        assert "good" in names(application)
+
+
+def test_a_file_that_cannot_be_read_is_replaced_only_if_the_user_says_so_and_can_be_deleted(
+    matched: Application, user: User, answer: Answer, own: Path
+) -> None:
+    answer("rubbish", False)
+    matched.photo.result.save.click()
+    assert (own / "rubbish.toml").read_bytes() == b"\xff no preset"
+    user.choose("&Delete preset")
+    assert not (own / "rubbish.toml").exists()
+    assert "rubbish: cannot be read" not in names(matched)
 
 
 def test_a_saved_match_is_listed_after_the_programs_presets_and_loaded(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("my phone", False)
-    before = names(matched)
+    *before, unreadable = names(matched)
     matched.photo.result.save.click()
-    assert names(matched) == [*before, "my phone"]
+    assert names(matched) == [*before, "my phone", unreadable]
     assert user.message == "Saved the preset my phone"
     assert preset_named("my phone").title == "Measured from stripes.png"
     matched.controls.preset_chosen.emit("my phone")
@@ -118,8 +165,9 @@ def test_a_cancelled_dialog_saves_and_deletes_nothing(
 
 
 def test_a_deleted_preset_is_listed_no_more(
-    matched: Application, user: User, answer: Answer
+    matched: Application, user: User, answer: Answer, own: Path
 ) -> None:
+    (own / "rubbish.toml").unlink()
     answer("mine", False)
     matched.photo.result.save.click()
     assert "mine" in names(matched)

@@ -3,9 +3,9 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from occ_gui.controllers.export_folder import folder_aside, remove_left_behind
 from occ_model.errors import OutputError
 from occ_model.output import make_folder
 from occ_model.provenance import Provenance
@@ -118,10 +118,11 @@ def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
     is_new = not folder.exists()
     make_folder(folder)
     try:
-        with TemporaryDirectory(prefix=".export-", dir=folder) as aside:
+        remove_left_behind(folder)
+        with folder_aside(folder) as aside:
             drawn = {id(drawing): (drawing, sketch) for drawing, sketch in _drawn(sketches)}
             written = write_all(
-                Path(aside),
+                aside,
                 [drawing for drawing, _ in drawn.values()],
                 lambda drawing: drawn[id(drawing)][1].provenance(drawing),
             )

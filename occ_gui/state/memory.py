@@ -95,7 +95,10 @@ class Memory(QObject):
         self._write(key, text)
 
     def _value(self, key: str) -> object:
-        return None if self._settings is None else self._settings.value(key)
+        try:
+            return None if self._settings is None else self._settings.value(key)
+        except RuntimeError:  # of a kind that is none of Python's
+            return None
 
     def _write(self, key: str, value: str | list[str]) -> None:
         if self._settings is not None:

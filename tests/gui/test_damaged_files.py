@@ -141,6 +141,18 @@ def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
         assert "is no file" in application.window.statusBar().currentMessage()
 
 
+@pytest.mark.parametrize("kind", ["38", "39", "3f"])
+def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "settings.ini"
+    value = rf"@Variant(\0\0\0\x{kind}\0\0\0\0\x61)"
+    keys = ("files/folder", "files/recent", "view/margins", "session/scene")
+    sections = (f"[{key.split('/')[0]}]\n{key.split('/')[1]}={value}\n" for key in keys)
+    path.write_text("".join(sections), "ascii")
+    memory = Memory(QSettings(str(path), QSettings.Format.IniFormat))
+    assert (memory.folder, memory.files, memory.margins) == ("", (), True)
+    assert recall_session(memory, NAMES) == Session()
+
+
 @pytest.mark.parametrize(
     "error",
     [RecursionError("too deep"), ValueError("9" * 5000), AttributeError("get"), KeyError(1)],

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Self
 
 from occ_model import scene_file
 from occ_model.declarations import ParameterValue
-from occ_model.errors import ParameterError, SceneFileError
+from occ_model.errors import ParameterError, SceneFileError, one_line, shown
 from occ_model.parameters import PARAMETERS, parameter_named
 
 _DIAGONAL_35MM = 0.04327
@@ -224,7 +224,7 @@ class Scene:
         for group, values in tables.items():
             if group not in GROUPS:
                 raise SceneFileError(
-                    f"A scene file has no table [{group}]; known are {', '.join(GROUPS)}."
+                    f"A scene file has no table [{one_line(group)}]; known are {', '.join(GROUPS)}."
                 )
             if not isinstance(values, Mapping):
                 raise SceneFileError(f"{group} must be a table: a line '[{group}]' and its keys.")
@@ -272,5 +272,5 @@ def check_scene(value: object) -> None:
     """
     if not isinstance(value, Scene):
         raise ParameterError(
-            f"scene is {value!r}; allowed: a Scene, such as load_preset('phone-136us') gives."
+            f"scene is {shown(value)}; allowed: a Scene, such as load_preset('phone-136us') gives."
         )

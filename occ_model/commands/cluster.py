@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import Any
 
-from occ_model.errors import OccError
+from occ_model.errors import OccError, one_line, shown
 
 _SECONDS = 5
 """How long a scheduler gets to answer."""
@@ -41,7 +41,8 @@ def cluster_executor(address: str) -> Iterator[Executor]:
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     if not asyncio.run(_workers(address)):
         raise ClusterError(
-            f"The cluster at {address!r} has no workers; start one with 'dask worker {address}'."
+            f"The cluster at {shown(address)} has no workers; start one with "
+            f"'dask worker {one_line(address)}'."
         )
     client: Any = Client(address, timeout=_SECONDS, set_as_default=False)  # type: ignore[no-untyped-call]
     try:
@@ -67,6 +68,6 @@ async def _workers(address: str) -> int:
     except Exception as error:  # noqa: BLE001 - whatever may listen there can answer anything
         reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     raise ClusterError(
-        f"No dask scheduler answers at {address!r}: {reason}. Allowed: the address of one, such as "
-        "tcp://127.0.0.1:8786."
+        f"No dask scheduler answers at {shown(address)}: {one_line(reason)}. Allowed: the address "
+        "of one, such as tcp://127.0.0.1:8786."
     )

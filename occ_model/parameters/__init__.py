@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 from occ_model.declarations import Parameter, Quantity
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.parameters.camera import CAMERA, LENS, SENSOR
 from occ_model.parameters.light import SURROUNDINGS, TRANSMITTER
 from occ_model.parameters.view import MODEL, POSE, RECEIVER
@@ -31,7 +31,7 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
         return PARAMETERS[name]
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
-    raise ParameterError(f"There is no parameter {name!r}; {hint}")
+    raise ParameterError(f"There is no parameter {shown(name)}; {hint}")
 
 
 def quantity(name: str) -> Quantity:

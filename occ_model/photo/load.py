@@ -12,7 +12,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.checks import check_choice, check_count
-from occ_model.errors import ParameterError, PhotoError
+from occ_model.errors import ParameterError, PhotoError, shown
 from occ_model.photo.channels import CHANNELS, Samples, decode_picture, take_channel, white_of
 from occ_model.photo.exif import CameraNotes, camera_notes, orientation_of, upright
 from occ_model.photo.file import open_picture
@@ -106,7 +106,9 @@ def load_photo(
     try:
         path = Path(path)
     except TypeError:
-        raise PhotoError(f"{path!r} is not the path of a photo; allowed: str or Path.") from None
+        raise PhotoError(
+            f"{shown(path)} is not the path of a photo; allowed: str or Path."
+        ) from None
     seen, taken, notes = _read(path, channel, int(max_pixels))
     turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(seen))
     samples = cast("Samples", cv2.transpose(seen)) if turned else seen

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.camera.exposure import on_time
 from occ_model.checks import check_count
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
@@ -40,7 +40,8 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     check_count("column", column, 0)
     if column >= scene.camera.columns:
         raise ParameterError(
-            f"column is {column}; allowed: 0 to {scene.camera.columns - 1}, as the picture has."
+            f"column is {shown(int(column))}; allowed: 0 to {scene.camera.columns - 1}, "
+            "as the picture has."
         )
     chips = sent_chips(scene.transmitter)
     period = scene.transmitter.switching_period

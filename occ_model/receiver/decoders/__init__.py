@@ -3,7 +3,7 @@
 import pkgutil
 from importlib import import_module
 
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.receiver.decoder import Decoder
 
 
@@ -33,5 +33,5 @@ def decoder_named(name: str) -> Decoder:
         There is none of that name; the names there are stand in the message.
     """
     if not isinstance(name, str) or name not in DECODERS:
-        raise ParameterError(f"There is no decoder {name!r}; known: {', '.join(DECODERS)}.")
+        raise ParameterError(f"There is no decoder {shown(name)}; known: {', '.join(DECODERS)}.")
     return DECODERS[name]

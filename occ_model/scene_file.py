@@ -1,14 +1,21 @@
 """TOML in and out: tables of parameters, with the version of the format, read strictly."""
 
+import re
 import tomllib
 from collections.abc import Mapping
 from typing import Any
 
 import tomli_w
 
-from occ_model.errors import SceneFileError
+from occ_model.errors import SceneFileError, one_line, shown
 
 FORMAT = 1
+
+_MAX_KEY_PARTS = 32
+"""Parts of a dotted key; the parser's time grows with their square, and ours have two."""
+
+_KEY_PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY = re.compile(rf"(?:{_KEY_PART}[ \t]*+\.[ \t]*+){{{_MAX_KEY_PARTS}}}")
 
 
 def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:
@@ -24,19 +31,34 @@ def from_toml(text: str) -> dict[str, Any]:
     SceneFileError
         It is no text, is not TOML, names no format, or a format that this version does not know.
     """
-    if not isinstance(text, str):
-        raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
-    try:
-        content = tomllib.loads(text)
-    except ValueError as error:  # a TOMLDecodeError, or a number of thousands of digits
-        raise SceneFileError(f"This is not a TOML file: {error}.") from None
-    except RecursionError:
-        raise SceneFileError("This is not a scene file: it is nested too deeply.") from None
+    content = parse_toml(text)
     version = content.pop("format", None)
     if version is None:
         raise SceneFileError(f"This is not a scene file: it has no line 'format = {FORMAT}'.")
     if isinstance(version, bool) or version != FORMAT:
         raise SceneFileError(
-            f"The scene file has format {version!r}; this version reads format {FORMAT}."
+            f"The scene file has format {shown(version)}; this version reads format {FORMAT}."
         )
     return content
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Read TOML from anywhere, in a time that grows as the text does.
+
+    Raises
+    ------
+    SceneFileError
+        It is no text, or not TOML of reasonable depth.
+    """
+    if not isinstance(text, str):
+        raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
+    if _LONG_KEY.search(text):
+        raise SceneFileError(
+            f"This is not a scene file: a key has more than {_MAX_KEY_PARTS} parts."
+        )
+    try:
+        return tomllib.loads(text)
+    except ValueError as error:  # a TOMLDecodeError, or a number of thousands of digits
+        raise SceneFileError(f"This is not a TOML file: {one_line(str(error))}.") from None
+    except RecursionError:
+        raise SceneFileError("This is not a scene file: it is nested too deeply.") from None

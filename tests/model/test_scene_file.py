@@ -9,6 +9,7 @@ from occ_model.errors import OccError, ParameterError, SceneFileError
 from occ_model.parameters import PARAMETERS
 from occ_model.parameters.light import MAX_BITS
 from occ_model.scene import GROUPS, Scene
+from occ_model.scene_file import parse_toml
 
 
 @st.composite
@@ -114,11 +115,33 @@ def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
         ),
         ("format = " + "[" * 5000, r"^This is not a scene file: it is nested too deeply\.$"),
         ("format = " + "9" * 5000, r"^This is not a TOML file: .*\.$"),
+        ("format = 0x" + "f" * 5000, r"^The scene file has format .*; this version reads format 1"),
+        ("format = 1\n" + "a." * 100 + "a = 1", r"^This is not a scene file: a key has more than "),
+        ("format = 1\n['a'" + ' . "b"' * 100 + "]", r"^This is not a scene file: a key has more "),
+        ("format = 1\nx = {a" + ".a" * 100 + " = 1}", r"^This is not a scene file: a key has "),
+        ("format = 1\n[" + "a" * 10**5 + "]", r"^A scene file has no table \[a{100,200}…\]; known"),
+        ('format = 1\n["\\u001b[31m"]', r"^A scene file has no table \[\\x1b\[31m\]; known are "),
     ],
 )
 def test_what_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(SceneFileError, match=sentence):
         Scene.from_toml(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'title = "' + "e.g. a sentence. And another. " * 100 + '"',
+        "# " + "." * 1000,
+        "# 1.2.3.4.5.6.7.8.9.10.11.12.13.14.15.16.17.18.19.20",
+        "a.b.c = 1\n" + "".join(f"k{number}.b = 1.5\n" for number in range(1000)),
+        "x = [" + "1.5, " * 1000 + "]",
+        "x = [" + "'a', " * 1000 + "]",
+    ],
+    ids=lambda text: text[:20],
+)
+def test_dots_in_texts_and_numbers_make_no_long_key(text: str) -> None:
+    parse_toml(text)
 
 
 @pytest.mark.parametrize("text", [None, 3, b"format = 1", ["format = 1"]])

@@ -1,0 +1,120 @@
+"""Files of the user's: read whole, of a bounded size, and only where they are regular files."""
+
+import errno
+import os
+import stat
+from pathlib import Path
+
+from occ_model.errors import SceneFileError, one_line
+
+LARGEST_TEXT = 1_000_000
+"""Bytes of a scene, preset or exploration; those that are written here have a few thousand."""
+
+_CHUNK = 1 << 20
+"""Bytes that are asked for at a time: a file may give more, or less, than its size says."""
+
+_NO_FILE = "it is a device, pipe or socket"
+
+# What a system does not know of these, it does not need: Windows has no pipes among its files.
+_FLAGS = (
+    os.O_RDONLY
+    | getattr(os, "O_NONBLOCK", 0)
+    | getattr(os, "O_NOCTTY", 0)
+    | getattr(os, "O_BINARY", 0)
+)
+
+
+def read_bytes(path: Path, largest: int) -> bytes:
+    """Read a regular file of at most so many bytes.
+
+    A pipe is not waited for, and a device is not read: both are opened without blocking, and what
+    has been opened, not what has the name by then, is asked for its kind.
+
+    Parameters
+    ----------
+    path
+        The file; a symbolic link is followed.
+    largest
+        Bytes that are allowed.
+
+    Raises
+    ------
+    SceneFileError
+        There is no such file, it may not be read, is no regular file, or is larger.
+    """
+    content = read_start(path, largest + 1)
+    if len(content) > largest:
+        raise _unreadable(path, f"it has more than {largest:,} bytes")
+    return content
+
+
+def read_start(path: Path, count: int) -> bytes:
+    """Read the first bytes of a regular file, as :func:`read_bytes` does a whole one.
+
+    Parameters
+    ----------
+    path
+        The file; a symbolic link is followed.
+    count
+        Bytes that are read at most.
+
+    Raises
+    ------
+    SceneFileError
+        There is no such file, it may not be read, or is no regular file.
+    """
+    try:
+        descriptor = os.open(path, _FLAGS)
+    except OSError as error:
+        raise _failed(path, error) from None
+    except ValueError as error:  # a name that no file can have
+        raise _unreadable(path, str(error)) from None
+    try:
+        _check_kind(path, os.fstat(descriptor).st_mode)
+        chunks, left = [], count
+        while left > 0 and (chunk := os.read(descriptor, min(left, _CHUNK))):
+            chunks.append(chunk)
+            left -= len(chunk)
+    except OSError as error:
+        raise _failed(path, error) from None
+    finally:
+        os.close(descriptor)
+    return b"".join(chunks)
+
+
+def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
+    """Read a regular file of text in UTF-8, without the byte order mark that some editors write.
+
+    Parameters
+    ----------
+    path
+        The file; a symbolic link is followed.
+    largest
+        Bytes that are allowed.
+
+    Raises
+    ------
+    SceneFileError
+        There is no such file, it may not be read, is no regular file, is larger, or is no text.
+    """
+    try:
+        return read_bytes(path, largest).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise _unreadable(path, "it is not text in UTF-8") from None
+
+
+def _check_kind(path: Path, mode: int) -> None:
+    if stat.S_ISDIR(mode):
+        raise _unreadable(path, "it is a folder")
+    if not stat.S_ISREG(mode):
+        raise _unreadable(path, _NO_FILE)
+
+
+def _failed(path: Path, error: OSError) -> SceneFileError:
+    if error.errno == errno.ENXIO:  # a socket, or a device that is not there
+        return _unreadable(path, _NO_FILE)
+    return _unreadable(path, error.strerror or str(error))
+
+
+def _unreadable(path: Path, reason: str) -> SceneFileError:
+    return SceneFileError(f"{one_line(str(path))} cannot be read: {one_line(reason)}.")

@@ -10,13 +10,13 @@ from occ_gui.controllers.matching import MatchController
 from occ_gui.state.gesture import new_gesture
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
-from occ_model.errors import OccError, PresetError, one_line
+from occ_model.errors import OccError, one_line
+from occ_model.preset_file import Preset
 from occ_model.presets import (
-    Preset,
+    all_presets,
     delete_preset,
     preset_named,
-    presets,
-    user_folder,
+    unreadable_presets,
     user_presets,
 )
 from occ_model.scene import Scene
@@ -130,27 +130,7 @@ class PresetController(QObject):
         self.changed.emit()
 
     def _read(self) -> None:
-        self._presets, self._unreadable = [], {}
-        known = presets()
-        for name in (*known, *_files_beside(known)):
-            try:
-                self._presets.append(preset_named(name))
-            except PresetError:  # its name can be none, or there is no such file any more
-                continue
-            except Exception as error:  # noqa: BLE001 - whatever is in it, the others can be used
-                self._unreadable[name] = _reason(error)
-
-
-def _files_beside(known: Collection[str]) -> list[str]:
-    """Name the user's own files that are not among the presets which are known to be readable."""
-    try:
-        names = {path.stem for path in user_folder().glob("*.toml")}
-    except (OSError, ValueError):  # no folder, or none that may be read
-        return []
-    return sorted(names.difference(known))
-
-
-def _reason(error: Exception) -> str:
-    """Say why a preset cannot be used; what is no sentence of the model's own with its kind."""
-    text = str(error) if isinstance(error, OccError) else f"{type(error).__name__}: {error}"
-    return one_line(text, LONGEST)
+        self._presets = list(all_presets())
+        self._unreadable = {
+            name: one_line(reason, LONGEST) for name, reason in unreadable_presets().items()
+        }

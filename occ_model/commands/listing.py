@@ -3,8 +3,12 @@
 import argparse
 
 from occ_model.commands.parser import Commands
+from occ_model.errors import one_line
 from occ_model.parameters import PARAMETERS
-from occ_model.presets import preset_named, presets
+from occ_model.presets import all_presets, preset_named, unreadable_presets
+
+_LONGEST_NOTE = 1000
+"""Characters of the note on a value that are shown."""
 
 
 def add_to(commands: Commands) -> None:
@@ -19,17 +23,19 @@ def add_to(commands: Commands) -> None:
 
 def _presets(options: argparse.Namespace) -> int:
     if options.name is None:
-        for name in presets():
-            print(f"{name:20}{preset_named(name).title}")
+        for preset in all_presets():
+            print(f"{preset.name:20}{one_line(preset.title)}")
+        for name, reason in unreadable_presets().items():
+            print(f"{name:20}cannot be used: {reason}")
         return 0
     preset = preset_named(options.name)
-    print(preset.title)
+    print(one_line(preset.title))
     for name, declaration in PARAMETERS.items():
         value = declaration.format(preset.scene.value(name))  # type: ignore[arg-type]
         note = preset.sources.get(name, "")
         if name in preset.assumed:
             note = f"assumed: {preset.assumed[name]}"
-        print(f"{name:26}{value:16}{note}".rstrip())
+        print(f"{name:26}{value:16}{one_line(note, _LONGEST_NOTE)}".rstrip())
     return 0
 
 

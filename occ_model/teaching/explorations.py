@@ -1,18 +1,19 @@
 """Guided explorations: short texts with a scene each, and a question to answer by trying."""
 
-import tomllib
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from occ_model.errors import SceneFileError
+from occ_model.errors import OccError, SceneFileError, one_line, shown
+from occ_model.input_file import read_text
 from occ_model.presets import load_preset
-from occ_model.resource_files import resource_path
+from occ_model.resource_files import resource_names, resource_text
 from occ_model.results.teaching import Exploration, Step
+from occ_model.scene_file import parse_toml
 from occ_model.settings import with_settings
 
-_FOLDER = "explorations"
+_FOLDER, _ENDING = "explorations", ".toml"
 
 
 @lru_cache(maxsize=1)
@@ -24,7 +25,10 @@ def explorations() -> tuple[Exploration, ...]:
     SceneFileError
         A file cannot be read.
     """
-    return tuple(read_exploration(path) for path in sorted(resource_path(_FOLDER).glob("*.toml")))
+    return tuple(
+        _exploration(name, resource_text(_FOLDER, f"{name}{_ENDING}"))
+        for name in resource_names(_FOLDER, _ENDING)
+    )
 
 
 def read_exploration(path: Path) -> Exploration:
@@ -33,27 +37,41 @@ def read_exploration(path: Path) -> Exploration:
     Raises
     ------
     SceneFileError
-        It is not an exploration's file.
-    ParameterError
-        A value in it is out of range.
-    PresetError
-        It names a preset that does not exist.
+        It cannot be read, is not an exploration's file, names a preset that does not exist, or has
+        a value that is out of range.
     """
+    return _exploration(path.stem, read_text(path))
+
+
+def _exploration(name: str, text: str) -> Exploration:
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        content = parse_toml(text)
         steps = tuple(_step(step) for step in content["step"])
-        return Exploration(path.stem, content["title"], steps)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise SceneFileError(f"{path.name} is no exploration: {error!r}.") from None
+        return Exploration(name, _text(content["title"]), steps)
+    except OccError as error:
+        raise SceneFileError(f"{one_line(name)} is no exploration: {error}") from None
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise SceneFileError(f"{one_line(name)} is no exploration: {shown(error)}.") from None
 
 
 def _step(content: Mapping[str, Any]) -> Step:
-    settings = [f"{name}={value}" for name, value in content.get("set", {}).items()]
+    settings = [f"{name}={_written(value)}" for name, value in content.get("set", {}).items()]
     return Step(
-        text=" ".join(content["text"].split()),
-        question=" ".join(content["question"].split()),
-        answer=" ".join(content["answer"].split()),
+        text=" ".join(_text(content["text"]).split()),
+        question=" ".join(_text(content["question"]).split()),
+        answer=" ".join(_text(content["answer"]).split()),
         scene=with_settings(load_preset(content["preset"]), settings),
-        pane=content.get("pane", ""),
-        photo=content.get("photo", ""),
+        pane=_text(content.get("pane", "")),
+        photo=_text(content.get("photo", "")),
     )
+
+
+def _written(value: object) -> str:
+    """Write a value as it is typed."""
+    return value if isinstance(value, str) else shown(value)
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str):
+        raise SceneFileError(f"there is {shown(value)} in place of a text.")
+    return value

@@ -1,23 +1,28 @@
 """The scenes that come with the package, and those that a user keeps."""
 
-import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from occ_model import resource_files, scene_file
+from occ_model.cli import main
 from occ_model.errors import OccError, OutputError, ParameterError, PresetError, SceneFileError
 from occ_model.parameters import PARAMETERS
 from occ_model.presets import (
     USER_FOLDER,
-    Preset,
+    all_presets,
     delete_preset,
     load_preset,
     preset_named,
     presets,
     save_preset,
+    unreadable_presets,
     user_folder,
     user_presets,
 )
+from occ_model.receiver.decoders import decoder_named
 from occ_model.scene import Scene
 
 PAPER = ("phone-136us", "phone-68us", "tablet-122us", "tablet-61us")
@@ -125,8 +130,7 @@ def test_the_papers_camera_looks_straight_at_the_panels_centre(name: str) -> Non
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder of presets of our own; names that are used nowhere else, since presets are kept."""
-    module = sys.modules[Preset.__module__]  # the package's own name `presets` is the function
-    monkeypatch.setattr(module, "resource_path", lambda *parts: tmp_path.joinpath(*parts))
+    monkeypatch.setattr(resource_files, "_resource", tmp_path.joinpath)
     (tmp_path / "presets").mkdir()
     return tmp_path / "presets"
 
@@ -305,6 +309,157 @@ def test_rubbish_among_the_users_own_is_left_out_and_named_when_it_is_loaded(
     assert load_preset("phone-136us").camera.exposure_time == 136e-6
     delete_preset(name)
     assert not (own / f"{name}.toml").exists()
+
+
+def nested(levels: int) -> list[Any]:
+    value: list[Any] = []
+    for _ in range(levels):
+        value = [value]
+    return value
+
+
+HOSTILE = {
+    "hexadecimal": "title = 0x" + "f" * 4000,
+    "hexadecimal value": "[camera]\nrows = 0x" + "f" * 4000,
+    "decimal": "title = " + "9" * 5000,
+    "deep notes": "[sources]\n" + "a." * 30 + "a = 1",
+    "deep key": "[sources]\n" + "a." * 1500 + "a = 1",
+    "deep quoted key": "[sources]\n" + "'a' . \"b\"\t." * 750 + "a = 1",
+    "deep array": "title = " + "[" * 3000 + "]" * 3000,
+    "deep tables": "title = " + "{a=" * 1500 + "1" + "}" * 1500,
+    "shallow array": "title = " + "[" * 150 + "]" * 150,
+    "bases": "based_on = [" + "'phone-68us'," * 50_000 + "]",
+    "base": f"based_on = '{'a' * 10**5}'",
+    "table": f"[{'a' * 10**5}]",
+    "note": f"[sources]\n{'a' * 10**5} = 'x'",
+    "escapes": '["a\\u001b[31m\\n"]',
+    "twice": f"{'a' * 10**5} = 1\n" * 2,
+    "large": "#" * 2_000_000,
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_preset_is_named_with_a_short_reason_and_stops_nothing(
+    own: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = presets()
+    save_preset("good", MINE)
+    (own / f"{name}.toml").write_text(f"format = 1\n{HOSTILE[name]}\n")
+    assert presets() == (*before, "good")
+    assert [preset.name for preset in all_presets()] == [*before, "good"]
+    ((file, reason),) = unreadable_presets().items()
+    assert file == name
+    with pytest.raises((SceneFileError, ParameterError)) as refused:
+        load_preset(name)
+    assert reason == str(refused.value)
+    assert str(own / f"{name}.toml") in reason
+    assert reason.isprintable()
+    assert len(reason) < len(str(own)) + 2000
+    assert main(["presets"]) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert listed[-1] == f"{name:20}cannot be used: {reason}"
+    assert [line.split()[0] for line in listed[:-1]] == [*before, "good"]
+
+
+def test_a_mistake_of_ours_over_one_file_does_not_hide_the_others(
+    own: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_preset("good", MINE)
+    save_preset("bad", MINE, title="bad")
+    read = scene_file.from_toml
+
+    def mistaken(text: str) -> dict[str, Any]:
+        if "bad" in text:
+            raise ZeroDivisionError("of ours")
+        return read(text)
+
+    monkeypatch.setattr(scene_file, "from_toml", mistaken)
+    assert user_presets() == ("good",)
+    assert "ZeroDivisionError" in unreadable_presets()["bad"]
+
+
+ODD_NAMES = {
+    "Mon téléphone": "Mon téléphone",
+    "a\nb": "a\\nb",
+    "\x1b[31mred": "\\x1b[31mred",
+    "no\udcffutf-8": "no\\udcffutf-8",
+    " leading": " leading",
+    "a.b": "a.b",
+    "x" * 200: "x" * 200,
+    "PHONE-136us": "PHONE-136us",
+}
+
+
+@pytest.mark.parametrize("name", ODD_NAMES)
+def test_a_file_whose_name_no_preset_can_have_is_listed_as_such(
+    own: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = presets()
+    save_preset("good", MINE)
+    (own / "good.toml").with_name(f"{name}.toml").write_bytes((own / "good.toml").read_bytes())
+    assert presets() == (*before, "good")
+    ((file, reason),) = unreadable_presets().items()
+    assert file == ODD_NAMES[name]
+    assert reason.endswith(".")
+    assert reason.isprintable()
+    assert main(["presets"]) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert listed[-1] == f"{file:20}cannot be used: {reason}"
+    assert len(listed) == len(before) + 2
+
+
+def test_hidden_files_of_editors_and_systems_are_not_listed(own: Path) -> None:
+    save_preset("good", MINE)
+    (own / "._good.toml").write_bytes(b"\0\5\26\7")
+    (own / ".#good.toml").symlink_to("somebody@somewhere.1")
+    assert user_presets() == ("good",)
+    assert unreadable_presets() == {}
+
+
+def test_a_folder_and_a_link_to_nothing_are_listed_as_unreadable(own: Path) -> None:
+    own.mkdir(parents=True)
+    (own / "a folder.toml").mkdir()
+    (own / "link.toml").symlink_to("nowhere")
+    assert user_presets() == ()
+    reasons = unreadable_presets()
+    assert reasons["a folder"] == f"{own / 'a folder.toml'} cannot be read: it is a folder."
+    assert reasons["link"].endswith("cannot be read: No such file or directory.")
+
+
+def test_control_characters_of_titles_and_notes_are_printed_escaped(
+    own: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = "\x1b[31mred\n\x1b]0;title\x07 \u202e\x9b"
+    save_preset("mine", MINE, title=text, sources={"iso": text})
+    for arguments in (["presets"], ["presets", "mine"]):
+        assert main(arguments) == 0
+        printed = capsys.readouterr().out
+        assert "\\x1b[31mred\\n\\x1b]0;title\\x07 \\u202e\\x9b" in printed
+        assert all(line.isprintable() for line in printed.split("\n"))
+    assert "iso  " in printed
+
+
+@pytest.mark.parametrize("value", [10**5000, "x" * 10**6, nested(5000)], ids=["n", "x", "["])
+def test_any_value_is_refused_in_a_short_sentence(own: Path, value: Any) -> None:
+    calls: list[Callable[[], object]] = [
+        lambda: load_preset(value),
+        lambda: delete_preset(value),
+        lambda: save_preset(value, MINE),
+        lambda: save_preset("mine", value),
+        lambda: save_preset("mine", MINE, sources={"x": value}),
+        lambda: MINE.replace(rows=value),
+        lambda: MINE.replace(averaging=value),
+        lambda: MINE.replace(iso=value),
+        lambda: MINE.with_tables({"camera": value}),
+        lambda: decoder_named(value),
+    ]
+    for call in calls:
+        with pytest.raises(OccError) as refused:
+            call()
+        assert len(str(refused.value)) < 1200
+    if not isinstance(value, str):
+        with pytest.raises(ParameterError, match=r"^title is .*; allowed: a text\.$"):
+            save_preset("mine", MINE, title=value)
 
 
 def test_an_own_preset_may_be_based_on_one_of_the_program(own: Path) -> None:

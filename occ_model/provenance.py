@@ -63,3 +63,20 @@ def scenes_in(text: str) -> dict[str, Scene]:
     """
     _before, *parts = _SCENE.split(text)  # names and texts in turn
     return {name: Scene.from_toml(toml) for name, toml in zip(parts[::2], parts[1::2], strict=True)}
+
+
+def first_scene_in(text: str) -> Scene | None:
+    """Read the first scene out of what :meth:`Provenance.text` wrote, None where there is none.
+
+    Raises
+    ------
+    SceneFileError
+        It cannot be read.
+    ParameterError
+        A value in it is out of range.
+    """
+    start = _SCENE.search(text)
+    if start is None:
+        return None
+    following = _SCENE.search(text, start.end())
+    return Scene.from_toml(text[start.end() : following.start() if following else None])

@@ -1,22 +1,36 @@
-"""Scenes out of figures and tables that were exported: each carries its scene inside."""
+"""Scenes out of figures and tables that were exported: each carries its scene inside.
+
+The time and memory that a file takes grow as its size does at most, whatever is in it.
+"""
 
 import codecs
 import html
 import re
+from io import BytesIO
 from pathlib import Path
 
-from occ_model.errors import SceneFileError
-from occ_model.provenance import scenes_in
+from occ_model.errors import SceneFileError, one_line
+from occ_model.input_file import read_bytes, read_start
+from occ_model.provenance import first_scene_in
 from occ_model.scene import Scene
+
+SCENE_ENDING = ".toml"
+"""The ending of the files that scenes are saved to."""
 
 ENDINGS = (".png", ".svg", ".pdf", ".csv")
 """The endings of files that may carry a scene."""
 
-_LARGEST = 256_000_000
-"""Bytes of a file that is looked into."""
+_LARGEST = 64_000_000
+"""Bytes of a drawing or document that is looked into: its text may stand anywhere."""
 
-_SVG = re.compile(rb"<dc:description>(.*?)</dc:description>", re.DOTALL)
-_PDF = re.compile(rb"/Subject \(((?:[^\\()]|\\.)*)\)", re.DOTALL)
+_LONGEST = 1_000_000
+"""Bytes of the text itself, and of the start of a picture or table, where it stands."""
+
+_SVG = b"<dc:description>", b"</dc:description>"
+_COMMENTS = re.compile(rb"(?:#[^\n]*+\n?+)*+")
+_PDF = b"/Subject ("
+# Nothing that is passed over is looked at again.
+_PDF_LITERAL = re.compile(rb"((?:[^\\()]++|\\.)*+)\)", re.DOTALL)
 _PDF_ESCAPE = re.compile(rb"\\([0-7]{1,3}|.)", re.DOTALL)
 _ESCAPED = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
 
@@ -36,46 +50,67 @@ def scene_inside(path: Path) -> Scene:
     ParameterError
         A value in it is out of range.
     """
+    where = one_line(str(path))
     try:
-        if path.stat().st_size > _LARGEST:
-            raise SceneFileError(f"{path} is too large to carry a scene.")
-        scenes = scenes_in(_text_inside(path.suffix.lower(), path.read_bytes()))
-    except OSError as error:
-        raise SceneFileError(f"{path} cannot be read: {error.strerror or error}.") from None
+        text = _READERS[path.suffix.lower()](path)
     except UnicodeDecodeError:
-        scenes = {}
-    if not scenes:
-        raise SceneFileError(f"{path} carries no scene; figures and tables exported here do.")
-    return next(iter(scenes.values()))
+        text = ""
+    try:
+        scene = first_scene_in(text)
+    except SceneFileError as error:
+        raise SceneFileError(f"{where} carries a scene that cannot be read. {error}") from None
+    if scene is None:
+        raise SceneFileError(f"{where} carries no scene; figures and tables exported here do.")
+    return scene
 
 
-def _text_inside(ending: str, content: bytes) -> str:
-    if ending == ".png":
-        return _of_png(content)
-    if ending == ".svg":
-        found = _SVG.search(content)
-        return html.unescape(found[1].decode("utf-8")) if found else ""
-    if ending == ".pdf":
-        found = _PDF.search(content)
-        return _of_pdf(found[1]) if found else ""
-    lines = content.decode("utf-8-sig").splitlines()
-    return "\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
-
-
-def _of_png(content: bytes) -> str:
+def _of_png(path: Path) -> str:
+    start = BytesIO(read_start(path, _LONGEST))
     # Pillow is slow to import, and only needed when a picture is really opened.
-    from io import BytesIO
-
-    from PIL import Image
+    from PIL.PngImagePlugin import PngImageFile
 
     try:
-        with Image.open(BytesIO(content), formats=("PNG",)) as picture:
+        # It reads up to the pixels, and unpacks no more than its own limits allow.
+        with PngImageFile(start) as picture:
             return str(picture.info.get("Description", ""))
     except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
         return ""
 
 
-def _of_pdf(literal: bytes) -> str:
+def _of_svg(path: Path) -> str:
+    content = read_bytes(path, _LARGEST)
+    start, end = _SVG
+    first = content.find(start)
+    last = content.find(end, first)
+    if first < 0 or last < 0:
+        return ""
+    text = content[first + len(start) : min(last, first + _LONGEST)].decode("utf-8")
+    try:
+        return html.unescape(text)
+    except ValueError:  # the number of a character has thousands of digits
+        return ""
+
+
+def _of_csv(path: Path) -> str:
+    comments = _COMMENTS.match(read_start(path, _LONGEST).removeprefix(codecs.BOM_UTF8))
+    lines = comments[0].decode("utf-8").splitlines() if comments else []
+    return "\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
+
+
+def _of_pdf(path: Path) -> str:
+    content = read_bytes(path, _LARGEST)
+    place = content.find(_PDF)
+    while place >= 0:
+        place += len(_PDF)
+        literal = _PDF_LITERAL.match(content, place, place + _LONGEST)
+        if literal:
+            return _literal_text(literal[1])
+        # What follows a start is looked at once, and the next start is beyond it.
+        place = content.find(_PDF, place)
+    return ""
+
+
+def _literal_text(literal: bytes) -> str:
     """Read a PDF's literal string."""
 
     def plain(match: re.Match[bytes]) -> bytes:
@@ -88,3 +123,6 @@ def _of_pdf(literal: bytes) -> str:
     if text.startswith(codecs.BOM_UTF16_BE):
         return text[2:].decode("utf-16-be")
     return text.decode("latin-1")
+
+
+_READERS = {".png": _of_png, ".svg": _of_svg, ".pdf": _of_pdf, ".csv": _of_csv}

@@ -1,5 +1,10 @@
 """Exported figures and tables give their scenes back."""
 
+import os
+import struct
+import subprocess
+import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -79,6 +84,105 @@ def test_a_truncated_figure_is_refused_in_a_sentence(tmp_path: Path) -> None:
             except occ.OccError:
                 continue
             assert isinstance(scene, Scene)
+
+
+def chunk(kind: bytes, data: bytes) -> bytes:
+    """Write a part of a PNG file."""
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+PNG = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 10, 10, 8, 0, 0, 0, 0))
+BOMB = zlib.compress(bytes(1_000_000), 9)
+SVG, SVG_END = b"<dc:description>", b"</dc:description>"
+
+HOSTILE = {
+    "many texts.png": PNG + chunk(b"tEXt", b"a\0") * 230_000,
+    "many zipped texts.png": PNG + chunk(b"zTXt", b"Description\0\0" + BOMB) * 3000,
+    "large zipped text.png": PNG
+    + chunk(b"iTXt", b"Description\0\1\0\0\0" + zlib.compress(bytes(300_000_000), 9)),
+    "profiles.png": PNG + chunk(b"iCCP", b"a\0\0" + BOMB) * 3000,
+    "starts.svg": SVG * 190_000,
+    "ampersands.svg": SVG + b"&" * 3_000_000 + SVG_END,
+    "long number.svg": SVG + b"&#" + b"1" * 900_000 + b";" + SVG_END,
+    "entities.svg": SVG + b"&abcdefghijklmnopqrstuvwxyzabcdef" * 30_000 + SVG_END,
+    "colons.svg": SVG + b"scene " + b":" * 900_000 + b"x" + SVG_END,
+    "key.svg": SVG + b"scene a:\nformat = 1\n" + b"a." * 450_000 + b"a = 1" + SVG_END,
+    "starts.pdf": b"/Subject (" * 300_000,
+    "escaped starts.pdf": b"/Subject (\\" * 300_000,
+    "no end.pdf": b"/Subject (" + b"a" * 3_000_000,
+    "escapes.pdf": b"/Subject (" + b"\\(" * 1_500_000 + b")",
+    "lines.csv": b"#\n" * 1_500_000,
+    "no comments.csv": b"\n" * 3_000_000,
+    "one line.csv": b"#" * 3_000_000,
+    "key.toml": b"format = 1\n" + b"a." * 490_000 + b"a = 1",
+    "keys.toml": b"format = 1\n" + b"[a" + b".a" * 30 + b"]\n" * 15_000,
+}
+
+READ = """
+import resource, sys
+from pathlib import Path
+from occ_model.errors import SceneFileError
+from occ_model.settings import read_scene_file
+from PIL import PngImagePlugin
+
+used = resource.getrusage(resource.RUSAGE_SELF)
+seconds = int(used.ru_utime + used.ru_stime) + 1
+resource.setrlimit(resource.RLIMIT_CPU, (seconds + 5, seconds + 5))
+held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (held + 200_000_000,) * 2)
+for name in sys.argv[1:]:
+    try:
+        read_scene_file(Path(name))
+    except SceneFileError as error:
+        print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only there the limits can be set like this")
+@pytest.mark.parametrize("name", HOSTILE)
+def test_no_file_takes_more_time_and_memory_than_a_small_multiple_of_its_size(
+    tmp_path: Path, name: str
+) -> None:
+    # The process may take 5 s of the processor's time and 200 MB, many times what is needed.
+    path = tmp_path / name
+    path.write_bytes(HOSTILE[name])
+    done = subprocess.run(
+        [sys.executable, "-c", READ, str(path)], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith(str(path))
+    assert len(done.stdout) < len(str(path)) + 300
+
+
+def test_only_the_start_of_a_large_picture_or_table_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read, given = os.read, []
+
+    def counted(descriptor: int, count: int) -> bytes:
+        content = read(descriptor, count)
+        given.append(len(content))
+        return content
+
+    for ending in (".png", ".csv"):
+        path = exported(tmp_path / f"figure{ending}")
+        os.truncate(path, 10**11)  # a hole, which takes no room on the disk
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "read", counted)
+            assert scene_inside(path) == SCENE
+    assert sum(given) <= 2_000_000
+    for ending in (".svg", ".pdf"):
+        path = exported(tmp_path / f"figure{ending}")
+        os.truncate(path, 10**11)
+        with pytest.raises(occ.SceneFileError, match="more than 64,000,000 bytes"):
+            scene_inside(path)
+
+
+def test_the_first_of_many_scenes_is_read_and_no_other(tmp_path: Path) -> None:
+    path = tmp_path / "many.csv"
+    scene = "".join(f"# {line}\n" for line in SCENE.to_toml().splitlines())
+    path.write_text(f"# scene a:\n{scene}" + "# scene b:\n# no scene\n" * 10_000)
+    assert scene_inside(path) == SCENE
 
 
 def test_a_missing_file_is_refused_in_a_sentence(tmp_path: Path) -> None:

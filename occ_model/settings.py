@@ -7,11 +7,13 @@ from pathlib import Path
 from occ_model.checks import check_choice, check_seed
 from occ_model.declarations import ParameterValue
 from occ_model.effects.registry import NAMES
-from occ_model.errors import ParameterError, SceneFileError
+from occ_model.errors import OutputError, ParameterError, SceneFileError, one_line, shown
+from occ_model.input_file import read_text
+from occ_model.output import write_whole
 from occ_model.parameters import parameter_named
 from occ_model.presets import load_preset
 from occ_model.scene import Scene
-from occ_model.scene_inside import ENDINGS, scene_inside
+from occ_model.scene_inside import ENDINGS, SCENE_ENDING, scene_inside
 from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, TOLERANCE, SimulationSettings
 
 DEFAULT_PRESET = "phone-68us"
@@ -30,17 +32,39 @@ def read_scene_file(path: Path) -> Scene:
     """
     if path.suffix.lower() in ENDINGS:
         return scene_inside(path)
-    try:
-        # Some editors begin a file with a byte order mark.
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise SceneFileError(f"{path} cannot be read: {error.strerror or error}.") from None
-    except UnicodeDecodeError:
-        raise SceneFileError(f"{path} is not a scene file: it is not text.") from None
+    text = read_text(path)
     try:
         return Scene.from_toml(text)
     except SceneFileError as error:
-        raise SceneFileError(f"{path} cannot be read. {error}") from None
+        raise SceneFileError(f"{one_line(str(path))} cannot be read. {error}") from None
+
+
+def check_scene_path(path: Path) -> None:
+    """Refuse to save a scene where it would not be opened again.
+
+    Other endings mean figures, tables and photos, to whoever opens a file.
+
+    Raises
+    ------
+    OutputError
+        The file's ending is not that of scenes.
+    """
+    if path.suffix.lower() != SCENE_ENDING:
+        raise OutputError(
+            f"{one_line(str(path))} has no ending of a scene file; use {SCENE_ENDING}."
+        )
+
+
+def write_scene_file(path: Path, scene: Scene) -> None:
+    """Write a scene so that :func:`read_scene_file` reads it.
+
+    Raises
+    ------
+    OutputError
+        The file's ending is not that of scenes, or it cannot be written.
+    """
+    check_scene_path(path)
+    write_whole(path, scene.to_toml().encode("utf-8"))
 
 
 def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
@@ -55,7 +79,7 @@ def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
     for setting in settings:
         name, equals, text = setting.partition("=")
         if not equals:
-            raise ParameterError(f"{setting!r} is no setting; write NAME=VALUE.")
+            raise ParameterError(f"{shown(setting)} is no setting; write NAME=VALUE.")
         changes[name.strip()] = parameter_named(name.strip()).parse(text)
     return scene.replace(**changes)
 
@@ -146,7 +170,9 @@ def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
     for name in (*options.on, *options.off):
         check_choice("effect", name, NAMES)
     for name in set(options.on) & set(options.off):
-        raise ParameterError(f"effect {name!r} is switched both on and off; allowed: one of them.")
+        raise ParameterError(
+            f"effect {shown(name)} is switched both on and off; allowed: one of them."
+        )
     return SimulationSettings(
         tolerance=options.tolerance,
         observable=options.observable,

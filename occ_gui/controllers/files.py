@@ -11,23 +11,21 @@ from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
-from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
+from occ_model.output import PICTURE_ENDINGS, write_image
 from occ_model.photo.load import Photo
 from occ_model.resource_files import resource_path
-from occ_model.scene_inside import ENDINGS, scene_inside
-from occ_model.settings import read_scene_file
+from occ_model.scene_inside import ENDINGS, SCENE_ENDING, scene_inside
+from occ_model.settings import read_scene_file, write_scene_file
 
 _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2"
-
-_SCENE = ".toml"
 
 
 def _has_scene(path: Path) -> bool:
     """Say whether a file is a scene, or a figure or table that carries one."""
     ending = path.suffix.lower()
     if ending != ".png":  # a photo can be one, none of the others
-        return ending == _SCENE or ending in ENDINGS
+        return ending == SCENE_ENDING or ending in ENDINGS
     try:
         scene_inside(path)
     except OccError:
@@ -99,7 +97,7 @@ class FileController(QObject):
     def ask_for_scene(self) -> None:
         """Let the user choose a scene file and open it."""
         kinds = self.tr("Scenes and figures ({patterns});;All files (*)").format(
-            patterns=" ".join(f"*{ending}" for ending in (_SCENE, *ENDINGS))
+            patterns=" ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
         )
         name, _ = QFileDialog.getOpenFileName(
             self._window, self.tr("Open scene"), self._memory.folder, kinds
@@ -124,7 +122,7 @@ class FileController(QObject):
 
     def open_sample(self, path: Path) -> None:
         """Open a photo that comes with the program, with the scene that belongs to it."""
-        scene = path.with_suffix(_SCENE)
+        scene = path.with_suffix(SCENE_ENDING)
         if scene.is_file():
             self._put_scene(scene)
         self._photos.open(path)
@@ -157,8 +155,8 @@ class FileController(QObject):
         """Open a scene file; a bad one leaves the scene as it is."""
         if self._put_scene(path):
             self._memory.add(path)
-            if path.suffix.lower() in ENDINGS:
-                # The file stays a figure: it is not what the scene is saved to.
+            if path.suffix.lower() != SCENE_ENDING:
+                # The file stays what it is: it is not what the scene is saved to.
                 said = self.tr("Opened the scene inside {name}")
             else:
                 said = self.tr("Opened {name}")
@@ -182,12 +180,12 @@ class FileController(QObject):
         )  # fmt: skip
         if name:
             path = Path(name)
-            self.save_scene(path if path.suffix else path.with_suffix(_SCENE))
+            self.save_scene(path if path.suffix else path.with_suffix(SCENE_ENDING))
 
     def save_scene(self, path: Path) -> None:
         """Write the scene to a file."""
-        content = self._store.scene.to_toml().encode("utf-8")
-        if self._save(path, lambda: write_whole(path, content)):
+        scene = self._store.scene
+        if self._save(path, lambda: write_scene_file(path, scene)):
             self._memory.add(path)
             self.scene_saved.emit(path)
 

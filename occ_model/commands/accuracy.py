@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from occ_model.commands.parser import Commands
+from occ_model.errors import one_line
 from occ_model.output import make_folder
 from occ_model.results import AccuracyPoint
 from occ_model.settings import (
@@ -45,7 +46,7 @@ def _run(options: argparse.Namespace) -> int:
         from occ_model.export.accuracy_figure import write_accuracy_figure
 
         write_accuracy_figure(options.out, scene, settings, points)
-        print(f"{options.out}: the figure as PDF, PNG and CSV")
+        print(f"{one_line(str(options.out))}: the figure as PDF, PNG and CSV")
     return 0
 
 

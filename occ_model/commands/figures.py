@@ -6,6 +6,7 @@ from pathlib import Path
 
 from occ_model.checks import check_count, check_seed
 from occ_model.commands.parser import Commands
+from occ_model.errors import one_line
 from occ_model.output import make_folder
 from occ_model.photo.load import Photo, load_photo
 from occ_model.receiver.decoders import DECODERS, PAPERS
@@ -38,7 +39,7 @@ def _run(options: argparse.Namespace) -> int:
     make_folder(options.out)
     with house_style():
         _draw_figures(options, photos)
-    print(f"{options.out}: figures 2 to 6 as PDF, PNG and CSV")
+    print(f"{one_line(str(options.out))}: figures 2 to 6 as PDF, PNG and CSV")
     return 0
 
 

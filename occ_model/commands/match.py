@@ -6,13 +6,13 @@ from pathlib import Path
 
 from occ_model.commands.parser import Commands
 from occ_model.declarations import Quantity
-from occ_model.output import write_whole
+from occ_model.errors import one_line
 from occ_model.parameters import PARAMETERS, parameter_named
 from occ_model.photo.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.photo.match import ESTIMATES, SENT, match_photo
 from occ_model.results import Match
 from occ_model.scene import Scene
-from occ_model.settings import add_scene_options, scene_of
+from occ_model.settings import add_scene_options, check_scene_path, scene_of, write_scene_file
 
 _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
@@ -47,13 +47,15 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--channel", choices=CHANNELS, default=CHANNELS[0], help="default: %(default)s"
     )
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the fitted scene here")
+    parser.add_argument("--out", type=Path, metavar="FILE.toml", help="write the fitted scene here")
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
+    if options.out:
+        check_scene_path(options.out)  # rather than after seconds of work
     scene = scene_of(options)
     if options.led_frequency is not None:
         scene = _square_wave(scene, options.led_frequency)
@@ -72,8 +74,8 @@ def _run(options: argparse.Namespace) -> int:
     for line in _report(match):
         print(line)
     if options.out:
-        write_whole(options.out, match.scene.to_toml().encode("utf-8"))
-        print(f"{options.out}: the fitted scene")
+        write_scene_file(options.out, match.scene)
+        print(f"{one_line(str(options.out))}: the fitted scene")
     return 0
 
 

@@ -4,12 +4,15 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.parser import Commands
-from occ_model.output import write_image, write_whole
+from occ_model.errors import one_line
+from occ_model.output import write_image
 from occ_model.settings import (
     add_scene_options,
     add_simulation_options,
+    check_scene_path,
     scene_of,
     simulation_settings_of,
+    write_scene_file,
 )
 from occ_model.simulation import render
 
@@ -20,18 +23,21 @@ def add_to(commands: Commands) -> None:
     add_scene_options(parser)
     add_simulation_options(parser)
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
-    parser.add_argument("--save-scene", type=Path, metavar="FILE", help="also write the scene")
+    parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.save_scene:
+        check_scene_path(options.save_scene)  # before there is a picture and no scene
     scene = scene_of(options)
     settings = simulation_settings_of(options)
     frame = render(scene, **settings.arguments())
     write_image(options.out, frame.image)
     if options.save_scene:
-        write_whole(options.save_scene, scene.to_toml().encode("utf-8"))
+        write_scene_file(options.save_scene, scene)
     rows, columns = frame.image.shape
     milliseconds = 1e3 * sum(frame.timings.values())
-    print(f"{options.out}: {columns} columns, {rows} rows, simulated in {milliseconds:.1f} ms")
+    name = one_line(str(options.out))
+    print(f"{name}: {columns} columns, {rows} rows, simulated in {milliseconds:.1f} ms")
     return 0

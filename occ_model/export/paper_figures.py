@@ -13,7 +13,7 @@ from matplotlib.patches import Polygon
 from occ_model.arrays import FloatArray
 from occ_model.band_model import band_profile
 from occ_model.camera.projection import row_spans
-from occ_model.errors import BandModelUndefined
+from occ_model.errors import BandModelUndefined, one_line
 from occ_model.export.drawing import BAND, PHOTO, SIMULATION, save_figure
 from occ_model.export.tables import write_table
 from occ_model.photo.load import Photo
@@ -114,7 +114,8 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = METRE.format(scene.pose.distance)
     title = f"Figure {number}: pixel values, {preset} at {frequency} and {distance}"
-    notes = () if photo is None else (f"photo {photo.path.name}, drawn from column {first}",)
+    drawn = f"photo {one_line(photo.path.name)}, drawn from column {first}" if photo else ""
+    notes = (drawn,) if drawn else ()
     provenance = Provenance(title, {preset: scene}, notes=notes)
     save_figure(figure, folder, f"figure-{number}", provenance)
     names = [name for name, values in shown.items() if values is not None]

@@ -93,6 +93,26 @@ def test_a_scene_that_cannot_be_written_says_so_and_leaves_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("name", ["scene.csv", "scene.png", "scene.jpg", "scene.txt", "scene"])
+def test_a_scene_is_not_saved_where_it_would_not_open_again(
+    bench: Bench, tmp_path: Path, name: str
+) -> None:
+    bench.files.save_scene(tmp_path / name)
+    assert bench.said == [f"{tmp_path / name} has no ending of a scene file; use .toml."]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_scene_file_of_another_name_is_opened_and_saved_to_a_new_one(
+    bench: Bench, tmp_path: Path, qtbot: QtBot
+) -> None:
+    path = tmp_path / "scene.txt"
+    path.write_text(Scene().to_toml(), encoding="utf-8")
+    with qtbot.assertNotEmitted(bench.files.scene_opened):
+        bench.files.open_scene(path)
+    assert bench.store.scene == Scene()
+    assert bench.said == ["Opened the scene inside scene.txt"]
+
+
 @pytest.mark.parametrize("ending", ["png", "bmp", "tif"])
 def test_a_saved_picture_is_exactly_the_one_shown(
     bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot], ending: str

@@ -82,6 +82,26 @@ def test_a_saved_scene_renders_the_same_picture_again(command: Command, tmp_path
     assert first.read_bytes() == again.read_bytes()
 
 
+@pytest.mark.parametrize("name", ["scene.csv", "scene.png", "scene.jpg", "scene", "scene.txt"])
+def test_a_scene_that_would_not_open_again_is_refused_before_anything_is_written(
+    command: Command, tmp_path: Path, name: str
+) -> None:
+    scene, picture = tmp_path / name, tmp_path / "picture.png"
+    refused = f"occ-model: {scene} has no ending of a scene file; use .toml.\n"
+    rendered = command("render", *SMALL, "-o", picture, "--save-scene", scene)
+    assert (rendered.code, rendered.err) == (2, refused)
+    # Said before the photo, which there is none, is looked for.
+    matched = command("match", picture, "--out", scene)
+    assert (matched.code, matched.err) == (2, refused)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_name_of_a_file_is_printed_in_one_line(command: Command, tmp_path: Path) -> None:
+    rendered = command("render", *SMALL, "-o", tmp_path / "a\n\x1b[31m.png")
+    assert rendered.code == 0
+    assert rendered.out.startswith(f"{tmp_path}/a\\n\\x1b[31m.png: 3456 columns")
+
+
 def test_decode_reads_as_many_bits_as_the_scene_has(command: Command, tmp_path: Path) -> None:
     path = tmp_path / "picture.png"
     bits = ("--set", "bits=6", "--set", "code=44")
@@ -150,7 +170,7 @@ MISUSES = {
     "render --set yaw=80° --set distance=0.2m": "Turned like this at a distance of 0.2 m, ",
     "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
     "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",
-    "render --scene folder.png": "folder.png cannot be read: Is a directory.",
+    "render --scene folder.png": "folder.png cannot be read: it is a folder.",
     "render --scene text.txt": "text.txt cannot be read. This is not a TOML file: ",
     "render -o missing/out.png": "missing/out.png cannot be written: No such file or directory.",
     "render -o folder.png": "folder.png is a folder; name a file to write to.",

@@ -8,10 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from occ_model.declarations import Quantity
-from occ_model.errors import ParameterError, SceneFileError
+from occ_model.errors import OutputError, ParameterError, SceneFileError
+from occ_model.output import PICTURE_ENDINGS
 from occ_model.parameters import PARAMETERS
 from occ_model.scene import Scene
-from occ_model.settings import read_scene_file, with_settings
+from occ_model.scene_inside import ENDINGS
+from occ_model.settings import read_scene_file, with_settings, write_scene_file
 
 QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
 
@@ -95,6 +97,26 @@ def test_a_scene_file_is_read(tmp_path: Path) -> None:
     assert read_scene_file(path) == scene
 
 
+@pytest.mark.parametrize("name", ["scene.toml", "scene.TOML", "a.png.toml", "Szene µ.toml"])
+def test_a_saved_scene_opens_again(tmp_path: Path, name: str) -> None:
+    scene = Scene().replace(switching_frequency=14e3, pattern="0110")
+    write_scene_file(tmp_path / name, scene)
+    assert read_scene_file(tmp_path / name) == scene
+
+
+@pytest.mark.parametrize(
+    "name", [*(f"scene{ending}" for ending in (*ENDINGS, *PICTURE_ENDINGS)), "a.txt", "a", ".toml"]
+)
+def test_a_scene_is_not_saved_under_an_ending_that_means_something_else(
+    tmp_path: Path, name: str
+) -> None:
+    path = tmp_path / name
+    with pytest.raises(OutputError) as refused:
+        write_scene_file(path, Scene())
+    assert str(refused.value) == f"{path} has no ending of a scene file; use .toml."
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_scene_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
     scene = Scene().replace(iso=200)
     path = tmp_path / "scene.toml"
@@ -112,7 +134,7 @@ def test_a_missing_scene_file_is_refused_by_its_name(tmp_path: Path) -> None:
 def test_a_folder_is_no_scene_file(tmp_path: Path) -> None:
     with pytest.raises(SceneFileError) as refused:
         read_scene_file(tmp_path)
-    assert str(refused.value) == f"{tmp_path} cannot be read: Is a directory."
+    assert str(refused.value) == f"{tmp_path} cannot be read: it is a folder."
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"\x89PNG\r\n\x1a\n", b"format = 1 # \xe9"])
@@ -121,7 +143,7 @@ def test_a_file_that_is_not_text_is_no_scene_file(tmp_path: Path, content: bytes
     path.write_bytes(content)
     with pytest.raises(SceneFileError) as refused:
         read_scene_file(path)
-    assert str(refused.value) == f"{path} is not a scene file: it is not text."
+    assert str(refused.value) == f"{path} cannot be read: it is not text in UTF-8."
 
 
 @pytest.mark.parametrize(
@@ -140,8 +162,7 @@ def test_a_scene_file_that_may_not_be_read_is_refused_with_the_reason(
 
     path = tmp_path / "scene.toml"
     path.write_text("format = 1")
-    for reader in ("open", "read_text", "read_bytes"):
-        monkeypatch.setattr(Path, reader, fail)
+    monkeypatch.setattr(os, "read", fail)
     with pytest.raises(SceneFileError) as refused:
         read_scene_file(path)
     assert str(refused.value) == f"{path} cannot be read: {reason}."

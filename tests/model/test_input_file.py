@@ -1,0 +1,156 @@
+"""Files of the user's are read if they are regular files of a bounded size, and refused if not."""
+
+import os
+import socket
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from occ_model.cli import main
+from occ_model.errors import SceneFileError
+from occ_model.input_file import LARGEST_TEXT, read_bytes, read_start, read_text
+from occ_model.presets import USER_FOLDER, preset_named, presets, unreadable_presets
+from occ_model.scene import Scene
+from occ_model.scene_inside import ENDINGS
+from occ_model.settings import read_scene_file
+from occ_model.teaching.explorations import read_exploration
+
+posix = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no such files")
+
+
+def make_pipe(path: Path) -> None:
+    os.mkfifo(path)
+
+
+def make_link_to_device(path: Path) -> None:
+    path.symlink_to("/dev/zero")
+
+
+def make_socket(path: Path) -> None:
+    with socket.socket(socket.AF_UNIX) as listener:
+        # A socket's path is short, whatever the folder of the tests.
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            listener.bind(f"/proc/self/fd/{folder}/{path.name}")
+        finally:
+            os.close(folder)
+
+
+NO_FILES = [make_pipe, make_link_to_device, make_socket]
+
+limited = pytest.mark.parametrize("make", NO_FILES)
+
+
+def test_a_file_is_read_whole_up_to_the_limit(tmp_path: Path) -> None:
+    path = tmp_path / "file"
+    content = os.urandom(3_000_000)
+    path.write_bytes(content)
+    assert read_bytes(path, 3_000_000) == content
+    assert read_start(path, 2_500_000) == content[:2_500_000]
+    with pytest.raises(SceneFileError) as refused:
+        read_bytes(path, 2_999_999)
+    assert str(refused.value) == f"{path} cannot be read: it has more than 2,999,999 bytes."
+
+
+def test_no_more_than_the_limit_is_read_of_a_file_that_does_not_know_its_size(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    path = tmp_path / "endless"
+    path.touch()
+    asked: list[int] = []
+
+    def endless(_descriptor: int, count: int) -> bytes:
+        asked.append(count)
+        return bytes(count)
+
+    monkeypatch.setattr(os, "read", endless)
+    with pytest.raises(SceneFileError, match="more than"):
+        read_bytes(path, 5_000_000)
+    assert sum(asked) == 5_000_001
+
+
+def test_a_text_loses_its_byte_order_mark_and_nothing_else(tmp_path: Path) -> None:
+    path = tmp_path / "text"
+    path.write_text("µ\r\nx", encoding="utf-8-sig", newline="")
+    assert read_text(path) == "µ\r\nx"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(SceneFileError, match=r"cannot be read: it is not text in UTF-8\.$"):
+        read_text(path)
+
+
+@posix
+@limited
+def test_what_is_no_regular_file_is_refused_at_once(
+    tmp_path: Path, make: Callable[[Path], None]
+) -> None:
+    path = tmp_path / "thing"
+    make(path)
+    with pytest.raises(SceneFileError) as refused:
+        read_bytes(path, 10)
+    assert str(refused.value) == f"{path} cannot be read: it is a device, pipe or socket."
+
+
+def test_a_folder_is_refused_as_one(tmp_path: Path) -> None:
+    with pytest.raises(SceneFileError, match=r"cannot be read: it is a folder\.$"):
+        read_bytes(tmp_path, 10)
+
+
+@pytest.mark.parametrize("name", ["a\0b", "a" * 5000, "missing\n\x1b[31m"])
+def test_a_name_that_no_file_has_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
+    with pytest.raises(SceneFileError) as refused:
+        read_bytes(tmp_path / name, 10)
+    assert str(refused.value).isprintable()
+    assert len(str(refused.value)) < 300
+
+
+@posix
+def test_no_file_stays_open(tmp_path: Path) -> None:
+    large = tmp_path / "large"
+    large.write_bytes(b"xx")
+    descriptors = Path("/proc/self/fd")
+    before = sorted(descriptors.iterdir())
+    for path in (large, tmp_path, tmp_path / "missing"):
+        with pytest.raises(SceneFileError):
+            read_bytes(path, 1)
+    assert sorted(descriptors.iterdir()) == before
+
+
+@posix
+@limited
+@pytest.mark.parametrize("ending", [".toml", *ENDINGS])
+def test_every_reader_of_scenes_refuses_what_is_no_regular_file(
+    tmp_path: Path, make: Callable[[Path], None], ending: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / f"scene{ending}"
+    make(path)
+    with pytest.raises(SceneFileError, match="device, pipe or socket"):
+        read_scene_file(path)
+    with pytest.raises(SceneFileError, match="device, pipe or socket"):
+        read_exploration(path)
+    assert main(["plan", "--scene", str(path)]) == 2
+    assert "device, pipe or socket" in capsys.readouterr().err
+
+
+@posix
+@limited
+def test_a_preset_that_is_no_regular_file_is_listed_as_unreadable(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path], None]
+) -> None:
+    monkeypatch.setenv(USER_FOLDER, str(tmp_path))
+    before = presets()
+    make(tmp_path / "odd.toml")
+    assert presets() == before
+    assert "device, pipe or socket" in unreadable_presets()["odd"]
+    with pytest.raises(SceneFileError, match="device, pipe or socket"):
+        preset_named("odd")
+
+
+def test_a_scene_of_more_than_the_limit_is_refused_before_it_is_read_whole(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    text = Scene().to_toml()
+    path.write_text(text + "#" * (LARGEST_TEXT - len(text)))
+    assert read_scene_file(path) == Scene()
+    os.truncate(path, 10**12)  # a hole, which takes no room on the disk
+    with pytest.raises(SceneFileError, match="more than 1,000,000 bytes"):
+        read_scene_file(path)

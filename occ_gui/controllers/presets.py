@@ -1,7 +1,6 @@
 """Presets: those of the program and the user's own, loaded, saved and deleted."""
 
 import re
-from collections.abc import Collection
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
@@ -69,8 +68,8 @@ class PresetController(QObject):
         """Put a preset's scene in place of the scene, as one step."""
         try:
             scene = preset_named(name).scene
-        except Exception as error:  # noqa: BLE001 - its file may have become anything meanwhile
-            self.said.emit(_reason(error))
+        except OccError as error:  # its file may have become anything meanwhile
+            self.said.emit(one_line(str(error), LONGEST))
             self._update()
             return
         self._store.put(scene, self.tr("preset {name}").format(name=name), new_gesture())

@@ -1,12 +1,13 @@
 """Results to files: complete or not at all."""
 
+import os
 import stat
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import OutputError
+from occ_model.errors import OutputError, one_line
 
 _FORMATS = {
     ".png": "PNG",
@@ -34,13 +35,14 @@ def write_whole(path: Path, content: bytes) -> None:
     Raises
     ------
     OutputError
-        It cannot be written, or is no regular file; what was there before is untouched.
+        It cannot be written, is write-protected, or is no regular file; what was there before is
+        untouched.
     """
+    permissions = check_replaceable(path)
     try:
-        permissions = _permissions_of(path)
         _replace(path.resolve(), content, permissions)
     except OSError as error:
-        raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from None
+        raise _unwritable(path, error) from None
 
 
 def write_image(path: Path, image: ByteArray) -> None:
@@ -55,27 +57,54 @@ def write_image(path: Path, image: ByteArray) -> None:
     write_whole(path, _encoded(path, image))
 
 
-def _permissions_of(path: Path) -> int | None:
-    """Give the permissions of a file that may be replaced, None where there is none yet."""
+def check_replaceable(path: Path) -> int | None:
+    """Refuse a path that no file can be written to.
+
+    Returns
+    -------
+    int or None
+        The permissions of the file that is there, None where there is none yet.
+
+    Raises
+    ------
+    OutputError
+        It is no regular file, is write-protected, or cannot be a path.
+    """
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:
         return None
+    except (OSError, ValueError) as error:  # a ValueError where no path can be so
+        raise _unwritable(path, error) from None
+    name = one_line(str(path))
     if stat.S_ISDIR(mode):
-        raise OutputError(f"{path} is a folder; name a file to write to.")
+        raise OutputError(f"{name} is a folder; name a file to write to.")
     if not stat.S_ISREG(mode):
-        raise OutputError(f"{path} is a device, pipe or socket; name a regular file to write to.")
+        raise OutputError(f"{name} is a device, pipe or socket; name a regular file to write to.")
+    # The administrator may write to any file; a protection is meant all the same.
+    if not mode & _ANY_WRITE or not os.access(path, os.W_OK):
+        raise OutputError(f"{name} is write-protected; name another file, or allow writing to it.")
     return stat.S_IMODE(mode)
+
+
+_ANY_WRITE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
+
+
+def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
+    reason = getattr(error, "strerror", None) or error
+    return OutputError(f"{one_line(str(path))} cannot be written: {reason}.")
 
 
 def _replace(path: Path, content: bytes, permissions: int | None) -> None:
     """Put a file in the place of another in one step."""
     temporary = path.with_name(f".{path.name}.{token_hex(4)}")
-    temporary.touch(exist_ok=False)  # with the permissions that new files get
+    # In the place of a file that is there nobody else may read a byte before its mode is set.
+    mode = 0o666 if permissions is None else 0o600
+    os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode))
     try:
-        temporary.write_bytes(content)
         if permissions is not None:
             temporary.chmod(permissions)
+        temporary.write_bytes(content)
         temporary.replace(path)
     except BaseException:  # whatever happens, nothing half-written stays
         temporary.unlink(missing_ok=True)
@@ -87,12 +116,13 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
     if format_name is None:
         *endings, last = PICTURE_ENDINGS
         raise OutputError(
-            f"{path.name} has no ending of an image format; use {', '.join(endings)} or {last}."
+            f"{one_line(path.name)} has no ending of an image format; "
+            f"use {', '.join(endings)} or {last}."
         )
     longest = LONGEST_SIDE.get(format_name)
     if longest is not None and max(image.shape) > longest:
         raise OutputError(
-            f"{path.name} cannot be encoded as {format_name}: the picture has "
+            f"{one_line(path.name)} cannot be encoded as {format_name}: the picture has "
             f"{image.shape[1]:,} x {image.shape[0]:,} pixels; allowed: at most {longest:,} a side."
         )
     # Pillow is slow to import, and only needed when a file is really written.
@@ -102,7 +132,9 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
     try:
         Image.fromarray(image).save(buffer, format=format_name)
     except (OSError, ValueError) as error:
-        raise OutputError(f"{path.name} cannot be encoded as {format_name}: {error}.") from None
+        raise OutputError(
+            f"{one_line(path.name)} cannot be encoded as {format_name}: {error}."
+        ) from None
     return buffer.getvalue()
 
 
@@ -116,5 +148,6 @@ def make_folder(folder: Path) -> None:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder} cannot be made: {error.strerror or error}.") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(f"{one_line(str(folder))} cannot be made: {reason}.") from None

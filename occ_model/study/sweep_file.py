@@ -6,7 +6,6 @@ over the numbers, and are compared with what that sweep would write.
 """
 
 import os
-import stat
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -14,8 +13,8 @@ from time import monotonic
 from types import TracebackType
 from typing import BinaryIO, Self
 
-from occ_model.errors import OutputError
-from occ_model.output import write_whole
+from occ_model.errors import OutputError, one_line, shown
+from occ_model.output import check_replaceable, write_whole
 from occ_model.results import SweepPoint, SweepRequest, SweepTable
 from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_text
 from occ_model.study.file_lock import is_locked_by_us
@@ -47,6 +46,7 @@ class ResultsFile:
 
     def __init__(self, path: Path, request: SweepRequest, intervals: Intervals) -> None:
         self._path = path
+        self._name = one_line(str(path))
         self._request = request
         self._intervals = intervals
         self._header = header_text(request).encode("utf-8")
@@ -74,8 +74,8 @@ class ResultsFile:
     def _opened(self) -> BinaryIO:
         """Open the file and lock it; where it was replaced in between, open the new one."""
         while True:
+            check_replaceable(self._path)
             try:
-                self._refuse_no_file()
                 descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT | _BINARY, 0o666)
                 file = os.fdopen(descriptor, "r+b", buffering=0)
             except OSError as error:
@@ -83,25 +83,13 @@ class ResultsFile:
             if not is_locked_by_us(file):
                 file.close()
                 raise OutputError(
-                    f"{self._path} is being written by another sweep; wait for it, or name another "
+                    f"{self._name} is being written by another sweep; wait for it, or name another "
                     "file."
                 )
             with suppress(FileNotFoundError):
                 if os.path.samestat(os.fstat(file.fileno()), self._path.stat()):
                     return file
             file.close()
-
-    def _refuse_no_file(self) -> None:
-        try:
-            mode = self._path.stat().st_mode
-        except FileNotFoundError:
-            return
-        if stat.S_ISDIR(mode):
-            raise OutputError(f"{self._path} is a folder; name a file to write to.")
-        if not stat.S_ISREG(mode):
-            raise OutputError(
-                f"{self._path} is a device, pipe or socket; name a regular file to write to."
-            )
 
     def _check_header(self) -> None:
         """Refuse the file of anything else; begin one that is new, or was only just begun."""
@@ -113,17 +101,18 @@ class ResultsFile:
             self._write(self._header, keep=0)
             return
         if not there.startswith(TITLE.encode("utf-8")):
-            raise OutputError(f"{self._path} holds no results of a sweep; name another file.")
+            raise OutputError(f"{self._name} holds no results of a sweep; name another file.")
         wanted = self._header.decode("utf-8").splitlines()
         found = there.decode("utf-8", errors="replace").splitlines()
         last = len(found) - 1  # which was not read whole, where lines before it are longer
         for place, (mine, other) in enumerate(zip(wanted, found, strict=False)):
             if mine != other and not (place == last and mine.startswith(other)):
                 raise OutputError(
-                    f"{self._path} holds the results of another sweep: it says {_short(other)!r} "
-                    f"where this one has {_short(mine)!r}; name another file."
+                    f"{self._name} holds the results of another sweep: it says "
+                    f"{shown(_short(other))} where this one has {shown(_short(mine))}; name "
+                    "another file."
                 )
-        raise OutputError(f"{self._path} was changed by another program; name another file.")
+        raise OutputError(f"{self._name} was changed by another program; name another file.")
 
     def points_there(self) -> Iterator[SweepPoint]:
         """Read the points that the file holds already; what was torn at its end is cut off.
@@ -149,7 +138,7 @@ class ResultsFile:
                 point = reader.read(text.decode("utf-8", errors="replace").splitlines())
                 if point is None or seen[point.index] or self._text(point) != text:
                     raise OutputError(
-                        f"{self._path} holds something else in line {line_number + 1}: it is no "
+                        f"{self._name} holds something else in line {line_number + 1}: it is no "
                         "new row of this sweep; mend or remove it, or name another file."
                     )
                 seen[point.index] = 1
@@ -207,7 +196,7 @@ class ResultsFile:
             raise self._unwritable(error) from None
 
     def _unwritable(self, error: OSError) -> OutputError:
-        return OutputError(f"{self._path} cannot be written: {error.strerror or error}.")
+        return OutputError(f"{self._name} cannot be written: {error.strerror or error}.")
 
 
 _BINARY = getattr(os, "O_BINARY", 0)

@@ -15,7 +15,7 @@ from hypothesis.extra import numpy as arrays
 from PIL import Image
 
 from occ_model.errors import OutputError
-from occ_model.output import PICTURE_ENDINGS, write_image, write_whole
+from occ_model.output import PICTURE_ENDINGS, make_folder, write_image, write_whole
 
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
 
@@ -34,11 +34,18 @@ def half_written(path: Path, content: bytes) -> NoReturn:
     full_disk()
 
 
-@pytest.fixture(params=["touch", "write_bytes", "chmod", "replace"])
+STEPS: dict[str, tuple[object, str, object]] = {
+    "open": (os, "open", full_disk),
+    "write": (Path, "write_bytes", half_written),
+    "chmod": (Path, "chmod", full_disk),
+    "replace": (Path, "replace", full_disk),
+}
+
+
+@pytest.fixture(params=STEPS)
 def full(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Let the disk be full at each step of writing in turn."""
-    step = request.param
-    monkeypatch.setattr(Path, step, half_written if step == "write_bytes" else full_disk)
+    monkeypatch.setattr(*STEPS[request.param])
     yield
     monkeypatch.undo()
 
@@ -77,7 +84,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(full: None, tmp_path: 
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("full", ["touch", "write_bytes", "replace"], indirect=True)
+@pytest.mark.parametrize("full", ["open", "write", "replace"], indirect=True)
 def test_a_full_disk_leaves_no_new_file(full: None, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"No space left on device\.$"):
         write_image(tmp_path / "picture.png", IMAGE)
@@ -281,3 +288,65 @@ def test_a_picture_too_long_for_its_format_is_refused_with_the_longest_side(
 def test_a_name_too_long_for_the_file_system_is_refused_in_a_sentence(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="cannot be written"):
         write_whole(tmp_path / ("a" * 300), b"content")
+
+
+@pytest.mark.parametrize("through_a_link", [False, True])
+def test_a_write_protected_file_is_not_replaced(tmp_path: Path, through_a_link: bool) -> None:
+    path = file = tmp_path / "file.bin"
+    file.write_bytes(b"kept")
+    file.chmod(0o444)
+    if through_a_link:
+        path = tmp_path / "link"
+        path.symlink_to(file)
+    with pytest.raises(OutputError) as refused:
+        write_whole(path, b"new")
+    assert str(refused.value) == (
+        f"{path} is write-protected; name another file, or allow writing to it."
+    )
+    assert (file.read_bytes(), stat.S_IMODE(file.stat().st_mode)) == (b"kept", 0o444)
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o666])
+def test_what_is_written_can_never_be_read_by_more_than_the_file_allows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: int
+) -> None:
+    path = tmp_path / "private.toml"
+    path.write_bytes(b"old")
+    path.chmod(mode)
+    seen: list[tuple[str, int]] = []
+    plain_open, plain_write = os.open, Path.write_bytes
+
+    def watched_open(name: Path, flags: int, wanted: int = 0o777) -> int:
+        descriptor = plain_open(name, flags, wanted)
+        seen.append(("made", stat.S_IMODE(os.fstat(descriptor).st_mode)))
+        return descriptor
+
+    def watched_write(name: Path, content: bytes) -> int:
+        seen.append(("written", stat.S_IMODE(name.stat().st_mode)))
+        return plain_write(name, content)
+
+    monkeypatch.setattr(os, "open", watched_open)
+    monkeypatch.setattr(Path, "write_bytes", watched_write)
+    write_whole(path, b"secret")
+    monkeypatch.undo()
+    assert seen == [("made", 0o600), ("written", mode)]
+    assert path.read_bytes() == b"secret"
+
+
+@pytest.mark.parametrize("name", [b"caf\xe9.png", b"\xff\xfe.png", b"name\nline.png"])
+def test_a_name_that_is_no_text_is_written_to_and_shown(tmp_path: Path, name: bytes) -> None:
+    path = tmp_path / os.fsdecode(name)
+    write_image(path, IMAGE)
+    assert [os.fsencode(file.name) for file in tmp_path.iterdir()] == [name]
+    path.chmod(0o444)
+    with pytest.raises(OutputError) as refused:
+        write_image(path, IMAGE)
+    assert str(refused.value).isprintable()
+    str(refused.value).encode()
+
+
+def test_a_path_that_no_file_can_have_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"a\\x00b cannot be written: embedded null byte\."):
+        write_whole(tmp_path / "a\0b", b"x")
+    with pytest.raises(OutputError, match=r"a\\x00b cannot be made: embedded null byte\."):
+        make_folder(tmp_path / "a\0b")

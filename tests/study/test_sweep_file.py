@@ -251,3 +251,15 @@ def test_a_link_is_followed(scene: Scene, whole: bytes, tmp_path: Path) -> None:
     run(scene, link)
     assert link.is_symlink()
     assert path.read_bytes() == whole
+
+
+def test_results_are_not_appended_to_a_write_protected_file(
+    scene: Scene, whole: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "r.csv"
+    part = whole[: header_size(whole)]
+    path.write_bytes(part)
+    path.chmod(0o444)
+    with pytest.raises(occ.OutputError, match=r"r\.csv is write-protected; name another file"):
+        run(scene, path)
+    assert path.read_bytes() == part

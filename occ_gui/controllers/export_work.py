@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from occ_gui.controllers.export_folder import folder_aside, remove_left_behind
 from occ_model.errors import OutputError
-from occ_model.output import make_folder
+from occ_model.output import check_replaceable, make_folder
 from occ_model.provenance import Provenance
 from occ_model.scene import Scene
 from occ_model.simulation_settings import SimulationSettings
@@ -126,6 +126,8 @@ def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
                 [drawing for drawing, _ in drawn.values()],
                 lambda drawing: drawn[id(drawing)][1].provenance(drawing),
             )
+            for path in written:
+                check_replaceable(folder / path.name)
             return [path.replace(folder / path.name) for path in written]
     except OSError as error:
         raise OutputError(f"{folder} cannot be written to: {error.strerror or error}.") from None

@@ -195,6 +195,21 @@ def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_write_protected_figure_is_not_replaced_nor_any_other_then(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    application.desktop.export.controller.export_all(tmp_path)
+    user.rest()
+    files = sorted(tmp_path.iterdir())
+    for file in files:
+        file.write_bytes(b"kept")
+    files[-1].chmod(0o444)
+    application.desktop.export.controller.export_all(tmp_path)
+    user.rest()
+    assert f"{files[-1].name} is write-protected" in user.message
+    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == dict.fromkeys(files, b"kept")
+
+
 def test_a_mistake_of_ours_while_drawing_is_a_sentence_and_the_next_export_works(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

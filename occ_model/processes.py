@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import tempfile
 import threading
 from collections.abc import Iterator, Sequence
@@ -48,8 +49,53 @@ def _has_room_for_a_socket() -> bool:
 
 
 @contextmanager
-def single_threads() -> Iterator[None]:
-    """Let processes started meanwhile do linear algebra in one thread: they are many themselves."""
+def worker_start() -> Iterator[None]:
+    """Prepare the start of workers within the context.
+
+    They do linear algebra in one thread, as they are many themselves, and Ctrl-C reaches them at no
+    moment of their lives. Here it is answered when all are started: half of a start would leave
+    workers that nobody knows.
+    """
+    with interrupts_held(), _interrupts_blocked(), _single_threads():
+        yield
+
+
+@contextmanager
+def interrupts_held() -> Iterator[None]:
+    """Answer Ctrl-C at the end of the context; outside the main thread it does not come anyway."""
+    answer = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(answer):
+        yield
+        return
+    came: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, _frame: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, answer)
+        if came:
+            signal.raise_signal(signal.SIGINT)
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Let processes started meanwhile have Ctrl-C blocked, as they have what this thread has."""
+    if sys.platform == "win32":
+        yield
+        return
+    # It would be started by the first process, and let Ctrl-C through again when it was.
+    from multiprocessing import resource_tracker
+
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _single_threads() -> Iterator[None]:
     before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     try:

@@ -6,7 +6,7 @@ from time import monotonic
 from typing import Any
 
 from occ_gui.tasks.parcel import SLOTS, Outcome, Task, do_task
-from occ_model.processes import begin_worker, process_context, single_threads
+from occ_model.processes import begin_worker, process_context, worker_start
 
 _NICENESS = 10
 """How far the processes stand back behind the window."""
@@ -50,7 +50,7 @@ class WorkerProcesses:
 
     def submit(self, task: Task) -> "Future[Outcome]":
         """Hand over a task."""
-        with single_threads():
+        with worker_start():
             return self._pool.submit(work, task)
 
     def abandon(self, lane: int, run: int) -> None:

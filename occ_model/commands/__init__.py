@@ -1,1 +1,32 @@
 """The commands of ``occ-model``, one file each: ``add_to`` says what it takes and does."""
+
+import argparse
+from collections.abc import Sequence
+
+from occ_model.commands import (
+    accuracy,
+    decode,
+    figures,
+    limits,
+    listing,
+    match,
+    plan,
+    render,
+    sweep,
+)
+from occ_model.commands.parser import Parser
+from occ_model.version import __version__
+
+_COMMANDS = (render, plan, accuracy, sweep, limits, decode, match, figures, listing)
+
+
+def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Read a command line; ``options.command(options)`` does what it asks for."""
+    parser = Parser(
+        prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
+    )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for command in _COMMANDS:
+        command.add_to(commands)
+    return parser.parse_args(arguments)

@@ -14,7 +14,7 @@ from occ_model.commands.parser import Commands
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError
-from occ_model.exit_codes import EXIT_FAILURE
+from occ_model.exit_codes import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import RateSettings, SweepRequest, SweepTable
 from occ_model.results.sweep_request import WAYS
@@ -97,7 +97,7 @@ def _run(options: argparse.Namespace) -> int:
         _check_plot(options.plot, len(axes))
     table = _measured(request, options)
     if table is None:
-        return EXIT_FAILURE
+        return EXIT_INTERRUPTED
     if options.out:
         print(f"{options.out}: {request.points} points, {len(settings.decoders)} rates each")
     elif not options.plot:

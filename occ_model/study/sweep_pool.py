@@ -3,7 +3,13 @@
 from concurrent.futures import Future, ProcessPoolExecutor
 from time import monotonic
 
-from occ_model.processes import NO_PROCESSES, begin_worker, process_context, single_threads
+from occ_model.processes import (
+    NO_PROCESSES,
+    begin_worker,
+    interrupts_held,
+    process_context,
+    worker_start,
+)
 from occ_model.study.sweep_work import Delivery, Parcel, measure_parcel
 
 _GRACE = 0.2
@@ -29,11 +35,12 @@ class OwnWorkers:
         self._pool = self._start()
 
     def _start(self) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(self.count, process_context([__name__]), begin_worker)
+        with worker_start():
+            return ProcessPoolExecutor(self.count, process_context([__name__]), begin_worker)
 
     def submit(self, parcel: Parcel) -> "Future[Delivery]":
         """Hand over a parcel; the first ones start the processes."""
-        with single_threads():
+        with worker_start():
             return self._pool.submit(measure_parcel, parcel)
 
     def renew(self) -> bool:
@@ -47,10 +54,11 @@ class OwnWorkers:
 
     def close(self) -> None:
         """End the processes, whatever they are at."""
-        processes = list((self._pool._processes or {}).values())
-        self._pool.shutdown(wait=False, cancel_futures=True)
-        deadline = monotonic() + _GRACE
-        for process in processes:
-            process.join(max(0.0, deadline - monotonic()))
-            if process.is_alive():
-                process.terminate()
+        with interrupts_held():
+            processes = list((self._pool._processes or {}).values())
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            deadline = monotonic() + _GRACE
+            for process in processes:
+                process.join(max(0.0, deadline - monotonic()))
+                if process.is_alive():
+                    process.terminate()

@@ -188,7 +188,7 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
         time.sleep(0.01)
     running.send_signal(signal.SIGINT)
     _, error = running.communicate(timeout=30)
-    assert running.returncode == 1
+    assert running.returncode == 130
     written = out.read_bytes().count(b",threshold,")
     *_, last = error.splitlines()
     told = int(last.split()[3])

@@ -1,0 +1,230 @@
+"""A program from its first line to its exit code, whatever happens to it on the way.
+
+Nothing slow is imported here: from the first moment on Ctrl-C is to be answered with a sentence.
+"""
+
+import os
+import signal
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from io import TextIOWrapper
+from types import FrameType, TracebackType
+
+from occ_model.errors import OccError, OutputError, one_line
+from occ_model.exit_codes import EXIT_FAILURE, EXIT_INTERRUPTED, EXIT_MISUSE
+
+TYPE_CHECKING = False  # as typing has it, which is slow to import
+if TYPE_CHECKING:
+    from typing import NoReturn, TextIO
+
+INTERRUPTED = "interrupted."
+"""What is said of a program that Ctrl-C ended, where there is no more to say."""
+
+_IMPORT = "<frozen importlib"
+"""Where Python's own code for imports says that it comes from."""
+
+
+def run_program(
+    name: str,
+    prepare: Callable[[], Callable[[], int]],
+    *,
+    is_process: bool,
+    is_window: bool = False,
+) -> int:
+    """Run a program; return its exit code.
+
+    All that goes wrong is said in one line on standard error.
+
+    Parameters
+    ----------
+    name
+        The program's name.
+    prepare
+        Imports what is needed, reads the command line and gives the work that it asks for.
+    is_process
+        Whether this process is the program's alone; only then its signals and streams are changed.
+    is_window
+        Whether the program has a window: it may have no standard output, and Ctrl-C ends it at
+        once until it answers that itself.
+
+    Raises
+    ------
+    SystemExit
+        The command line was answered or refused by its parser.
+    """
+    try:
+        try:
+            if is_process:
+                _open_streams(needs_output=not is_window)
+                interrupts = Interrupts(name, always_at_once=is_window)
+            _show_any_letter()
+            _check_output(needed=not is_window)
+            work = prepare()
+            if is_process:
+                interrupts.end_preparation()
+            code = work()
+            _flush_output()
+        except SystemExit:
+            _flush_output()
+            raise
+        finally:
+            if is_process:
+                ignore_interrupts()
+    except KeyboardInterrupt:
+        if is_process:
+            ignore_interrupts()
+        say(name, INTERRUPTED)
+        return EXIT_INTERRUPTED
+    except OccError as error:
+        say(name, str(error))
+        return EXIT_MISUSE
+    except Exception as error:  # noqa: BLE001 - a traceback would tell a user nothing
+        return _say_failure(name, error)
+    return code
+
+
+def say(name: str, sentence: str) -> None:
+    """Print a sentence on standard error, if it takes one."""
+    try:
+        print(f"{name}: {sentence}", file=sys.stderr, flush=True)  # noqa: T201 - what this is for
+    except (OSError, ValueError):
+        _discard(sys.stderr)
+
+
+def ignore_interrupts() -> None:
+    """Let Ctrl-C do nothing from now on: what is left are a few milliseconds."""
+    with suppress(ValueError):  # outside the main thread
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+class Interrupts:
+    """What Ctrl-C does in a process of ours.
+
+    While it is prepared, and during any import, it ends the process at once: nothing has been begun
+    then, and modules that are torn out of their import print what they like. Later it raises
+    ``KeyboardInterrupt`` as always. Where whoever started the process lets it ignore Ctrl-C, it
+    goes on doing so.
+
+    Parameters
+    ----------
+    name
+        The program's name.
+    always_at_once
+        Whether it ends the process at once always.
+    """
+
+    def __init__(self, name: str, always_at_once: bool) -> None:
+        self._name = name
+        self._always_at_once = always_at_once
+        self._is_prepared = False
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, self._answer)
+            self._report = sys.unraisablehook
+            sys.unraisablehook = self._hear_unraisable
+
+    def end_preparation(self) -> None:
+        """Raise ``KeyboardInterrupt`` from now on."""
+        self._is_prepared = True
+
+    def _answer(self, _signal: int, frame: FrameType | None) -> None:
+        if self._always_at_once or not self._is_prepared or _is_importing(frame):
+            self._leave()
+        raise KeyboardInterrupt
+
+    def _hear_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
+        """End the process where Ctrl-C came while an object was deleted, which keeps it."""
+        if issubclass(what.exc_type, KeyboardInterrupt):
+            self._leave()
+        self._report(what)
+
+    def _leave(self) -> "NoReturn":
+        # Not by print: it may be what was interrupted.
+        with suppress(OSError):
+            os.write(2, f"{self._name}: {INTERRUPTED}\n".encode())
+        os._exit(EXIT_INTERRUPTED)
+
+
+def _is_importing(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if frame.f_code.co_filename.startswith(_IMPORT):
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _open_streams(needs_output: bool) -> None:
+    """Put the null device in the place of standard streams that are closed.
+
+    Otherwise the next file that is opened would be taken for one of them.
+    """
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
+    if sys.stderr is None:
+        sys.stderr = _null()
+    if sys.stdout is None and not needs_output:
+        sys.stdout = _null()
+
+
+def _null() -> "TextIO":
+    return open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123 - for as long as we run
+
+
+def _show_any_letter() -> None:
+    """Let standard output replace letters that its encoding lacks, as standard error does."""
+    if isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")
+
+
+def _check_output(needed: bool) -> None:
+    if needed and sys.stdout is None:
+        raise OutputError("Standard output is closed; send it to a file or to the null device.")
+
+
+def _flush_output() -> None:
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def _discard(stream: "TextIO | None") -> None:
+    """Send what a stream still holds nowhere: Python would write it at its end, and fail again."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # type: ignore[union-attr]
+
+
+def _say_failure(name: str, error: Exception) -> int:
+    """Say what no other part of the program has made a sentence of."""
+    _discard_unwritten_output()
+    if isinstance(error, BrokenPipeError):  # whoever read our output has stopped; they know
+        return EXIT_FAILURE
+    if isinstance(error, MemoryError):
+        say(name, "There is too little memory for this.")
+    elif isinstance(error, OSError):
+        reason = one_line(error.strerror or str(error))
+        if error.filename is None:
+            say(name, f"Writing or reading failed: {reason}.")
+        else:
+            say(name, f"{one_line(os.fsdecode(error.filename))}: {reason}.")
+    else:
+        kind, text = type(error).__name__, one_line(" ".join(str(error).split()))
+        say(name, f"A mistake in this program, {_place(error.__traceback__)}: {kind}: {text}.")
+    return EXIT_FAILURE
+
+
+def _discard_unwritten_output() -> None:
+    try:
+        _flush_output()
+    except (OSError, ValueError):
+        _discard(sys.stdout)
+
+
+def _place(trace: TracebackType | None) -> str:
+    """Name the line that an error came from."""
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    if trace is None:
+        return "at an unknown place"
+    return f"line {trace.tb_lineno} of {os.path.basename(trace.tb_frame.f_code.co_filename)}"  # noqa: PTH119

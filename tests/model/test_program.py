@@ -1,0 +1,148 @@
+"""Whatever happens, the command line ends with an exit code and at most one line of errors."""
+
+import errno
+import os
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NoReturn
+
+import pytest
+
+from occ_model.cli import main
+from occ_model.commands import render
+
+ENCODINGS = ("ascii", "cp1252", "cp932")
+
+CLOSED, FULL = ">&-", ">/dev/full"
+
+FULL_DISK = f"occ-model: Writing or reading failed: {os.strerror(errno.ENOSPC)}.\n"
+
+
+def run(
+    *words: str | bytes | Path, redirect: str = "", environment: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[bytes]:
+    """Run a command as a shell does, its standard streams redirected."""
+    shell = ("sh", "-c", f'exec "$@" {redirect}', "sh")
+    return subprocess.run(
+        [*shell, sys.executable, "-m", "occ_model", *words],
+        capture_output=True,
+        env={**os.environ, **(environment or {})},
+        check=False,
+    )
+
+
+@pytest.mark.parametrize("line", ["presets", "--version", "plan"])
+def test_a_closed_output_is_a_sentence(line: str) -> None:
+    done = run(line, redirect=CLOSED)
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert done.stderr.decode() == (
+        "occ-model: Standard output is closed; send it to a file or to the null device.\n"
+    )
+
+
+def test_nothing_is_written_where_the_output_is_closed(tmp_path: Path) -> None:
+    path = tmp_path / "x.png"
+    assert run("render", "--set", "rows=60", "-o", path, redirect=CLOSED).returncode == 2
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("line", ["presets", "--help", "parameters"])
+def test_a_full_output_is_a_sentence(line: str) -> None:
+    done = run(line, redirect=FULL)
+    assert (done.returncode, done.stderr.decode()) == (1, FULL_DISK)
+
+
+@pytest.mark.parametrize("redirect", ["2>&-", "2>/dev/full"])
+@pytest.mark.parametrize(("line", "code"), [("presets", 0), ("presets nobody", 2)])
+def test_errors_that_nobody_can_read_leave_the_exit_code(
+    redirect: str, line: str, code: int
+) -> None:
+    assert run(*line.split(), redirect=redirect).returncode == code
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+@pytest.mark.parametrize("line", ["parameters", "presets phone-68us", "render --help", "plan"])
+def test_letters_that_the_terminal_lacks_are_replaced(encoding: str, line: str) -> None:
+    there = run(*line.split())
+    done = run(*line.split(), environment={"PYTHONIOENCODING": encoding})
+    assert (done.returncode, done.stderr) == (0, b"")
+    # Pairwise, the lines differ at most where the encoding has no letter.
+    wanted = there.stdout.decode().splitlines()
+    found = done.stdout.decode(encoding).splitlines()
+    replaced = [text.encode(encoding, "replace").decode(encoding) for text in wanted]
+    assert [text.split() for text in found] == [text.split() for text in replaced]
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+def test_a_refusal_is_shown_in_any_encoding(encoding: str) -> None:
+    words = ("plan", "--set", "exposure_time=1Hz")
+    done = run(*words, environment={"PYTHONIOENCODING": encoding})
+    assert done.returncode == 2
+    assert done.stderr.startswith(b"occ-model: exposure_time is '1Hz'")
+    assert done.stderr.count(b"\n") == 1
+
+
+def test_a_reader_that_has_stopped_ends_the_command_in_silence() -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(
+        [sys.executable, "-m", "occ_model", "parameters"],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        check=False,
+    )
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (1, b"")
+
+
+FAILURES = {
+    "memory": (MemoryError(), "There is too little memory for this."),
+    "file": (OSError(5, "Input/output error", b"a\xff\n"), r"a\udcff\n: Input/output error."),
+    "disk": (OSError(28, "No space left on device"), FULL_DISK[11:-1]),
+    "mistake": (KeyError("a\nb"), r"A mistake in this program, line "),
+}
+
+
+@pytest.mark.parametrize("kind", FAILURES)
+def test_what_nobody_has_foreseen_is_one_line(
+    kind: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    error, sentence = FAILURES[kind]
+
+    def fail(*_arguments: object) -> NoReturn:
+        raise error
+
+    monkeypatch.setattr(render, "scene_of", fail)
+    assert main(["render", "-o", "x.png"]) == 1
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith(f"occ-model: {sentence}")
+    assert printed.err.count("\n") == 1
+    if kind == "mistake":
+        assert "of test_program.py: KeyError: 'a\\nb'.\n" in printed.err
+
+
+def test_an_interruption_has_the_code_that_shells_give_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupt(*_arguments: object) -> NoReturn:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(render, "scene_of", interrupt)
+    assert main(["render", "-o", "x.png"]) == 130
+    assert capsys.readouterr().err == "occ-model: interrupted.\n"
+
+
+def test_nothing_slow_is_imported_before_interruptions_are_answered() -> None:
+    program = "import sys, occ_model.cli; print(*sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    loaded = {name for name in done.stdout.split() if name.startswith("occ_model")}
+    assert loaded == {
+        "occ_model", "occ_model.version", "occ_model.cli", "occ_model.program", "occ_model.errors",
+        "occ_model.exit_codes",
+    }  # fmt: skip
+    assert {"numpy", "cv2", "argparse"} & set(done.stdout.split()) == set()

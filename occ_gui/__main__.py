@@ -1,5 +1,21 @@
-"""``python -m occ_gui``."""
+"""``occ-gui`` and ``python -m occ_gui``."""
 
-from occ_gui.app import main
+from collections.abc import Callable
 
-raise SystemExit(main())
+from occ_model.program import run_program
+
+
+def main() -> int:
+    """Run the application in this process; return its exit code."""
+    return run_program("occ-gui", _command, is_process=True, is_window=True)
+
+
+def _command() -> Callable[[], int]:
+    # Only here, where Ctrl-C is answered: it imports much of the model.
+    from occ_gui.app import read_command_line
+
+    return read_command_line(None)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -6,14 +6,17 @@ import os
 import re
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
 from occ_gui.starting import Start, Unasked, start_of
-from occ_model.errors import one_line
+from occ_model.errors import one_line, shown
+from occ_model.exit_codes import EXIT_MISUSE
 from occ_model.output import write_whole
+from occ_model.program import run_program, say
 from occ_model.scene import Scene
 from occ_model.settings import (
     DEFAULT_PRESET,
@@ -47,9 +50,6 @@ THEMES = ("system", "light", "dark")
 
 _NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
-_LONGEST = 4000
-"""Characters of a sentence on the terminal."""
-
 _TURN_MS = 200
 
 _TURN_S = 0.001
@@ -63,19 +63,27 @@ _PATIENCE_MS = 60_000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the application; return the process's exit code."""
-    options = _parser().parse_args(arguments)
-    try:
-        settings = simulation_settings_of(options)
-        own = settings == simulation_settings_of(_parser().parse_args([]))
-        return _run(options, start_of(options, scene_of(options), settings, own))
-    except occ.OccError as error:
-        return _refuse(str(error))
+    """Run the application; return the process's exit code.
+
+    Parameters
+    ----------
+    arguments
+        The command line's words; by default those of this process, which is the window's then.
+    """
+    is_process = arguments is None
+    work = partial(read_command_line, arguments)
+    return run_program("occ-gui", work, is_process=is_process, is_window=True)
 
 
-def _refuse(sentence: str) -> int:
-    print(f"occ-gui: {one_line(sentence, _LONGEST)}", file=sys.stderr, flush=True)  # noqa: T201 - the command line
-    return 2
+def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
+    """Read a command line; give what opens the window that it asks for."""
+    return partial(_start_and_run, _parser().parse_args(arguments))
+
+
+def _start_and_run(options: argparse.Namespace) -> int:
+    settings = simulation_settings_of(options)
+    own = settings == simulation_settings_of(_parser().parse_args([]))
+    return _run(options, start_of(options, scene_of(options), settings, own))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -115,7 +123,7 @@ def _size(text: str) -> tuple[int, int]:
     width, height = (int(match[1]), int(match[2])) if match else (0, 0)
     if not 0 < max(width, height) <= _LARGEST_SIDE:
         raise argparse.ArgumentTypeError(
-            f"{text!r} is no size; write it as 1280x800, each up to {_LARGEST_SIDE}"
+            f"{shown(text)} is no size; write it as 1280x800, each up to {_LARGEST_SIDE}"
         )
     return width, height
 
@@ -147,7 +155,9 @@ def _prepare(options: argparse.Namespace) -> None:
         raise occ.OccError("--match needs a photo; name one with --photo.")
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
-            raise occ.OutputError(f"{options.screenshot}: a screenshot is a .png file; name one.")
+            raise occ.OutputError(
+                f"{one_line(str(options.screenshot))}: a screenshot is a .png file; name one."
+            )
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
@@ -213,7 +223,8 @@ def start(
 
 def _end_without_display() -> NoReturn:
     # A display that is named but does not answer: only Qt finds out, and it returns to nobody.
-    os._exit(_refuse(_NO_DISPLAY))
+    say("occ-gui", _NO_DISPLAY)
+    os._exit(EXIT_MISUSE)
 
 
 def wait_until_shown(application: "Application", measured: bool = False) -> None:
@@ -266,7 +277,9 @@ def _take_screenshot(application: "Application", path: Path) -> None:
         buffer = QBuffer()
         buffer.open(QIODevice.OpenModeFlag.WriteOnly)
         if not application.window.grab().save(buffer, "PNG"):
-            raise occ.OutputError(f"{path} cannot be written: the window cannot be drawn.")
+            raise occ.OutputError(
+                f"{one_line(str(path))} cannot be written: the window cannot be drawn."
+            )
     finally:
         application.window.close()
     write_whole(path, bytes(buffer.data().data()))

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 INTERRUPTED = "interrupted."
 """What is said of a program that Ctrl-C ended, where there is no more to say."""
 
+_LONGEST_SENTENCE = 4000
+"""Characters of a sentence on the terminal."""
+
 _IMPORT = "<frozen importlib"
 """Where Python's own code for imports says that it comes from."""
 
@@ -85,9 +88,9 @@ def run_program(
 
 
 def say(name: str, sentence: str) -> None:
-    """Print a sentence on standard error, if it takes one."""
+    """Print a sentence on standard error, in one line, if it takes one."""
     try:
-        print(f"{name}: {sentence}", file=sys.stderr, flush=True)  # noqa: T201 - what this is for
+        print(f"{name}: {one_line(sentence, _LONGEST_SENTENCE)}", file=sys.stderr, flush=True)  # noqa: T201 - what this is for
     except (OSError, ValueError):
         _discard(sys.stderr)
 

@@ -1,0 +1,54 @@
+"""The window's start: Ctrl-C at any moment, and standard streams of any kind."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from interruption import MOMENTS, interrupted
+
+_LATEST = 2.0
+"""Seconds after which the last moment is: the window is shown then, and its processes work."""
+
+
+@pytest.mark.parametrize("place", range(MOMENTS))
+@pytest.mark.parametrize("kind", ["window", "screenshot"])
+def test_an_interrupted_start_is_one_line_and_leaves_no_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str, place: int
+) -> None:
+    monkeypatch.setenv("OCC_STATE", str(tmp_path / "state"))
+    picture = tmp_path / "w.png"
+    words = ["--screenshot", str(picture)] if kind == "screenshot" else []
+    delay = _LATEST * (place / MOMENTS) ** 2
+    code, error = interrupted("occ_gui.__main__", words, delay)
+    if code == 0:  # shown by then, and closed; or drawn
+        assert (error, kind == "window" or picture.is_file()) == ("", True)
+    else:
+        assert (code, error) == (130, "occ-gui: interrupted.\n")
+        assert not picture.exists()
+
+
+@pytest.mark.parametrize("redirect", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_a_window_needs_no_standard_streams(tmp_path: Path, redirect: str) -> None:
+    picture = tmp_path / "w.png"
+    shell = ("sh", "-c", f'exec "$@" {redirect}', "sh")
+    done = subprocess.run(
+        [*shell, sys.executable, "-m", "occ_gui", "--screenshot", picture, "--set", "rows=60"],
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp932"])
+def test_the_help_is_shown_in_any_encoding(encoding: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "occ_gui", "--help"],
+        capture_output=True,
+        env={**os.environ, "PYTHONIOENCODING": encoding},
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert done.stdout.startswith(b"usage: occ-gui")

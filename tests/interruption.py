@@ -1,0 +1,87 @@
+"""A program of ours that is interrupted while it starts or works."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+
+MOMENTS = int(os.environ.get("OCC_INTERRUPTS", "8"))
+"""Moments at which each command is interrupted."""
+
+# The interpreter's own start answers Ctrl-C in its own way: we begin when ours is in place.
+PROGRAM = """
+import os, signal, sys
+
+real, pipe = signal.signal, int(sys.argv.pop(1))
+def listen(number, answer):
+    before = real(number, answer)
+    signal.signal = real
+    os.write(pipe, b"x")
+    return before
+signal.signal = listen
+
+from {module} import main
+if __name__ == "__main__":
+    sys.exit(main())
+"""
+
+
+def interrupted(
+    module: str, words: list[str], delay: float, inherited: signal.Handlers = signal.SIG_DFL
+) -> tuple[int, str]:
+    """Run the main function of a module, and interrupt all its processes, as a terminal does.
+
+    Parameters
+    ----------
+    module
+        The module.
+    words
+        The command line.
+    delay
+        Seconds from the moment at which the program answers Ctrl-C.
+    inherited
+        What Ctrl-C does where the program is started from.
+
+    Returns
+    -------
+    tuple
+        The exit code, and what stands on standard error.
+    """
+    reader, writer = os.pipe()
+    running = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM.replace("{module}", module), str(writer), *words],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        pass_fds=[writer],
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, inherited),
+    )
+    try:
+        os.close(writer)
+        if inherited == signal.SIG_DFL:
+            assert os.read(reader, 1) == b"x"
+        time.sleep(delay)
+        with suppress(ProcessLookupError):
+            os.killpg(running.pid, signal.SIGINT)
+        _, error = running.communicate(timeout=60)  # when nobody has its end of the pipe any more
+        deadline = time.monotonic() + 30
+        while is_alive(running.pid):
+            assert time.monotonic() < deadline, "a process lives on"
+            time.sleep(0.01)
+    finally:
+        os.close(reader)
+        with suppress(ProcessLookupError):
+            os.killpg(running.pid, signal.SIGKILL)
+    return running.returncode, error
+
+
+def is_alive(group: int) -> bool:
+    """Say whether any process of a group is there."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True

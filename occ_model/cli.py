@@ -21,8 +21,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _command(arguments: Sequence[str] | None) -> Callable[[], int]:
     """Read the command line; give the command that it asks for."""
     # Only here, where Ctrl-C is answered: the commands import all of the model.
-    from occ_model.commands import read_command_line
+    from occ_model.commands import read_command_line, run_command
 
-    options = read_command_line(arguments)
-    command: Callable[[], int] = partial(options.command, options)
-    return command
+    return partial(run_command, read_command_line(arguments))

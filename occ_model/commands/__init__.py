@@ -14,6 +14,7 @@ from occ_model.commands import (
     render,
     sweep,
 )
+from occ_model.commands.files import check_files
 from occ_model.commands.parser import Parser
 from occ_model.version import __version__
 
@@ -21,7 +22,7 @@ _COMMANDS = (render, plan, accuracy, sweep, limits, decode, match, figures, list
 
 
 def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Read a command line; ``options.command(options)`` does what it asks for."""
+    """Read a command line, for :func:`run_command`."""
     parser = Parser(
         prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
     )
@@ -30,3 +31,16 @@ def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
     for command in _COMMANDS:
         command.add_to(commands)
     return parser.parse_args(arguments)
+
+
+def run_command(options: argparse.Namespace) -> int:
+    """Do what a command line asks for; return the exit code.
+
+    Raises
+    ------
+    OccError
+        It cannot be.
+    """
+    check_files(options)
+    code: int = options.command(options)
+    return code

@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from occ_model.commands.files import folder_of_figures
 from occ_model.commands.parser import Commands
 from occ_model.errors import one_line
 from occ_model.output import make_folder
@@ -25,7 +26,7 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help="folder for the figure as PDF, PNG and CSV"
     )
-    parser.set_defaults(command=_run)
+    parser.set_defaults(command=_run, writes={"out": folder_of_figures("accuracy")})
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from occ_model.checks import check_count, check_seed
+from occ_model.commands.files import folder_of_figures
 from occ_model.commands.parser import Commands
 from occ_model.errors import one_line
 from occ_model.output import make_folder
@@ -24,7 +25,8 @@ def add_to(commands: Commands) -> None:
         parser.add_argument(
             f"--photo-{exposure}", type=Path, metavar="FILE", help="its profile is drawn too"
         )
-    parser.set_defaults(command=_run)
+    names = (f"figure-{number}" for number in range(2, 7))
+    parser.set_defaults(command=_run, writes={"out": folder_of_figures(*names)})
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from occ_model.commands.files import SCENE_FILE
 from occ_model.commands.parser import Commands
 from occ_model.declarations import Quantity
 from occ_model.errors import one_line
@@ -12,7 +13,7 @@ from occ_model.photo.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.photo.match import ESTIMATES, SENT, match_photo
 from occ_model.results import Match
 from occ_model.scene import Scene
-from occ_model.settings import add_scene_options, check_scene_path, scene_of, write_scene_file
+from occ_model.settings import add_scene_options, scene_of, write_scene_file
 
 _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
@@ -48,14 +49,12 @@ def add_to(commands: Commands) -> None:
         "--channel", choices=CHANNELS, default=CHANNELS[0], help="default: %(default)s"
     )
     parser.add_argument("--out", type=Path, metavar="FILE.toml", help="write the fitted scene here")
-    parser.set_defaults(command=_run)
+    parser.set_defaults(command=_run, writes={"out": SCENE_FILE})
 
 
 def _run(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
-    if options.out:
-        check_scene_path(options.out)  # rather than after seconds of work
     scene = scene_of(options)
     if options.led_frequency is not None:
         scene = _square_wave(scene, options.led_frequency)

@@ -3,13 +3,13 @@
 import argparse
 from pathlib import Path
 
+from occ_model.commands.files import SCENE_FILE
 from occ_model.commands.parser import Commands
 from occ_model.errors import one_line
 from occ_model.output import write_image
 from occ_model.settings import (
     add_scene_options,
     add_simulation_options,
-    check_scene_path,
     scene_of,
     simulation_settings_of,
     write_scene_file,
@@ -24,12 +24,10 @@ def add_to(commands: Commands) -> None:
     add_simulation_options(parser)
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
-    parser.set_defaults(command=_run)
+    parser.set_defaults(command=_run, writes={"save_scene": SCENE_FILE})
 
 
 def _run(options: argparse.Namespace) -> int:
-    if options.save_scene:
-        check_scene_path(options.save_scene)  # before there is a picture and no scene
     scene = scene_of(options)
     settings = simulation_settings_of(options)
     frame = render(scene, **settings.arguments())

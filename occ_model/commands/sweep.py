@@ -10,10 +10,11 @@ from typing import Any
 
 from occ_model.checks import check_choice, check_count
 from occ_model.commands.cluster import cluster_executor
+from occ_model.commands.files import TABLE
 from occ_model.commands.parser import Commands
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
-from occ_model.errors import OutputError, ParameterError
+from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.exit_codes import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import RateSettings, SweepRequest, SweepTable
@@ -75,13 +76,15 @@ def add_to(commands: Commands) -> None:
         "--plot", type=Path, metavar="FILE",
         help="draw one axis as curves, two as maps; PNG, PDF or SVG by its ending",
     )  # fmt: skip
-    parser.set_defaults(command=_run)
+    parser.set_defaults(command=_run, writes={"out": TABLE})
 
 
 def _run(options: argparse.Namespace) -> int:
     scene, axes = scene_of(options), axes_of(options.vary)
     for name in set(options.on) & set(options.off):
-        raise ParameterError(f"effect {name!r} is switched both on and off; allowed: one of them.")
+        raise ParameterError(
+            f"effect {shown(name)} is switched both on and off; allowed: one of them."
+        )
     settings = RateSettings(
         options.images,
         _decoders(options.decoder or [PAPERS]),
@@ -99,7 +102,8 @@ def _run(options: argparse.Namespace) -> int:
     if table is None:
         return EXIT_INTERRUPTED
     if options.out:
-        print(f"{options.out}: {request.points} points, {len(settings.decoders)} rates each")
+        name = one_line(str(options.out))
+        print(f"{name}: {request.points} points, {len(settings.decoders)} rates each")
     elif not options.plot:
         sys.stdout.writelines(table.csv())
     if options.plot:
@@ -107,7 +111,7 @@ def _run(options: argparse.Namespace) -> int:
         from occ_model.export.sweep_figure import write_sweep_figure
 
         write_sweep_figure(options.plot, table)
-        print(f"{options.plot}: success rate over {' and '.join(axes)}")
+        print(f"{one_line(str(options.plot))}: success rate over {' and '.join(axes)}")
     return 0
 
 
@@ -122,7 +126,9 @@ def _check_plot(path: Path, axes: int) -> None:
             f"--plot draws one axis or two, not {axes}; leave it out, or vary less."
         )
     if path.is_dir() or not path.resolve().parent.is_dir():
-        raise OutputError(f"{path} cannot be written: name a file in a folder that is there.")
+        raise OutputError(
+            f"{one_line(str(path))} cannot be written: name a file in a folder that is there."
+        )
 
 
 def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable | None:
@@ -161,7 +167,7 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
             )
         except KeyboardInterrupt:
             pass
-    kept = f"they are in {options.out}, and the same command goes on from there."
+    kept = f"they are in {one_line(str(options.out))}, and the same command goes on from there."
     if not options.out:
         kept = "with --out FILE.csv they would be kept."
     print(f"occ-model: stopped after {reached} of {request.points} points; {kept}", file=sys.stderr)

@@ -1,0 +1,170 @@
+"""The files that a command reads and writes: none is written over what it reads, or writes too."""
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from occ_model.errors import OutputError, one_line
+from occ_model.output import PICTURE_ENDINGS
+from occ_model.presets import user_folder
+from occ_model.settings import check_scene_path
+
+INPUTS = {
+    "file": "the photo",
+    "scene": "the file of --scene",
+    "photo_68us": "the file of --photo-68us",
+    "photo_136us": "the file of --photo-136us",
+}
+"""Options that name a file to read, and what sentences call it."""
+
+OUTPUTS = {"out": "--out", "save_scene": "--save-scene", "plot": "--plot"}
+"""Options that name a file or folder to write."""
+
+_FIGURES = (*PICTURE_ENDINGS, ".pdf", ".svg")
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What a command writes to the path of an option.
+
+    Parameters
+    ----------
+    what
+        What it is, for a sentence.
+    ending
+        The ending that suits it.
+    refused
+        Endings of files of another kind.
+    names
+        The files that are written, where the path is that of their folder.
+    """
+
+    what: str
+    ending: str = ""
+    refused: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+
+SCENE_FILE = Written("A scene")
+"""Its ending is checked by the rule that all saving of scenes has."""
+
+TABLE = Written("A table", ".csv", (*_FIGURES, ".toml"))
+
+
+def folder_of_figures(*names: str) -> Written:
+    """Say that figures of these names are written into a folder, each as PDF, PNG and CSV."""
+    endings = ("pdf", "png", "csv")
+    return Written("Figures", names=tuple(f"{name}.{end}" for name in names for end in endings))
+
+
+def check_files(options: argparse.Namespace) -> None:
+    """Refuse a command line that would write a file over another one that it names.
+
+    Parameters
+    ----------
+    options
+        A command line as the parser read it. ``options.writes``, if there, tells for an option what
+        is written to its path.
+
+    Raises
+    ------
+    OutputError
+        An output is one of the inputs, by its path or by a link; two outputs are one file; or a
+        file has the ending of another kind.
+    """
+    inputs, outputs = list(_inputs(options)), list(_outputs(options))
+    for place, (name, path) in enumerate(outputs):
+        for other, read in inputs:
+            if is_same_file(path, read):
+                raise OutputError(
+                    f"{name} is {one_line(str(path))}, the same file as {other}; name another file "
+                    "to write to."
+                )
+        for other, written in outputs[:place]:
+            if is_same_file(path, written):
+                raise OutputError(
+                    f"{other} and {name} are the same file, {one_line(str(path))}; name two."
+                )
+    _check_endings(options)
+
+
+def _check_endings(options: argparse.Namespace) -> None:
+    for option, written in vars(options).get("writes", {}).items():
+        path: Path | None = getattr(options, option)
+        if path is None:
+            continue
+        if written is SCENE_FILE:
+            check_scene_path(path)
+        if path.suffix.lower() in written.refused:
+            raise OutputError(
+                f"{written.what} is not written to a {path.suffix.lower()} file; name one that "
+                f"ends in {written.ending}, not {one_line(str(path))}."
+            )
+
+
+def _inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
+    named = vars(options)
+    for option, name in INPUTS.items():
+        if named.get(option) is not None:
+            yield name, named[option]
+    if named.get("preset") is not None and named.get("scene") is None:
+        yield "the file of --preset", user_folder() / f"{options.preset}.toml"
+
+
+def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
+    named = vars(options)
+    for option, name in OUTPUTS.items():
+        path: Path | None = named.get(option)
+        if path is None:
+            continue
+        written: Written = named.get("writes", {}).get(option, Written("A file"))
+        if written.names:
+            yield from ((f"{name}, where {each} goes,", path / each) for each in written.names)
+        else:
+            yield name, path
+
+
+def is_same_file(path: Path, other: Path) -> bool:
+    """Say whether two paths are, or would be, one file: the same one, a link to it, or its name."""
+    try:
+        return path.samefile(other)
+    except (OSError, ValueError):  # one of them is not there yet
+        pass
+    try:
+        path, other = path.resolve(), other.resolve()
+    except (OSError, ValueError, RuntimeError):  # a link to itself, before Python 3.13
+        return False
+    if path == other:
+        return True
+    alike = path.name.casefold() == other.name.casefold()
+    return (
+        alike
+        and _is_same_folder(path.parent, other.parent)
+        and (path.name == other.name or ignores_case(path.parent))
+    )
+
+
+def _is_same_folder(folder: Path, other: Path) -> bool:
+    try:
+        return folder.samefile(other)
+    except (OSError, ValueError):
+        return folder == other
+
+
+def ignores_case(folder: Path) -> bool:
+    """Say whether names that differ in case alone are one file in a folder.
+
+    It is tried with the name of a file that is there, or of the folder itself.
+    """
+    try:
+        inside = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]
+    except OSError:
+        inside = []
+    for path in (*inside, folder, *folder.parents):
+        if path.name != path.name.swapcase():
+            try:
+                return path.samefile(path.with_name(path.name.swapcase()))
+            except OSError:
+                return False
+    return False

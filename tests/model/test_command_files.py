@@ -1,0 +1,175 @@
+"""No command writes over a file that it reads, nor over another that it writes."""
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.commands import files, read_command_line
+from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
+from occ_model.output import write_image
+
+SCENE = occ.load_preset("phone-68us").replace(rows=60)
+
+KEPT = ("p.png", "s.toml", "w.csv", "figures/figure-3.png", "figures/accuracy.csv", "mine.toml")
+"""Files that are there, and stay as they are."""
+
+REFUSED = {
+    "match p.png --out p.png": "the same file as the photo; ",
+    "match p.png --out link.toml": "--out is link.toml, the same file as the photo; ",
+    "match p.png --out hard.toml": "--out is hard.toml, the same file as the photo; ",
+    "match hard.toml --out away/../hard.toml": "the same file as the photo; ",
+    "match p.png --scene s.toml --out s.toml": "the same file as the file of --scene; ",
+    "match p.png --out t.csv": "t.csv has no ending of a scene file; use .toml.",
+    "render -o q.png --save-scene q.png": "--out and --save-scene are the same file, ",
+    "render -o q.png --save-scene dangling.toml": "--out and --save-scene are the same file, ",
+    "render -o p.png --save-scene hard.toml": "--out and --save-scene are the same file, ",
+    "render -o away/../q --save-scene q": "--out and --save-scene are the same file, q; name two",
+    "render -o q --save-scene folder-link/q": "--out and --save-scene are the same file, ",
+    "render --scene p.png -o p.png": "the same file as the file of --scene; ",
+    "render --preset mine -o q.png --save-scene mine.toml": "the file of --preset; ",
+    "sweep --vary iso=100 --out w.png --plot w.png": "--out and --plot are the same file, ",
+    "sweep --vary iso=100 --out w.png": "A table is not written to a .png file",
+    "sweep --vary iso=100 --out w.toml": "name one that ends in .csv, not w.toml.",
+    "sweep --vary iso=100 --out x --plot ./x": "--out and --plot are the same file, ",
+    "sweep --vary iso=100 --scene w.csv --out w.csv": "the same file as the file of --scene; ",
+    "figures --out figures --photo-68us figures/figure-3.png": "the file of --photo-68us; ",
+    "figures --out figures --photo-136us fig-link.png": "the file of --photo-136us; ",
+    "accuracy --out figures --scene figures/accuracy.csv": "the file of --scene; ",
+}
+
+
+@pytest.fixture(scope="module")
+def picture() -> occ.Frame:
+    return occ.render(SCENE)
+
+
+@pytest.mark.parametrize("line", REFUSED)
+def test_a_file_that_would_be_lost_is_refused_before_anything_is_done(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    picture: occ.Frame,
+    line: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("OCC_PRESETS", str(tmp_path))
+    Path("figures").mkdir()
+    Path("away").mkdir()
+    for name in KEPT:
+        if name.endswith(".png"):
+            write_image(Path(name), picture.image)
+        else:
+            Path(name).write_text(SCENE.to_toml())
+    Path("link.toml").symlink_to("p.png")
+    Path("hard.toml").hardlink_to("p.png")
+    Path("dangling.toml").symlink_to("q.png")
+    Path("fig-link.png").symlink_to("figures/figure-3.png")
+    Path("folder-link").symlink_to(".")
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    assert main(line.split()) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("occ-model: ")
+    assert printed.err.count("\n") == 1
+    assert REFUSED[line] in printed.err
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+
+
+def test_a_file_that_the_command_does_not_name_is_replaced(tmp_path: Path) -> None:
+    path, scene = tmp_path / "q.png", tmp_path / "s.toml"
+    words = ["render", "--set", "rows=60", "-o", str(path), "--save-scene", str(scene)]
+    for _ in range(2):
+        assert main(words) == 0
+
+
+def test_the_file_of_a_sweep_is_continued(tmp_path: Path) -> None:
+    words = ["sweep", "--vary", "iso=100", "--images", "1", "--out", str(tmp_path / "r.csv")]
+    assert main(words) == 0
+    assert main(words) == 0
+
+
+def test_every_option_that_names_a_file_is_known() -> None:
+    """A command that is added must say what it reads and writes."""
+    known = {*INPUTS, *OUTPUTS}
+    seen: set[str] = set()
+
+    def walk(parser: argparse.ArgumentParser) -> None:
+        for action in parser._actions:
+            if action.type is Path:
+                seen.add(action.dest)
+            if isinstance(action, argparse._SubParsersAction):
+                for each in action.choices.values():
+                    walk(each)
+
+    class FoundError(Exception):
+        pass
+
+    def stop(parser: argparse.ArgumentParser, *_arguments: object) -> None:
+        walk(parser)
+        raise FoundError
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(argparse.ArgumentParser, "parse_args", stop)
+        with pytest.raises(FoundError):
+            read_command_line([])
+    assert seen == known
+
+
+@pytest.mark.parametrize("ignores", [True, False])
+def test_names_that_differ_in_case_are_one_file_where_the_file_system_takes_them_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ignores: bool
+) -> None:
+    monkeypatch.setattr(files, "ignores_case", lambda _folder: ignores)
+    assert is_same_file(tmp_path / "Q.png", tmp_path / "q.PNG") is ignores
+    assert not is_same_file(tmp_path / "q.png", tmp_path / "p.png")
+    assert not is_same_file(tmp_path / "a" / "q.png", tmp_path / "b" / "q.png")
+    assert is_same_file(tmp_path / "a" / "q.png", tmp_path / "a" / "." / "q.png")
+
+
+@pytest.mark.parametrize("filled", [True, False])
+def test_a_file_system_is_asked_whether_it_tells_case_apart(tmp_path: Path, filled: bool) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    if filled:
+        (folder / "name").touch()
+    (tmp_path / "probe").touch()
+    assert files.ignores_case(folder) is (tmp_path / "PROBE").exists()
+
+
+@pytest.mark.parametrize("name", [b"caf\xe9", b"\xff\xfe \x1b[31m"])
+def test_names_that_are_no_text_are_read_written_and_shown(tmp_path: Path, name: bytes) -> None:
+    picture, scene, table = (
+        tmp_path / (os.fsdecode(name) + ending) for ending in (".png", ".toml", ".csv")
+    )
+
+    def run(*words: str | Path) -> str:
+        done = subprocess.run(
+            [sys.executable, "-m", "occ_model", *words], capture_output=True, check=False
+        )
+        assert (done.returncode, done.stderr.count(b"Traceback")) == (0, 0), done.stderr
+        shown = done.stdout.decode("utf-8")
+        assert all(line.isprintable() for line in shown.splitlines())
+        return shown
+
+    blinking = ("--set", "rows=300", "--set", "pattern=10", "--set", "switching_frequency=4kHz")
+    assert ".png: " in run("render", *blinking, "-o", picture)
+    run("match", picture, *blinking, "--out", scene)
+    run("plan", "--scene", scene)
+    run("sweep", "--vary", "iso=100", "--images", "1", "--out", table)
+    run("plan", "--scene", table)
+    assert sorted(tmp_path.iterdir()) == sorted((picture, scene, table))
+
+
+def test_a_photo_whose_name_is_no_text_is_told_in_a_figure(tmp_path: Path) -> None:
+    from occ_model.export.paper_figures import write_profile_figure
+
+    photo = tmp_path / os.fsdecode(b"caf\xe9.png")
+    write_image(photo, occ.render(occ.load_preset("phone-68us")).image)
+    write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
+    assert r"photo caf\udce9.png" in (tmp_path / "figure-3.csv").read_text("utf-8")

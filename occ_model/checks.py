@@ -5,11 +5,11 @@ from numbers import Integral
 
 import numpy as np
 
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 
 
-def check_count(name: str, value: object, least: int) -> None:
-    """Refuse what is no whole number from ``least``.
+def check_count(name: str, value: object, least: int, most: int | None = None) -> None:
+    """Refuse what is no whole number from ``least``, nor up to ``most`` if that is given.
 
     Raises
     ------
@@ -17,8 +17,11 @@ def check_count(name: str, value: object, least: int) -> None:
         Naming the argument, its value and what is allowed.
     """
     whole = isinstance(value, Integral) and not isinstance(value, bool)
-    if not whole or value < least:  # type: ignore[operator]  # an Integral by now
-        raise ParameterError(f"{name} is {value!r}; allowed: a whole number from {least}.")
+    if not whole or value < least or (most is not None and value > most):  # type: ignore[operator]
+        top = "" if most is None else f" to {most:,}"
+        raise ParameterError(
+            f"{name} is {shown(value)}; allowed: a whole number from {least}{top}."
+        )
 
 
 def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
@@ -30,7 +33,7 @@ def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
         Naming the argument, its value and what is allowed.
     """
     if not isinstance(value, str) or value not in choices:
-        raise ParameterError(f"{name} is {value!r}; allowed: {', '.join(choices)}.")
+        raise ParameterError(f"{name} is {shown(value)}; allowed: {', '.join(choices)}.")
 
 
 def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
@@ -45,12 +48,14 @@ def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
         return {}
     if not isinstance(switches, Mapping):
         raise ParameterError(
-            f"force is {switches!r}; allowed: effects by name, True or False each."
+            f"force is {shown(switches)}; allowed: effects by name, True or False each."
         )
     for name, on in switches.items():
         check_choice("effect", name, names)
         if not isinstance(on, bool | np.bool_):
-            raise ParameterError(f"effect {name!r} is switched {on!r}; allowed: True, False.")
+            raise ParameterError(
+                f"effect {shown(name)} is switched {shown(on)}; allowed: True, False."
+            )
     return {name: bool(on) for name, on in switches.items()}
 
 

@@ -11,6 +11,7 @@ from occ_model.errors import one_line
 from occ_model.output import make_folder
 from occ_model.photo.load import Photo, load_photo
 from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.results.sweep_request import MOST_IMAGES
 from occ_model.study.paper_grid import DEVICES, IMAGES, GridPoint, ceases_at, measure, point_count
 from occ_model.units import HERTZ
 
@@ -30,7 +31,7 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    check_count("images", options.images, 1)
+    check_count("images", options.images, 1, MOST_IMAGES)
     check_seed(options.seed)
     # matplotlib takes half a second to import: only for those who want a figure.
     from occ_model.export.drawing import house_style

@@ -18,7 +18,7 @@ from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.exit_codes import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import RateSettings, SweepRequest, SweepTable
-from occ_model.results.sweep_request import WAYS
+from occ_model.results.sweep_request import MOST_JOBS, WAYS
 from occ_model.settings import add_scene_options, scene_of
 from occ_model.simulation_settings import TOLERANCE
 from occ_model.study.sweep import sweep
@@ -95,7 +95,7 @@ def _run(options: argparse.Namespace) -> int:
     )
     # All that can be refused is, before a cluster is asked for or minutes of work are done.
     request = checked_request(scene, axes, settings)
-    check_count("jobs", options.jobs, 1)
+    check_count("jobs", options.jobs, 1, MOST_JOBS)
     if options.plot:
         _check_plot(options.plot, len(axes))
     table = _measured(request, options)

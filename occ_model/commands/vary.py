@@ -6,8 +6,10 @@ from collections.abc import Iterable
 import numpy as np
 
 from occ_model.declarations import Count, Parameter, ParameterValue, Quantity
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.parameters import parameter_named
+from occ_model.results.sweep_request import MOST_POINTS
+from occ_model.study.sweep_check import check_points
 
 SYNTAX = (
     "NAME=a,b,c: these values; NAME=low:high:step: from low in even steps, with high where a step "
@@ -16,7 +18,6 @@ SYNTAX = (
 )
 """What :func:`axes_of` reads."""
 
-_MOST = 1_000_000
 _DIGITS = 12
 """Significant digits of a value that is counted up to: 0.6 + 3 x 0.2 is 1.2 to anyone."""
 
@@ -34,23 +35,28 @@ def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
         name, equals, text = setting.partition("=")
         name = name.strip()
         if not equals:
-            raise ParameterError(f"{setting!r} is no axis; allowed: {SYNTAX}.")
+            raise ParameterError(f"{shown(setting)} is no axis; allowed: {SYNTAX}.")
         parameter = parameter_named(name)
         if name in axes:
             raise parameter.refuse("is varied twice", "one axis a parameter")
         axes[name] = _values(parameter, text)
+        check_points(axes)  # before more of them are made
     return axes
 
 
 def _values(parameter: Parameter, text: str) -> list[ParameterValue]:
     if ":" not in text:
+        if text.count(",") >= MOST_POINTS:
+            raise parameter.refuse("has too many values", f"at most {MOST_POINTS:,}")
         return [parameter.parse(part) for part in text.split(",")]
     parts = text.split(":")
     if len(parts) != 3 or not isinstance(parameter, Quantity | Count):
-        raise parameter.refuse(f"varies over {text!r}", _forms(parameter))
+        raise parameter.refuse(f"varies over {shown(text)}", _forms(parameter))
     low, high = parameter.parse(parts[0]), parameter.parse(parts[1])
     if not low < high:
-        raise parameter.refuse(f"varies over {text!r}", "a range from a lower to a higher value")
+        raise parameter.refuse(
+            f"varies over {shown(text)}", "a range from a lower to a higher value"
+        )
     step = parts[2].strip()
     if step[:1] in ("x", "X"):
         return _spread(parameter, low, high, step)
@@ -67,9 +73,12 @@ def _spread(
     parameter: Quantity | Count, low: float, high: float, text: str
 ) -> list[ParameterValue]:
     """Give N values from low to high."""
-    if not text[1:].isdecimal() or not 2 <= int(text[1:]) <= _MOST:
-        raise parameter.refuse(f"varies in {text!r}", f"x2 to x{_MOST} values")
-    number = int(text[1:])
+    factor = text[1:].lstrip("0")
+    # No number of more digits: Python reads none of thousands.
+    is_whole = factor.isdecimal() and len(factor) <= len(str(MOST_POINTS))
+    number = int(factor) if is_whole else 0
+    if not 2 <= number <= MOST_POINTS:
+        raise parameter.refuse(f"varies in {shown(text)}", f"x2 to x{MOST_POINTS} values")
     if isinstance(parameter, Count):
         return list(dict.fromkeys(np.rint(np.linspace(low, high, number)).astype(int).tolist()))
     is_log = parameter.scale == "log" and low > 0.0
@@ -83,10 +92,12 @@ def _stepped(
     """Give the values from low to high in even steps."""
     step = parameter.unit.parse(text) if isinstance(parameter, Quantity) else _whole(text)
     if step is None or not step > 0.0 or math.isinf(step):
-        raise parameter.refuse(f"varies in steps of {text!r}", "a step above 0")
-    last = math.floor((high - low) / step * (1 + 1e-9))
-    if last >= _MOST:
-        raise parameter.refuse(f"varies over {last + 1} values", f"up to {_MOST}")
+        raise parameter.refuse(f"varies in steps of {shown(text)}", "a step above 0")
+    steps = (high - low) / step * (1 + 1e-9)
+    if steps >= MOST_POINTS:  # infinitely many, perhaps
+        count = f"{math.floor(steps) + 1} values" if steps < 1e15 else "too many values"
+        raise parameter.refuse(f"varies over {count}", f"up to {MOST_POINTS}")
+    last = math.floor(steps)
     if isinstance(parameter, Count):
         return [int(low + place * step) for place in range(last + 1)]
     values = (float(f"{low + place * step:.{_DIGITS}g}") for place in range(last + 1))

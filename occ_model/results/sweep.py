@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.declarations import ParameterValue
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.output import write_whole
 from occ_model.results.sweep_csv import header_text, point_text
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
@@ -142,7 +142,7 @@ class SweepTable:
             return 0
         if decoder not in self.decoders:
             raise ParameterError(
-                f"decoder is {decoder!r}; allowed in this table: {', '.join(self.decoders)}."
+                f"decoder is {shown(decoder)}; allowed in this table: {', '.join(self.decoders)}."
             )
         return self.decoders.index(decoder)
 

@@ -16,6 +16,21 @@ of them the plan allows for."""
 
 WAYS: tuple[Way, ...] = ("auto", "profile", "image")
 
+MOST_POINTS = 1_000_000
+"""Points of a sweep: what is counted at each is kept in memory, and written as a table at once."""
+
+MOST_AXES = 31
+"""Parameters that a sweep varies: numpy's arrays have 32 axes, and one is that of the decoders."""
+
+MOST_IMAGES = 1_000_000
+"""Images at a point."""
+
+MOST_JOBS = 1024
+"""Processes that may be asked for."""
+
+JOBS_A_CORE = 4
+"""Processes that are started at most for each core: more take memory, and no less time."""
+
 _SLOWEST = ("bits", "exposure_time", "switching_frequency")
 """Parameters that change last on the way from point to point: with each of them the matched decoder
 needs the forward model of all codes anew."""

@@ -5,7 +5,7 @@ from numbers import Real
 from statistics import NormalDist
 
 from occ_model.checks import check_count
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 
 _MOST = 2**53
 """Trials that can be counted one by one in a float."""
@@ -45,10 +45,13 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
     check_count("trials", trials, 1)
     check_count("successes", successes, 0)
     if trials > _MOST:
-        raise ParameterError(f"trials is {trials!r}; allowed: a whole number from 1 to {_MOST}.")
+        raise ParameterError(
+            f"trials is {shown(trials)}; allowed: a whole number from 1 to {_MOST}."
+        )
     if successes > trials:
         raise ParameterError(
-            f"successes is {successes!r}; allowed with {trials!r} trials: 0 to {trials!r}."
+            f"successes is {shown(successes)}; allowed with {shown(trials)} trials: 0 to "
+            f"{shown(trials)}."
         )
     share = _share(level)
     won, lost = int(successes), int(trials) - int(successes)
@@ -61,7 +64,7 @@ def _share(level: object) -> float:
     number = isinstance(level, Real) and not isinstance(level, bool)
     share = float(level) if number and 0 < level < 1 else 0.0  # type: ignore[operator, arg-type]
     if not 0.0 < share < 1.0:
-        raise ParameterError(f"level is {level!r}; allowed: a number between 0 and 1.")
+        raise ParameterError(f"level is {shown(level)}; allowed: a number between 0 and 1.")
     return share
 
 

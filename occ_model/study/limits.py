@@ -7,7 +7,7 @@ from numbers import Real
 import numpy as np
 
 from occ_model.declarations import Quantity
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.parameters import PARAMETERS
 from occ_model.receiver.decoders import PAPERS
 from occ_model.results import Edge, Limits, RateSettings, Reach, SweepPoint, Trial, Way
@@ -92,7 +92,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
 def _checked(rate: object) -> float:
     number = isinstance(rate, Real) and not isinstance(rate, bool)
     if not number or not 0.0 < rate <= 100.0:  # type: ignore[operator]
-        raise ParameterError(f"rate is {rate!r} %; allowed: above 0 % to 100 %.")
+        raise ParameterError(f"rate is {shown(rate)} %; allowed: above 0 % to 100 %.")
     return float(rate)  # type: ignore[arg-type]
 
 

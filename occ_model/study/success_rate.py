@@ -13,7 +13,7 @@ from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.results import DecodeResult, RateSettings, Region, Way
-from occ_model.results.sweep_request import WAYS
+from occ_model.results.sweep_request import MOST_IMAGES, WAYS
 from occ_model.scene import Scene, check_scene
 from occ_model.simulation import render
 from occ_model.simulation_settings import TOLERANCE
@@ -151,7 +151,7 @@ def check_rate(scene: Scene, settings: RateSettings) -> None:
         There are no images, no such decoder, path or effect, seed or tolerance are out of range,
         or the scene sends a raw pattern.
     """
-    check_count("images", settings.images, 1)
+    check_count("images", settings.images, 1, MOST_IMAGES)
     check_seed(settings.seed)
     check_choice("path", settings.path, WAYS)
     TOLERANCE.check(settings.tolerance)

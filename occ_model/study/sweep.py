@@ -17,10 +17,11 @@ from occ_model.declarations import ParameterValue
 from occ_model.errors import one_line
 from occ_model.receiver.decoders import PAPERS
 from occ_model.results import RateSettings, SweepPoint, SweepRequest, SweepTable, Way
+from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.scene import Scene
 from occ_model.simulation_settings import TOLERANCE
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.sweep_check import checked_request, decoders_of
+from occ_model.study.sweep_check import checked_request, decoders_of, processes_for
 from occ_model.study.sweep_file import ResultsFile
 from occ_model.study.sweep_work import Pulse, measure_here
 from occ_model.study.sweep_workers import GivenWorkers, measure_by
@@ -72,7 +73,8 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     jobs
         How many processes of its own the sweep starts, and starts again where they die; 1: none, it
         runs in this process, which it does with a ``RuntimeWarning`` also where the system has no
-        processes to give. As with all processes of Python, the module that starts them must not
+        processes to give. No more are started than there are points to measure, and a few for
+        each core. As with all processes of Python, the module that starts them must not
         do so when it is imported (``if __name__ == "__main__":``).
     progress
         Called after each point, and several times a second while a point takes longer, with the
@@ -101,7 +103,7 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     """
     settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
     request = checked_request(scene, axes, settings)
-    check_count("jobs", jobs, 1)
+    check_count("jobs", jobs, 1, MOST_JOBS)
     ledger = _Ledger(request)
     clock = _Clock(request.points, progress)
     with ExitStack() as stack:
@@ -112,6 +114,7 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
                 ledger.enter(point)
             clock.start(ledger.entered)
         rest = (index for index in request.in_order_of_work() if not ledger.has(index))
+        jobs = processes_for(jobs, request.points - ledger.entered)
         points = measure(request, rest, executor=executor, jobs=jobs, pulse=clock.pulse)
         # Closed at once, and not when nobody remembers what ended it: workers wait for that.
         for point in stack.enter_context(closing(points)):

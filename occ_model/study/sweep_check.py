@@ -1,12 +1,16 @@
 """What is asked of a sweep, checked before any work starts."""
 
+import math
+import os
 from collections.abc import Iterable, Mapping, Sequence
 
+from occ_model.checks import check_count
 from occ_model.declarations import Choice, ParameterValue
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, shown
 from occ_model.parameters import parameter_named
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import RateSettings, SweepRequest
+from occ_model.results.sweep_request import JOBS_A_CORE, MOST_AXES, MOST_JOBS, MOST_POINTS
 from occ_model.scene import Scene, check_scene
 from occ_model.study.success_rate import check_rate
 
@@ -33,9 +37,53 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
     check_rate(scene, settings)
     if not isinstance(axes, Mapping) or not axes:
         raise ParameterError(
-            f"axes is {axes!r}; allowed: one parameter or more by name, a list of values each."
+            f"axes is {shown(axes)}; allowed: one parameter or more by name, a list of values each."
         )
-    return SweepRequest(scene, {str(n): _axis(n, values) for n, values in axes.items()}, settings)
+    if len(axes) > MOST_AXES:
+        raise ParameterError(f"{len(axes)} parameters are varied; allowed: at most {MOST_AXES}.")
+    checked: dict[str, tuple[ParameterValue, ...]] = {}
+    for name, values in axes.items():
+        checked[str(name)] = _axis(name, values)
+        check_points(checked)
+    return SweepRequest(scene, checked, settings)
+
+
+def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
+    """Refuse axes that have too many points between them.
+
+    Raises
+    ------
+    ParameterError
+        There are more than a sweep may have.
+    """
+    sizes = [len(values) for values in axes.values()]
+    points = math.prod(sizes)
+    if points > MOST_POINTS:
+        counts = " x ".join(f"{size:,}" for size in sizes)
+        raise ParameterError(
+            f"The sweep has {counts} = {points:,} points; allowed: at most {MOST_POINTS:,}."
+            if len(sizes) > 1
+            else f"The sweep has {points:,} points; allowed: at most {MOST_POINTS:,}."
+        )
+
+
+def processes_for(jobs: int, points: int) -> int:
+    """Give how many processes are started where some number is asked for.
+
+    Parameters
+    ----------
+    jobs
+        What is asked for.
+    points
+        What is to be measured: no process is idle from the start.
+
+    Raises
+    ------
+    ParameterError
+        It is no whole number from 1, or too large.
+    """
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    return max(1, min(jobs, points, JOBS_A_CORE * (os.cpu_count() or 1)))
 
 
 def decoders_of(decoder: object) -> tuple[str, ...]:
@@ -50,10 +98,12 @@ def decoders_of(decoder: object) -> tuple[str, ...]:
     if isinstance(decoder, str):
         return (decoder,)
     if not isinstance(decoder, Sequence) or not decoder:
-        raise ParameterError(f"decoder is {decoder!r}; allowed: one of {known}, or several.")
+        raise ParameterError(f"decoder is {shown(decoder)}; allowed: one of {known}, or several.")
     for name in decoder:
         if list(decoder).count(name) > 1:
-            raise ParameterError(f"decoder {name!r} is there twice; allowed: each of {known} once.")
+            raise ParameterError(
+                f"decoder {shown(name)} is there twice; allowed: each of {known} once."
+            )
     return tuple(decoder)
 
 
@@ -62,7 +112,9 @@ def _axis(name: str, values: object) -> tuple[ParameterValue, ...]:
     if name == "pattern":
         raise ParameterError("pattern cannot be varied: a raw pattern holds no code to be read.")
     if isinstance(values, str | bytes) or not isinstance(values, Iterable):
-        raise parameter.refuse(f"varies over {values!r}", f"a list of values, {parameter.allowed}")
+        raise parameter.refuse(
+            f"varies over {shown(values)}", f"a list of values, {parameter.allowed}"
+        )
     checked: dict[ParameterValue, None] = {}
     for value in values:
         own = parameter.check(value)
@@ -72,6 +124,8 @@ def _axis(name: str, values: object) -> tuple[ParameterValue, ...]:
             text = parameter.format(own)  # type: ignore[arg-type]
             raise parameter.refuse(f"is {text} twice", "values that differ")
         checked[own] = None
+        if len(checked) > MOST_POINTS:  # such as values that never end
+            raise parameter.refuse("has too many values", f"at most {MOST_POINTS:,}")
     if not checked:
         raise parameter.refuse("has no values to vary over", f"one or more, {parameter.allowed}")
     return tuple(checked)

@@ -1,17 +1,24 @@
 """Laws of the sweep: each point stands by itself."""
 
 import math
+import os
 import subprocess
 import sys
 from concurrent.futures import Executor, Future
+from contextlib import suppress
+from itertools import count
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.parameters import PARAMETERS
 from occ_model.results import RateSettings, SweepTable
+from occ_model.results.sweep_request import MOST_AXES
 from occ_model.scene import Scene
+from occ_model.study import sweep_pool
 from occ_model.study.sweep_check import checked_request
 
 BOTH = ("threshold", "matched")
@@ -153,7 +160,7 @@ def test_the_profile_path_gives_the_table_of_the_image_path(scene: Scene) -> Non
 
 
 def test_importing_the_package_imports_nothing_that_starts_processes() -> None:
-    program = "import sys, occ_model; print(*sys.modules)"
+    program = "import sys, occ_model; occ_model.sweep; print(*sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
@@ -162,3 +169,45 @@ def test_importing_the_package_imports_nothing_that_starts_processes() -> None:
     assert (
         loaded & {"concurrent.futures.process", "multiprocessing", "distributed", "tqdm"} == set()
     )
+
+
+@pytest.mark.parametrize(
+    ("jobs", "points", "cores", "started"),
+    [(1024, 100, 2, 8), (3, 100, 2, 3), (6, 4, 64, 4), (1, 4, 2, 1), (8, 1, 2, 1), (5, 9, None, 4)],
+)
+def test_no_more_processes_are_started_than_have_points_or_cores(
+    monkeypatch: pytest.MonkeyPatch, jobs: int, points: int, cores: int | None, started: int
+) -> None:
+    counts: list[int] = []
+
+    class Stop(Exception):  # noqa: N818
+        pass
+
+    def start(number: int) -> NoReturn:
+        counts.append(number)
+        raise Stop
+
+    monkeypatch.setattr(os, "cpu_count", lambda: cores)
+    monkeypatch.setattr(sweep_pool, "OwnWorkers", start)
+    axes = {"iso": [100.0 + place for place in range(points)]}
+    with suppress(Stop):
+        occ.sweep(occ.load_preset("phone-68us").replace(rows=60), axes, 1, jobs=jobs)
+    assert counts == ([started] if started > 1 else [])
+
+
+def test_values_that_never_end_are_refused() -> None:
+    with pytest.raises(occ.ParameterError, match="iso has too many values; allowed: at most 1,000"):
+        occ.sweep(occ.Scene(), {"iso": (100.0 + 1e-4 * place for place in count())})
+
+
+def test_more_parameters_than_an_array_has_axes_are_refused() -> None:
+    axes = {name: [occ.Scene().value(name)] for name in PARAMETERS if name != "pattern"}
+    with pytest.raises(occ.ParameterError, match="47 parameters are varied; allowed: at most 31"):
+        occ.sweep(occ.Scene(), axes, 1)
+
+
+def test_a_sweep_may_vary_as_many_parameters_as_are_allowed() -> None:
+    start = occ.load_preset("phone-68us").replace(rows=60)
+    names = [name for name in PARAMETERS if name != "pattern"][:MOST_AXES]
+    axes = {name: [start.value(name)] for name in names}
+    assert occ.sweep(start, axes, 1).rates().shape == (1,) * MOST_AXES

@@ -67,6 +67,15 @@ def test_steps_that_meet_the_end_end_there_exactly() -> None:
         ("distance=1:2:x1", "varies in 'x1'; allowed: x2 to x"),
         ("distance=1:2:xx", "allowed: x2 to x"),
         ("distance=1m:2m:1nm", "values; allowed: up to 1000000"),
+        ("distance=1:2:1e-320", "distance varies over too many values; allowed: up to 1000000"),
+        ("gamma=1:4:5e-324", "gamma varies over too many values; allowed: up to 1000000"),
+        ("distance=1:2:x" + "9" * 5000, "; allowed: x2 to x1000000 values"),
+        ("distance=1:2:x1000001", "varies in 'x1000001'; allowed: x2 to x1000000 values"),
+        ("distance=1:2:" + "9" * 5000, "a step above 0"),
+        ("bits=2:9:" + "9" * 5000, "a step above 0"),
+        ("bits=2:9:" + "0" * 5000, "a step above 0"),
+        ("distance=" + "1," * 10**6 + "1", "distance has too many values; allowed: at most 1,000,"),
+        ("x" * 10**5, "allowed: NAME=a,b,c"),
         ("distance=1:1e9:1", "distance is 1e"),
         ("distance=1,,2", "distance is '', which is not a number in m"),
         ("bits=2:9:0.5", "a step above 0"),
@@ -76,6 +85,16 @@ def test_axes_that_cannot_be_are_refused_with_a_sentence(text: str, words: str) 
     with pytest.raises(ParameterError) as refusal:
         axes_of([text])
     assert words in str(refusal.value)
+    assert len(str(refusal.value)) < 600
+
+
+def test_axes_are_refused_before_all_their_points_are_made() -> None:
+    wide = ["iso=100:4000:x30", "distance=0.1:2:x30", "rows=100:400:x30", "gamma=1:3:x30"]
+    with pytest.raises(ParameterError) as refusal:
+        axes_of([*wide, "yaw=0:1:x1000", "no parameter"])
+    assert str(refusal.value) == (
+        "The sweep has 30 x 30 x 30 x 30 x 1,000 = 810,000,000 points; allowed: at most 1,000,000."
+    )
 
 
 def test_a_parameter_is_varied_once() -> None:
@@ -118,6 +137,9 @@ def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str])
         (["--vary", "distance=1,1"], "distance is 1 m twice"),
         (["--vary", "distance=1", "--images", "0"], "images is 0"),
         (["--vary", "distance=1", "--jobs", "0"], "jobs is 0"),
+        (["--vary", "distance=1", "--jobs", "100000"], "allowed: a whole number from 1 to 1,024."),
+        (["--vary", "distance=1", "--images", "9" * 4000], "a whole number from 1 to 1,000,000."),
+        (["--vary", "iso=100:4000:1", "--vary", "distance=1:2:x300"], "1,170,300 points; allowed"),
         (["--vary", "distance=1", "--plot", "x.gif"], "'.gif'; allowed: .png, .pdf, .svg"),
         (["--vary", "distance=1", "--plot", "no/such/x.png"], "cannot be written"),
         (["--vary", "distance=1", "--out", "."], "is a folder"),
@@ -251,3 +273,14 @@ def test_what_cannot_be_drawn_is_refused(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"no ending of a figure; use \.png, "):
         write_sweep_figure(tmp_path / "f.gif", table_of(iso=[100.0]))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_number_of_too_many_digits_is_refused_in_short(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["sweep", "--vary", "distance=1", "--images", "9" * 5000])
+    assert ended.value.code == 2
+    *_, last = capsys.readouterr().err.splitlines()
+    assert last.startswith("occ-model sweep: error: argument --images: invalid int value: '999")
+    assert len(last) < 1100

@@ -158,6 +158,10 @@ def _prepare(options: argparse.Namespace) -> None:
             raise occ.OutputError(
                 f"{one_line(str(options.screenshot))}: a screenshot is a .png file; name one."
             )
+        # It imports all commands, which a window has no use for.
+        from occ_model.commands.files import check_files
+
+        check_files(options)
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:

@@ -1,4 +1,4 @@
-"""The files that a command reads and writes: none is written over what it reads, or writes too."""
+"""The files that a command line reads and writes: none is written over another."""
 
 import argparse
 from collections.abc import Iterator
@@ -13,12 +13,18 @@ from occ_model.settings import check_scene_path
 INPUTS = {
     "file": "the photo",
     "scene": "the file of --scene",
+    "photo": "the file of --photo",
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",
 }
 """Options that name a file to read, and what sentences call it."""
 
-OUTPUTS = {"out": "--out", "save_scene": "--save-scene", "plot": "--plot"}
+OUTPUTS = {
+    "out": "--out",
+    "save_scene": "--save-scene",
+    "plot": "--plot",
+    "screenshot": "--screenshot",
+}
 """Options that name a file or folder to write."""
 
 _FIGURES = (*PICTURE_ENDINGS, ".pdf", ".svg")

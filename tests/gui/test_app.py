@@ -90,6 +90,21 @@ def test_a_photo_that_cannot_be_matched_is_answered_in_a_sentence(tmp_path: Path
     assert not (tmp_path / "w.png").exists()
 
 
+@pytest.mark.parametrize("name", ["photo.png", "link.png"])
+def test_a_screenshot_is_not_written_over_the_photo(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    photo = tmp_path / "photo.png"
+    Image.new("L", (100, 60), 90).save(photo)
+    (tmp_path / "link.png").symlink_to(photo)
+    before = photo.read_bytes()
+    assert main(["--photo", str(photo), "--screenshot", str(tmp_path / name)]) == 2
+    error = capsys.readouterr().err
+    assert is_one_sentence(error)
+    assert "the same file as the file of --photo" in error
+    assert photo.read_bytes() == before
+
+
 def test_a_match_without_a_photo_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--match"]) == 2
     assert is_one_sentence(capsys.readouterr().err)

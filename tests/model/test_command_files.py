@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
+from occ_gui.app import read_command_line as read_window_command_line
 from occ_model.cli import main
 from occ_model.commands import files, read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
@@ -118,6 +119,8 @@ def test_every_option_that_names_a_file_is_known() -> None:
         patched.setattr(argparse.ArgumentParser, "parse_args", stop)
         with pytest.raises(FoundError):
             read_command_line([])
+        with pytest.raises(FoundError):
+            read_window_command_line([])
     assert seen == known
 
 

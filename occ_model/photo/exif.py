@@ -6,11 +6,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from occ_model.errors import ParameterError
 from occ_model.parameters import PARAMETERS
-from occ_model.photo.channels import Samples
 
 if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
@@ -25,6 +22,9 @@ _ISO_OR_MORE = 65535
 """What a camera notes in the 16 bits of the oldest tag when its ISO speed does not fit."""
 
 _LONGEST_NAME = 60
+
+_FIRST_LYING = 5
+"""From this orientation on the camera's columns are stored as lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,21 +79,17 @@ def orientation_of(picture: "PillowImage") -> int:
     return orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1
 
 
-def upright(samples: Samples, orientation: int) -> Samples:
-    """Turn and mirror what was stored in an EXIF orientation into what the camera saw."""
-    if orientation == 2:
-        return samples[:, ::-1]
-    if orientation == 3:
-        return samples[::-1, ::-1]
-    if orientation == 4:
-        return samples[::-1]
-    if orientation == 5:
-        return samples.T
-    if orientation == 6:
-        return np.rot90(samples, -1)
-    if orientation == 7:
-        return samples[::-1, ::-1].T
-    return np.rot90(samples) if orientation == 8 else samples
+def turns_of(orientation: int) -> tuple[bool, bool, bool]:
+    """Say how what was stored in an EXIF orientation becomes what the camera saw.
+
+    Returns
+    -------
+    transpose, mirror_rows, mirror_columns
+        To be done in this order.
+    """
+    mirror_rows = orientation in (3, 4, 7, 8)
+    mirror_columns = orientation in (2, 3, 6, 7)
+    return orientation >= _FIRST_LYING, mirror_rows, mirror_columns
 
 
 def _iso(tags: Mapping[int, Any]) -> float | None:

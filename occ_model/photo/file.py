@@ -9,15 +9,18 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
-from occ_model.errors import PhotoError
+from occ_model.errors import PhotoError, one_line
+from occ_model.photo.limits import check_file_size, check_memory
+from occ_model.photo.watched_file import Teller, WatchedFile
 
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
 
-    Opener: TypeAlias = Callable[[], ImageFile]
+    Opener: TypeAlias = Callable[[float, float], ImageFile]
 
 _FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "QOI", "JPEG2000", "AVIF")
 """What photos come in. Pillow reads more, and starts other programs for some of it."""
@@ -39,7 +42,7 @@ _pillow_lock = threading.Lock()
 
 
 @contextmanager
-def open_picture(path: Path, max_pixels: int) -> "Iterator[Opener]":
+def open_picture(path: Path, max_pixels: int, tell: Teller) -> "Iterator[Opener]":
     """Open an image file.
 
     Parameters
@@ -48,11 +51,14 @@ def open_picture(path: Path, max_pixels: int) -> "Iterator[Opener]":
         The file.
     max_pixels
         What a picture may have at most, by its header.
+    tell
+        Told of progress as the file is read; what it raises comes out of the ``with`` block.
 
     Yields
     ------
     callable
-        Gives the file's first picture, not yet decoded, at each call.
+        Gives the file's first picture, not yet decoded, at each call; takes between which two
+        shares of the work it will be decoded.
 
     Raises
     ------
@@ -60,24 +66,31 @@ def open_picture(path: Path, max_pixels: int) -> "Iterator[Opener]":
         There is no such file, it may not be read, it is no image or a damaged one, or too large.
         Also in place of whatever is raised on decoding inside the ``with`` block.
     """
-    # Pillow is slow to import, and only needed when a photo is really opened.
-    from PIL import Image
-
     try:
         _check_file(path, max_pixels)
-        with _pillow_ready(max_pixels), path.open("rb") as file:
-            yield lambda: _first_picture(path, file, max_pixels)
+        with _pillow_ready(max_pixels), WatchedFile(path, tell) as file:
+            yield lambda first, last: _first_picture(path, file, max_pixels, (first, last))
     except PhotoError:
         raise
-    except Image.DecompressionBombError:  # of a format that looks at the size on opening
-        raise PhotoError(f"{path} has more than {_allowed(max_pixels)}") from None
-    except MemoryError:
-        raise PhotoError(f"{path} cannot be read: there is too little memory for it.") from None
-    except OSError as error:
-        reason = error.strerror or _damaged(error)
-        raise PhotoError(f"{path} cannot be read: {reason}.") from None
     except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
-        raise PhotoError(f"{path} cannot be read: {_damaged(error)}.") from None
+        # A decoder may have put an error of its own in place of what ended it.
+        if tell.ended_by is not None:
+            raise tell.ended_by from None
+        raise _refusal(path, error, max_pixels) from None
+
+
+def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
+    """Say why a file cannot be read."""
+    from PIL import Image
+
+    shown = one_line(str(path))
+    # Of a format that looks at the size on opening.
+    if isinstance(error, Image.DecompressionBombError):
+        return PhotoError(f"{shown} has more than {_allowed(max_pixels)}")
+    if isinstance(error, MemoryError):
+        return PhotoError(f"{shown} cannot be read: there is too little memory for it.")
+    reason = error.strerror if isinstance(error, OSError) else None
+    return PhotoError(f"{shown} cannot be read: {reason or _damaged(error)}.")
 
 
 @contextmanager
@@ -106,63 +119,69 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
 
 def _check_file(path: Path, max_pixels: int) -> None:
     """Refuse what is no file with something in it: opening a pipe could wait for ever."""
+    shown = one_line(str(path))
     try:
         status = path.stat()
     except ValueError as error:  # a name that no file can have
-        raise PhotoError(f"{path} cannot be read: {error}.") from None
+        raise PhotoError(f"{shown} cannot be read: {error}.") from None
     if stat.S_ISDIR(status.st_mode):
-        raise PhotoError(f"{path} is a folder, not a photo.")
+        raise PhotoError(f"{shown} is a folder, not a photo.")
     if not stat.S_ISREG(status.st_mode):
-        raise PhotoError(f"{path} is a device, pipe or socket, not a photo.")
+        raise PhotoError(f"{shown} is a device, pipe or socket, not a photo.")
     if status.st_size == 0:
-        raise PhotoError(f"{path} is an empty file, not a photo.")
+        raise PhotoError(f"{shown} is an empty file, not a photo.")
     # Some decoders take a file into memory as a whole.
     largest = _BYTES_A_PIXEL * max_pixels + _BYTES_OF_NOTES
     if status.st_size > largest:
         raise PhotoError(
-            f"{path} has {status.st_size:,} bytes; allowed for a photo of at most "
+            f"{shown} has {status.st_size:,} bytes; allowed for a photo of at most "
             f"{_count(max_pixels)} pixels: up to {largest:,}."
         )
 
 
-def _first_picture(path: Path, file: IO[bytes], max_pixels: int) -> "ImageFile":
+def _first_picture(
+    path: Path, file: WatchedFile, max_pixels: int, shares: tuple[float, float]
+) -> "ImageFile":
     """Open the file's first picture, and check its size before anything of it is decoded."""
-    factory = _factory(path, file)
+    shown, size = one_line(str(path)), os.fstat(file.fileno()).st_size
+    name, factory = _factory(path, file)
+    check_file_size(path, name, size)
     file.seek(0, os.SEEK_SET)
+    file.watch(size, *shares)
     try:
         picture = factory(file)
     except SyntaxError as error:  # Pillow's word for a header that makes no sense to it
         problem = _damaged(error, "the file is damaged or of an unusual kind")
-        raise PhotoError(f"{path} cannot be read: {problem}.") from None
+        raise PhotoError(f"{shown} cannot be read: {problem}.") from None
     width, height = picture.size
     if width * height > max_pixels:
         raise PhotoError(
-            f"{path} has {width:,} x {height:,} pixels, {_count(width * height)}; "
+            f"{shown} has {width:,} x {height:,} pixels, {_count(width * height)}; "
             f"allowed: at most {_allowed(max_pixels)}"
         )
-    size = os.fstat(file.fileno()).st_size
     # A size that is wrong in the header would otherwise be read, in seconds, as so much black.
     if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
         raise PhotoError(
-            f"{path} cannot be read: the file is damaged ({size:,} bytes cannot hold "
+            f"{shown} cannot be read: the file is damaged ({size:,} bytes cannot hold "
             f"{width:,} x {height:,} pixels)."
         )
     if picture.format == "TIFF":
-        _check_tiff(path, picture)
+        _check_tiff(shown, picture)
+    check_memory(path, picture, file.total, file.last)
     return picture
 
 
-def _check_tiff(path: Path, picture: "ImageFile") -> None:
+def _check_tiff(shown: str, picture: "ImageFile") -> None:
     """Refuse what Pillow would read as something else without a word."""
     from PIL.TiffImagePlugin import BITSPERSAMPLE, PLANAR_CONFIGURATION, TiffImageFile
 
     if not _is_covered(picture):
-        raise PhotoError(f"{path} cannot be read: the file is damaged (parts are missing).")
+        raise PhotoError(f"{shown} cannot be read: the file is damaged (parts are missing).")
     tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
     bits = tags.get(BITSPERSAMPLE, (1,))
     if tags.get(PLANAR_CONFIGURATION) == 2 and len(bits) > 1 and max(bits) > 8:
         raise PhotoError(
-            f"{path} cannot be read: it keeps each colour of {max(bits)} bits in a plane of "
+            f"{shown} cannot be read: it keeps each colour of {max(bits)} bits in a plane of "
             "its own; allowed: pixel by pixel."
         )
 
@@ -174,23 +193,22 @@ def _is_covered(picture: "ImageFile") -> bool:
     return reach[0] * reach[1] >= picture.width * picture.height
 
 
-def _factory(path: Path, file: IO[bytes]) -> "Callable[[IO[bytes]], ImageFile]":
-    """Find what opens a file that begins like this one."""
+def _factory(path: Path, file: IO[bytes]) -> "tuple[str, Callable[[IO[bytes]], ImageFile]]":
+    """Give the format of a file that begins like this one, and what opens it."""
     from PIL import Image
     from PIL.JpegImagePlugin import JpegImageFile
 
     file.seek(0, os.SEEK_SET)
     start = file.read(64)
     if _is_heic(start):
-        return _heic_factory(path)
+        return "HEIF", _heic_factory(path)
     Image.init()
     for name in _FORMATS:
         factory, accepts = Image.OPEN.get(name, (None, None))
         if factory is not None and accepts is not None and accepts(start[:16]) is True:
             # Not Pillow's own for JPEG: it fails where the list of further pictures is damaged.
-            chosen = JpegImageFile if name == "JPEG" else factory
-            return lambda opened: chosen(opened, "")
-    raise PhotoError(f"{path} is not an image that can be read.")
+            return name, partial(JpegImageFile if name == "JPEG" else factory, filename="")
+    raise PhotoError(f"{one_line(str(path))} is not an image that can be read.")
 
 
 def _is_heic(start: bytes) -> bool:
@@ -206,7 +224,7 @@ def _heic_factory(path: Path) -> "Callable[[IO[bytes]], ImageFile]":
         from pillow_heif import HeifImageFile
     except ImportError:
         raise PhotoError(
-            f"{path} is a HEIC photo; to read it: pip install occ-explorer[heic]."
+            f"{one_line(str(path))} is a HEIC photo; to read it: pip install occ-explorer[heic]."
         ) from None
     factory: Callable[[IO[bytes]], ImageFile] = HeifImageFile
     return factory

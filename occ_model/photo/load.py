@@ -13,9 +13,11 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.checks import check_choice, check_count
 from occ_model.errors import ParameterError, PhotoError, shown
-from occ_model.photo.channels import CHANNELS, Samples, decode_picture, take_channel, white_of
-from occ_model.photo.exif import CameraNotes, camera_notes, orientation_of, upright
+from occ_model.photo.channels import CHANNELS, take_channel, white_of
+from occ_model.photo.decoding import DECODED, DecodedPicture, Samples
+from occ_model.photo.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.file import open_picture
+from occ_model.photo.watched_file import Progress, Teller
 
 __all__ = ["CHANNELS", "SCAN_AXES", "Photo", "column_means", "load_photo"]
 
@@ -72,6 +74,7 @@ def load_photo(
     *,
     channel: str = "brightest",
     max_pixels: int = MAX_PIXELS,
+    progress: Progress | None = None,
 ) -> Photo:
     """Read a photograph.
 
@@ -87,7 +90,13 @@ def load_photo(
         ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"brightest"``: the colour with the
         largest mean, in which a coloured LED shows.
     max_pixels
-        What the photo may have at most; the decoders take no more than the default.
+        What the photo may have at most; the decoders take no more than the default, and some of
+        them less: reading a photo takes at most a gigabyte of memory.
+    progress
+        Called with the share of the work that is done, from 0 to 1. What it raises ends the
+        reading and is raised here: as soon as more of the file is read or more pixels are
+        converted, which some formats' decoders (JPEG 2000, WebP, AVIF, HEIC, and libtiff) do not
+        come to before all is decoded.
 
     Returns
     -------
@@ -109,9 +118,9 @@ def load_photo(
         raise PhotoError(
             f"{shown(path)} is not the path of a photo; allowed: str or Path."
         ) from None
-    seen, taken, notes = _read(path, channel, int(max_pixels))
-    turned = scan_axis == "lines" or (scan_axis == "auto" and _stripes_are_lines(seen))
-    samples = cast("Samples", cv2.transpose(seen)) if turned else seen
+    tell = Teller(progress)
+    tell(0.0)
+    samples, taken, turned, notes = _read(path, channel, scan_axis, int(max_pixels), tell)
     white = white_of(samples)
     return Photo(
         path=path,
@@ -158,14 +167,44 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     return means * (WHITE / photo.white)
 
 
-def _read(path: Path, channel: str, max_pixels: int) -> tuple[Samples, str, CameraNotes]:
-    """Read a file's samples of one channel the right way up, and what the camera noted."""
-    with open_picture(path, max_pixels) as opened:
-        picture = opened()
-        pixels = decode_picture(picture, opened)
-        notes, orientation = camera_notes(picture), orientation_of(picture)
-        samples, taken = take_channel(pixels, channel)
-    return np.ascontiguousarray(upright(samples, orientation)), taken, notes
+def _read(
+    path: Path, channel: str, scan_axis: str, max_pixels: int, tell: Teller
+) -> tuple[Samples, str, bool, CameraNotes]:
+    """Read a file's samples of one channel with the scan axis as columns.
+
+    Also what was taken, whether the lines became the columns, and what the camera noted.
+    """
+    samples, taken, notes, orientation = _taken(path, channel, max_pixels, tell)
+    transpose, mirror_rows, mirror_columns = turns_of(orientation)
+    turned = scan_axis == "lines" or (
+        scan_axis == "auto" and _stripes_are_lines(samples, transpose)
+    )
+    if turned:
+        transpose, mirror_rows, mirror_columns = not transpose, mirror_columns, mirror_rows
+    # Each step lets go of the array before it.
+    if transpose:
+        samples = cast("Samples", cv2.transpose(samples))
+    if mirror_rows:
+        samples = cast("Samples", cv2.flip(samples, 0))
+    if mirror_columns:
+        samples = cast("Samples", cv2.flip(samples, 1))
+    return samples, taken, turned, notes
+
+
+def _taken(
+    path: Path, channel: str, max_pixels: int, tell: Teller
+) -> tuple[Samples, str, CameraNotes, int]:
+    """Read a file's samples of one channel as they lie in it, and what the camera noted."""
+    with open_picture(path, max_pixels, tell) as opened:
+        decoded = DecodedPicture(opened)
+        try:
+            notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
+            samples, taken = take_channel(
+                decoded, channel, lambda share: tell(DECODED + (1.0 - DECODED) * share)
+            )
+        finally:
+            decoded.close()
+    return samples, taken, notes, orientation
 
 
 def _in_grey_levels(samples: Samples) -> ByteArray:
@@ -181,9 +220,13 @@ def _means(samples: Samples, axis: int) -> FloatArray:
     return means
 
 
-def _stripes_are_lines(samples: Samples) -> bool:
-    """Whether the means of the lines differ more, from one to the next, than those of columns."""
-    columns, lines = (_roughness(_means(samples, axis)) for axis in (0, 1))
+def _stripes_are_lines(samples: Samples, lying: bool) -> bool:
+    """Whether the means of the lines differ more, from one to the next, than those of columns.
+
+    Lines and columns are those of the upright photo, of which ``samples`` may be lying.
+    """
+    axes = (1, 0) if lying else (0, 1)
+    columns, lines = (_roughness(_means(samples, axis)) for axis in axes)
     return lines > columns
 
 

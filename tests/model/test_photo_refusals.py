@@ -15,7 +15,7 @@ import pytest
 from photo_files import saved
 from PIL import Image, PngImagePlugin
 
-from occ_model.errors import ParameterError, PhotoError
+from occ_model.errors import ParameterError, PhotoError, one_line
 from occ_model.photo.load import load_photo
 
 PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
@@ -55,7 +55,7 @@ def test_what_is_no_photo_is_refused_in_a_sentence(tmp_path: Path) -> None:
         paths.append(tmp_path / f"{name}.png")
         paths[-1].write_bytes(content)
     for path in paths:
-        assert refusal(path).startswith(f"{path} ")
+        assert refusal(path).startswith(f"{one_line(str(path))} ")
     assert refusal(tmp_path) == f"{tmp_path} is a folder, not a photo."
     (tmp_path / "empty.png").touch()
     assert refusal(tmp_path / "empty.png").endswith("empty.png is an empty file, not a photo.")

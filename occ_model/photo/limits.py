@@ -1,0 +1,147 @@
+"""How large a photo of each format may be, so that reading it takes bounded memory and time."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from occ_model.errors import PhotoError, one_line
+
+if TYPE_CHECKING:
+    from PIL.ImageFile import ImageFile
+
+_MOST_MEMORY = 950_000_000
+"""Bytes that reading a photo may take; numpy, OpenCV and the decoders' libraries are 150 MB more.
+
+A picture of 170 million pixels takes 4 bytes each of them while it is decoded, whatever its
+colours, and 1 for the channel that is taken.
+"""
+
+_MOST_BYTES = {
+    "JPEG2000": 18_000_000,
+    "QOI": 16_000_000,
+    "WEBP": 36_000_000,
+    "AVIF": 50_000_000,
+    "HEIF": 40_000_000,
+}
+"""What a file may have, of formats whose decoders take some seconds for so much."""
+
+_DEEP_COLOURS = 2
+"""Pictures that are held at once of 16-bit colours: the upper and the lower bytes."""
+
+_ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
+
+
+def check_file_size(path: Path, file_format: str, size: int) -> None:
+    """Refuse a file that its decoder would be too slow for.
+
+    Raises
+    ------
+    PhotoError
+        It has too many bytes.
+    """
+    largest = _MOST_BYTES.get(file_format)
+    if largest is not None and size > largest:
+        raise PhotoError(
+            f"{one_line(str(path))} has {size:,} bytes; allowed for a photo in the format "
+            f"{file_format}: up to {largest:,}, which are read within seconds."
+        )
+
+
+def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header: int) -> None:
+    """Refuse a picture that would take too much memory, before anything of it is decoded.
+
+    Parameters
+    ----------
+    path
+        The file.
+    picture
+        As opened, not yet decoded.
+    bytes_read
+        What was read of the file on opening it, which may all be kept.
+    scan_header
+        Bytes of the last part that was read: in a JPEG the header of its first scan.
+
+    Raises
+    ------
+    PhotoError
+        It would.
+    """
+    pixels = picture.width * picture.height
+    each = _bytes_a_pixel(picture, scan_header)
+    fixed = bytes_read + _bytes_of_a_strip(picture)
+    if each * pixels + fixed > _MOST_MEMORY:
+        most = max(int((_MOST_MEMORY - fixed) / each), 0)
+        raise PhotoError(
+            f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels, which take "
+            f"{(each * pixels + fixed) / 1e9:.2f} GB of memory to be decoded; allowed: at most "
+            f"{_MOST_MEMORY / 1e9:.2f} GB, {most / 1e6:.1f} million pixels of this kind."
+        )
+
+
+def is_deep_in_colours(raw_modes: set[str]) -> bool:
+    """Whether a file's samples, in Pillow's words, are colours of 16 bits."""
+    return len(raw_modes) == 1 and all(
+        mode.startswith(("RGB;16", "RGBA;16", "RGBX;16")) for mode in raw_modes
+    )
+
+
+def raw_modes_of(picture: "ImageFile") -> set[str]:
+    """Give how the samples lie in the file, in Pillow's words."""
+    arguments = [tile[3] for tile in picture.tile]
+    firsts = [given[0] if isinstance(given, tuple) and given else given for given in arguments]
+    return {first for first in firsts if isinstance(first, str)}
+
+
+def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
+    """Give the most memory that a pixel takes at once, until one channel of it is left."""
+    deep_colours = is_deep_in_colours(raw_modes_of(picture))
+    decoded = _bytes_decoded(picture.mode)
+    if deep_colours:
+        decoded *= _DEEP_COLOURS
+    kept = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
+    # In the end the channel is turned, and held in whole grey levels besides.
+    turning = 5 if kept == 2 else 2
+    return max(decoded + _bytes_beside(picture, scan_header), decoded + kept, turning)
+
+
+def _bytes_decoded(mode: str) -> int:
+    """Give what Pillow keeps a pixel in."""
+    if mode in ("1", "L", "P"):
+        return 1
+    return 2 if mode.startswith("I;16") else 4
+
+
+def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
+    """Give what a format's decoder needs of its own for each pixel of the picture."""
+    bands = len(picture.getbands())
+    kind = picture.format
+    if kind == "JPEG":
+        layers = getattr(picture, "layer", [])
+        in_one_scan = scan_header == 4 + 2 * len(layers) and "progressive" not in picture.info
+        # Coefficients of 16 bits, of all scans.
+        return 0.0 if in_one_scan else 2 * _samples_a_pixel(layers)
+    if kind == "JPEG2000":  # whole numbers of 32 bits, and samples
+        return bands * (4 + (2 if picture.mode.startswith("I") else 1))
+    if kind == "TIFF":  # which Pillow turns by itself
+        tags = getattr(picture, "tag_v2", {})
+        return 0.0 if tags.get(_ORIENTATION, 1) == 1 else _bytes_decoded(picture.mode)
+    return {"WEBP": 16.0, "AVIF": 12.0, "HEIF": 12.0, "QOI": 5.0}.get(kind or "", 0.0)
+
+
+def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
+    """Give how many samples a JPEG has for each pixel, some of its colours being coarser."""
+    widest = max((across for _, across, _, _ in layers), default=1)
+    highest = max((down for _, _, down, _ in layers), default=1)
+    return sum(across * down for _, across, down, _ in layers) / (widest * highest)
+
+
+def _bytes_of_a_strip(picture: "ImageFile") -> int:
+    """Give the size of the parts in which a TIFF is decoded: one may be all of it."""
+    tags = getattr(picture, "tag_v2", None)
+    if tags is None or picture.format != "TIFF":
+        return 0
+    rows = min(int(tags.get(_ROWS_PER_STRIP, picture.height)), picture.height)
+    area = picture.width * rows
+    if _TILE_WIDTH in tags and _TILE_LENGTH in tags:
+        area = int(tags[_TILE_WIDTH]) * int(tags[_TILE_LENGTH])
+    depth = 2 if is_deep_in_colours(raw_modes_of(picture)) else 1
+    return area * _bytes_decoded(picture.mode) * depth

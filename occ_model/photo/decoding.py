@@ -74,6 +74,8 @@ class DecodedPicture:
             if isinstance(most, int | float) and most > 65535:
                 raise PhotoError(f"The photo has samples up to {most:,}; allowed: up to 65,535.")
 
+        self._palette = _palette_of(self.picture) if self.picture.mode == "P" else None
+
     @property
     def shape(self) -> tuple[int, int]:
         """The rows and columns."""
@@ -98,6 +100,8 @@ class DecodedPicture:
             fraction are grey levels, of which no number and minus infinity are 0.
         """
         part = self.picture.crop(box)
+        if self._palette is not None:
+            return np.asarray(self._palette[np.asarray(part)])
         if self._lower is not None:
             return _deep_colours(part, self._lower.crop(box))
         if part.mode == "F":
@@ -111,6 +115,14 @@ class DecodedPicture:
         self.picture.close()
         if self._lower is not None:
             self._lower.close()
+
+
+def _palette_of(picture: "PillowImage") -> Samples:
+    """Give the colours of a picture's palette, shape (256, 3)."""
+    swatch = picture.crop((0, 0, 256, 1))
+    swatch.frombytes(bytes(range(256)))
+    colours: Samples = _colours(swatch)[0]
+    return colours
 
 
 def _colours(part: "PillowImage") -> Samples:

@@ -207,8 +207,12 @@ def _factory(path: Path, file: IO[bytes]) -> "tuple[str, Callable[[IO[bytes]], I
         factory, accepts = Image.OPEN.get(name, (None, None))
         if factory is not None and accepts is not None and accepts(start[:16]) is True:
             # Not Pillow's own for JPEG: it fails where the list of further pictures is damaged.
-            return name, partial(JpegImageFile if name == "JPEG" else factory, filename="")
+            return name, partial(_open, JpegImageFile if name == "JPEG" else factory)
     raise PhotoError(f"{one_line(str(path))} is not an image that can be read.")
+
+
+def _open(factory: "Callable[[IO[bytes], str], ImageFile]", file: IO[bytes]) -> "ImageFile":
+    return factory(file, "")
 
 
 def _is_heic(start: bytes) -> bool:

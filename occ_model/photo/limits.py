@@ -17,7 +17,7 @@ colours, and 1 for the channel that is taken.
 
 _MOST_BYTES = {
     "JPEG2000": 18_000_000,
-    "QOI": 16_000_000,
+    "QOI": 4_000_000,
     "WEBP": 36_000_000,
     "AVIF": 50_000_000,
     "HEIF": 40_000_000,
@@ -27,6 +27,10 @@ _MOST_BYTES = {
 _DEEP_COLOURS = 2
 """Pictures that are held at once of 16-bit colours: the upper and the lower bytes."""
 
+_LIBTIFF_COLOURS = 4
+"""Bytes of a pixel where libtiff itself turns colours of video into others."""
+
+_BITS_PER_SAMPLE = 258
 _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
@@ -66,13 +70,12 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
         It would.
     """
     pixels = picture.width * picture.height
-    each = _bytes_a_pixel(picture, scan_header)
-    fixed = bytes_read + _bytes_of_a_strip(picture)
-    if each * pixels + fixed > _MOST_MEMORY:
-        most = max(int((_MOST_MEMORY - fixed) / each), 0)
+    decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
+    if decoding + bytes_read > _MOST_MEMORY:
+        most = pixels * max(_MOST_MEMORY - bytes_read, 0) / decoding
         raise PhotoError(
             f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels, which take "
-            f"{(each * pixels + fixed) / 1e9:.2f} GB of memory to be decoded; allowed: at most "
+            f"{(decoding + bytes_read) / 1e9:.2f} GB of memory to be decoded; allowed: at most "
             f"{_MOST_MEMORY / 1e9:.2f} GB, {most / 1e6:.1f} million pixels of this kind."
         )
 
@@ -119,12 +122,12 @@ def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
         in_one_scan = scan_header == 4 + 2 * len(layers) and "progressive" not in picture.info
         # Coefficients of 16 bits, of all scans.
         return 0.0 if in_one_scan else 2 * _samples_a_pixel(layers)
-    if kind == "JPEG2000":  # whole numbers of 32 bits, and samples
-        return bands * (4 + (2 if picture.mode.startswith("I") else 1))
+    if kind == "JPEG2000":  # whole numbers of 32 bits, and samples of 16
+        return 6 * bands
     if kind == "TIFF":  # which Pillow turns by itself
         tags = getattr(picture, "tag_v2", {})
         return 0.0 if tags.get(_ORIENTATION, 1) == 1 else _bytes_decoded(picture.mode)
-    return {"WEBP": 16.0, "AVIF": 12.0, "HEIF": 12.0, "QOI": 5.0}.get(kind or "", 0.0)
+    return {"WEBP": 13.0, "AVIF": 12.0, "HEIF": 12.0, "QOI": 5.0}.get(kind or "", 0.0)
 
 
 def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
@@ -134,14 +137,15 @@ def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
     return sum(across * down for _, across, down, _ in layers) / (widest * highest)
 
 
-def _bytes_of_a_strip(picture: "ImageFile") -> int:
+def _bytes_of_a_strip(picture: "ImageFile") -> float:
     """Give the size of the parts in which a TIFF is decoded: one may be all of it."""
     tags = getattr(picture, "tag_v2", None)
     if tags is None or picture.format != "TIFF":
-        return 0
-    rows = min(int(tags.get(_ROWS_PER_STRIP, picture.height)), picture.height)
-    area = picture.width * rows
+        return 0.0
+    if len(picture.tile) == 1 and picture.tile[0][0] == "raw":  # read by and by
+        return 0.0
+    area = picture.width * min(int(tags.get(_ROWS_PER_STRIP, picture.height)), picture.height)
     if _TILE_WIDTH in tags and _TILE_LENGTH in tags:
         area = int(tags[_TILE_WIDTH]) * int(tags[_TILE_LENGTH])
-    depth = 2 if is_deep_in_colours(raw_modes_of(picture)) else 1
-    return area * _bytes_decoded(picture.mode) * depth
+    bits = tags.get(_BITS_PER_SAMPLE, (1,))
+    return area * max(sum(bits) / 8, _LIBTIFF_COLOURS)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, one_line
-from occ_model.photo.limits import check_file_size, check_memory
+from occ_model.photo.limits import check_decoder, check_file_size, check_memory
 from occ_model.photo.watched_file import Teller, WatchedFile
 
 if TYPE_CHECKING:
@@ -167,6 +167,7 @@ def _first_picture(
         )
     if picture.format == "TIFF":
         _check_tiff(shown, picture)
+    check_decoder(path, picture, size)
     check_memory(path, picture, file.total, file.last)
     return picture
 

@@ -16,13 +16,20 @@ colours, and 1 for the channel that is taken.
 """
 
 _MOST_BYTES = {
+    "JPEG": 170_000_000,
+    "PNG": 150_000_000,
     "JPEG2000": 18_000_000,
-    "QOI": 4_000_000,
     "WEBP": 36_000_000,
     "AVIF": 50_000_000,
     "HEIF": 40_000_000,
 }
 """What a file may have, of formats whose decoders take some seconds for so much."""
+
+_MOST_BYTES_OF_TIFF = 150_000_000
+"""The same of one that is compressed."""
+
+_MOST_BYTES_IN_PYTHON = 4_000_000
+"""The same of what Pillow decodes in Python: QOI, some BMP and PPM."""
 
 _DEEP_COLOURS = 2
 """Pictures that are held at once of 16-bit colours: the upper and the lower bytes."""
@@ -35,18 +42,39 @@ _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
 def check_file_size(path: Path, file_format: str, size: int) -> None:
-    """Refuse a file that its decoder would be too slow for.
+    """Refuse a file that its decoder would be too slow for, before it is opened.
 
     Raises
     ------
     PhotoError
         It has too many bytes.
     """
-    largest = _MOST_BYTES.get(file_format)
-    if largest is not None and size > largest:
+    _refuse_above(_MOST_BYTES.get(file_format, size), path, file_format, size)
+
+
+def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
+    """Refuse a file that its decoder would be too slow for, before anything of it is decoded.
+
+    Raises
+    ------
+    PhotoError
+        It has too many bytes.
+    """
+    from PIL import Image
+
+    decoders = {tile[0] for tile in picture.tile}
+    kind = picture.format or ""
+    if "libtiff" in decoders:
+        _refuse_above(_MOST_BYTES_OF_TIFF, path, "compressed TIFF", size)
+    if not decoders.isdisjoint(Image.DECODERS):
+        _refuse_above(_MOST_BYTES_IN_PYTHON, path, kind, size)
+
+
+def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
+    if size > largest:
         raise PhotoError(
-            f"{one_line(str(path))} has {size:,} bytes; allowed for a photo in the format "
-            f"{file_format}: up to {largest:,}, which are read within seconds."
+            f"{one_line(str(path))} has {size:,} bytes; allowed for a photo of this kind "
+            f"({kind}): up to {largest:,}, which are read within seconds."
         )
 
 
@@ -127,7 +155,11 @@ def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
     if kind == "TIFF":  # which Pillow turns by itself
         tags = getattr(picture, "tag_v2", {})
         return 0.0 if tags.get(_ORIENTATION, 1) == 1 else _bytes_decoded(picture.mode)
-    return {"WEBP": 13.0, "AVIF": 12.0, "HEIF": 12.0, "QOI": 5.0}.get(kind or "", 0.0)
+    from PIL import Image
+
+    if any(tile[0] in Image.DECODERS for tile in picture.tile):  # in Python, in an array
+        return 5.0
+    return {"WEBP": 13.0, "AVIF": 12.0, "HEIF": 12.0}.get(kind or "", 0.0)
 
 
 def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
@@ -148,4 +180,4 @@ def _bytes_of_a_strip(picture: "ImageFile") -> float:
     if _TILE_WIDTH in tags and _TILE_LENGTH in tags:
         area = int(tags[_TILE_WIDTH]) * int(tags[_TILE_LENGTH])
     bits = tags.get(_BITS_PER_SAMPLE, (1,))
-    return area * max(sum(bits) / 8, _LIBTIFF_COLOURS)
+    return float(area * max(sum(bits) / 8, _LIBTIFF_COLOURS))

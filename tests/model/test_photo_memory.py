@@ -1,0 +1,181 @@
+"""Reading a photo takes bounded memory, however much a small file promises; it can be ended."""
+
+import io
+import json
+import struct
+import subprocess
+import sys
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from photo_files import saved
+from PIL import Image
+
+from occ_model.errors import PhotoError
+from occ_model.photo.load import load_photo
+
+MOST_MEMORY_MB = 1200
+SIDE = 13_034
+"""Of nearly 170 million pixels, of which every kind is read or refused."""
+
+
+_READ = """
+import json, pathlib, sys
+from occ_model.errors import PhotoError
+from occ_model.photo.load import load_photo
+refusal = ""
+try:
+    load_photo(sys.argv[1])
+except PhotoError as error:
+    refusal = str(error)
+(peak,) = (
+    int(line.split()[1]) / 1000
+    for line in pathlib.Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    if line.startswith("VmHWM:")
+)
+print(json.dumps({"memory_mb": peak, "refusal": refusal}))
+"""
+
+
+class Stopped(Exception):
+    """What a caller ends the reading with."""
+
+
+def png(side: int, bits: int, colours: int, interlaced: int = 0) -> bytes:
+    """Give a PNG of one colour: a few hundred kilobytes for as many pixels as are allowed."""
+    bands = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[colours]
+    line = b"\0" + b"\x50" * ((side * bands * bits + 7) // 8)
+    shrink = zlib.compressobj(1)
+    data = b"".join(shrink.compress(line) for _ in range(side)) + shrink.flush()
+    header = struct.pack(">IIBBBBB", side, side, bits, colours, 0, 0, interlaced)
+    palette = [(b"PLTE", bytes(range(240)))] if colours == 3 else []
+    chunks = [(b"IHDR", header), *palette, (b"IDAT", data), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(content)) + name + content
+        + struct.pack(">I", zlib.crc32(name + content))
+        for name, content in chunks
+    )  # fmt: skip
+
+
+def small(file_format: str, mode: str = "RGB", **how: object) -> bytearray:
+    buffer = io.BytesIO()
+    Image.new(mode, (64, 64), 80 if mode == "L" else (80,) * len(mode)).save(
+        buffer, file_format, **how
+    )
+    return bytearray(buffer.getvalue())
+
+
+def jpeg_2000_that_promises(side: int) -> bytes:
+    """Write another size into a picture of one colour, whose data then mean little but are few."""
+    content = small("JPEG2000")
+    for place in [i for i in range(len(content) - 4) if content[i : i + 4] == b"\0\0\0\x40"]:
+        struct.pack_into(">I", content, place, side)
+    return bytes(content)
+
+
+def large(file_format: str, side: int, mode: str = "RGB", **how: object) -> bytes:
+    """Encode a picture of one colour: what a small file of an honest encoder can hold."""
+    buffer = io.BytesIO()
+    Image.new(mode, (side, side)).save(buffer, file_format, **how)
+    return buffer.getvalue()
+
+
+FILES: dict[str, Callable[[], bytes]] = {
+    "png-16-rgba": lambda: png(SIDE, 16, 6),
+    "png-16-rgb-accepted": lambda: png(9_700, 16, 2),
+    "png-8-rgba": lambda: png(SIDE, 8, 6),
+    "png-palette": lambda: png(SIDE, 8, 3),
+    "jpeg": lambda: large("JPEG", SIDE, subsampling=0),
+    "jpeg-progressive": lambda: large("JPEG", SIDE, progressive=True),
+    "jpeg-2000-promises": lambda: jpeg_2000_that_promises(SIDE),
+    "avif": lambda: large("AVIF", 9_000, speed=10),
+    "webp": lambda: large("WEBP", 12_000, lossless=True, method=0, quality=0),
+    "gif": lambda: large("GIF", SIDE, "P"),
+}
+ACCEPTED = {"png-16-rgb-accepted", "png-8-rgba", "png-palette", "jpeg", "gif"}
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_a_small_file_that_promises_much_takes_bounded_memory(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "photo"
+    path.write_bytes(FILES[kind]())
+    assert path.stat().st_size < 12_000_000
+    command = [sys.executable, "-W", "error", "-c", _READ, str(path)]
+    told = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
+    outcome = json.loads(told.stdout)
+    assert outcome["memory_mb"] < MOST_MEMORY_MB
+    assert told.stderr == ""
+    assert (outcome["refusal"] == "") is (kind in ACCEPTED)
+    if kind not in ACCEPTED:
+        assert " GB of memory to be decoded; allowed: at most 0.95 GB, " in outcome["refusal"]
+
+
+def test_a_jpeg_of_a_camera_of_fifty_megapixels_is_within_what_is_allowed(tmp_path: Path) -> None:
+    for how in ({"subsampling": 0}, {"progressive": True, "subsampling": 0}):
+        path = saved(tmp_path, Image.new("RGB", (8160, 6144)), "x.jpg", **how)
+        assert load_photo(path).image.size == 8160 * 6144
+
+
+def test_a_jpeg_in_several_scans_counts_as_what_its_decoder_keeps(tmp_path: Path) -> None:
+    content = large("JPEG", SIDE, progressive=True)
+    assert content.count(b"\xff\xc2") == 1
+    sequential = tmp_path / "x.jpg"
+    sequential.write_bytes(content.replace(b"\xff\xc2", b"\xff\xc1", 1))  # its first scan has all
+    # Of a first scan of one colour only: the others' come later, so all are kept.
+    place = content.index(b"\xff\xda")
+    header = struct.pack(">HB", 8, 1) + content[place + 5 : place + 7] + bytes([0, 63, 0])
+    scan = content[: place + 2] + header + content[place + 14 :]
+    sequential.write_bytes(scan.replace(b"\xff\xc2", b"\xff\xc1", 1))
+    with pytest.raises(PhotoError, match=r"GB of memory to be decoded; allowed: at most 0\.95 GB"):
+        load_photo(sequential)
+
+
+@pytest.mark.parametrize("name", ["x.qoi", "x.ppm"])
+def test_what_is_decoded_in_python_is_refused_by_its_bytes(tmp_path: Path, name: str) -> None:
+    noise = np.random.default_rng(0).integers(0, 256, (1100, 1100, 3), dtype=np.uint8)
+    path = saved(tmp_path, noise, name)
+    if name == "x.ppm":  # of other than 255 levels
+        path.write_bytes(b"P6 1500 1500 99\n" + bytes(1500 * 1500 * 3))
+    with pytest.raises(PhotoError, match=r"\): up to 4,000,000, which are read within seconds\.$"):
+        load_photo(path)
+
+
+@pytest.mark.parametrize("name", ["x.png", "x.jpg", "x.tif", "x.webp", "x.gif", "x.jp2", "x.heic"])
+def test_progress_goes_from_nothing_to_all_and_never_back(tmp_path: Path, name: str) -> None:
+    noise = np.random.default_rng(0).integers(0, 256, (900, 1500, 3), dtype=np.uint8)
+    shares: list[float] = []
+    load_photo(saved(tmp_path, noise, name), progress=shares.append)
+    assert shares == sorted(shares)
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    assert len(shares) > 3
+
+
+@pytest.mark.parametrize("after", [0.0, 0.1, 0.3, 0.9])
+@pytest.mark.parametrize("name", ["x.png", "x.jpg", "x.webp", "x.gif", "x.jp2", "x.avif"])
+def test_what_progress_raises_ends_the_reading_and_comes_out_as_it_is(
+    tmp_path: Path, name: str, after: float
+) -> None:
+    noise = np.random.default_rng(0).integers(0, 256, (1200, 1500, 3), dtype=np.uint8)
+    told: list[float] = []
+
+    def stop(share: float) -> None:
+        told.append(share)
+        if share >= after:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        load_photo(saved(tmp_path, noise, name), progress=stop)
+    assert sum(share >= after for share in told) == 1
+
+
+@pytest.mark.parametrize("name", ["a\nb.png", "a\x1b[31mb.png", "a\u202eb.png", "a\udcffb.png"])
+def test_a_files_name_is_shown_in_one_line(tmp_path: Path, name: str) -> None:
+    for content in (None, b"", b"no photo", png(20_000, 1, 0)[:90]):
+        if content is not None:
+            (tmp_path / name).write_bytes(content)
+        with pytest.raises(PhotoError) as refused:
+            load_photo(tmp_path / name)
+        assert str(refused.value).isprintable()

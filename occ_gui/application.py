@@ -130,6 +130,10 @@ class Application(QObject):
     def _connect_photo(self) -> None:
         self.photos.failed.connect(self._say_photo_failure)
         self.photos.opened.connect(self._on_photo)
+        self.photos.begun.connect(self.window.reading.begin)
+        self.photos.progressed.connect(self.window.reading.show_progress)
+        self.photos.ended.connect(self.window.reading.end)
+        self.window.reading.cancelled.connect(self._cancel_photo)
         self.photo.open_asked.connect(self.files.ask_for_photo)
         self.photo.form.refused.connect(self._say_refusal)
         self.photo.form.edited.connect(self._edit)
@@ -238,6 +242,10 @@ class Application(QObject):
 
     def _say_failure(self, sentence: str) -> None:
         self.window.say(sentence, until=_PICTURE)
+
+    def _cancel_photo(self) -> None:
+        self._match_next = False
+        self.photos.cancel()
 
     def _say_photo_failure(self, sentence: str) -> None:
         self._match_next = False

@@ -18,6 +18,7 @@ from occ_gui.widgets.drops import leave_drops_to_window
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 
 _FIRST_SIZE = QSize(1280, 800)
@@ -76,6 +77,8 @@ class MainWindow(QMainWindow):
         self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.pointed, self._timing = QLabel(), QLabel()
         self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
+        self.reading = WorkBar(self.tr("How much of the photo has been read"))
+        self.statusBar().addPermanentWidget(self.reading)
         self.statusBar().addPermanentWidget(self.pointed)
         self.statusBar().addPermanentWidget(self._timing)
         self.resize(_FIRST_SIZE)

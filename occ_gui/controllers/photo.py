@@ -8,7 +8,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
-from occ_gui.tasks.latest_wins import LatestWins
+from occ_gui.tasks.cancellable import Cancellable, Progress
 from occ_model.photo.load import CHANNELS, SCAN_AXES, Photo
 
 
@@ -35,9 +35,9 @@ class PhotoReading:
     channel: str = CHANNELS[0]
 
 
-def _read(request: tuple[Path, PhotoReading]) -> Photo:
+def _read(request: tuple[Path, PhotoReading], progress: Progress) -> Photo:
     path, reading = request
-    return occ.load_photo(path, reading.scan_axis, channel=reading.channel)
+    return occ.load_photo(path, reading.scan_axis, channel=reading.channel, progress=progress)
 
 
 class PhotoController(QObject):
@@ -55,6 +55,15 @@ class PhotoController(QObject):
     failed = Signal(str)
     """Why a photo could not be read; the last one stays."""
 
+    begun = Signal()
+    """A photo is being read."""
+
+    progressed = Signal(float)
+    """The share of the reading that is done, from 0 to 1."""
+
+    ended = Signal()
+    """No photo is being read any more: it is shown, has failed, or is not wanted."""
+
     reading_changed = Signal(object)
     """How photos are read from now on: a PhotoReading."""
 
@@ -64,16 +73,25 @@ class PhotoController(QObject):
         self._wanted: Path | None = None
         self._path: Path | None = None
         self.reading = PhotoReading()
-        self.runner: LatestWins[tuple[Path, PhotoReading], Photo] = LatestWins(
+        self.runner: Cancellable[tuple[Path, PhotoReading], Photo] = Cancellable(
             _read, "reading of the photo"
         )
+        self.runner.progressed.connect(self.progressed)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self._keep_last)
 
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
         self._wanted = path
-        self.runner.submit((path, self.reading))
+        self.runner.start((path, self.reading))
+        self.begun.emit()
+
+    def cancel(self) -> None:
+        """Give up the reading; the last photo stays."""
+        if self.runner.is_running:
+            self.runner.cancel()
+            self._wanted = self._path
+            self.ended.emit()
 
     def scan_along(self, scan_axis: str) -> None:
         """Say which axis of the file the shutter scanned, and turn the photo that is open."""
@@ -91,18 +109,18 @@ class PhotoController(QObject):
 
     def close(self) -> None:
         """Show no photo any more."""
+        self.cancel()
         self._wanted = self._path = None
         self._hand_over(None)
 
     def _show(self, photo: Photo) -> None:
-        if photo.path != self._wanted:  # closed, or another one asked for, meanwhile
-            return
+        self.ended.emit()
         self._path = photo.path
         self._hand_over(photo)
 
     def _keep_last(self, sentence: str) -> None:
-        if self.runner.is_idle:  # no other photo is being read by now
-            self._wanted = self._path
+        self.ended.emit()
+        self._wanted = self._path
         self.failed.emit(sentence)
 
     def _hand_over(self, photo: Photo | None) -> None:

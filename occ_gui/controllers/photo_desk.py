@@ -57,8 +57,8 @@ class PhotoDesk(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all that was asked for is shown."""
-        runners = (self.photos.runner, self.comparison.runner)
-        return all(r.is_idle for r in runners) and not self.matching.runner.is_running
+        runs = (self.photos.runner, self.matching.runner)
+        return self.comparison.runner.is_idle and not any(run.is_running for run in runs)
 
     def match(self) -> None:
         """Match the photo as the pane's choices say."""

@@ -1,6 +1,7 @@
 """A photo from opening it to the scene that explains it, with the real widgets."""
 
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.application import Application
 from occ_gui.controllers import files as files_room
+from occ_gui.controllers import photo as photo_room
 from occ_gui.state.placement import Placement
 from occ_model.scene import Scene
 
@@ -59,6 +61,33 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     user.choose("&Line by line")
     QApplication.processEvents()
     assert docks["photo"].visibleRegion().isEmpty()
+
+
+def test_the_reading_of_a_photo_is_shown_with_a_way_out_until_it_has_ended(
+    application: Application, user: User, taken: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    go_on = threading.Event()
+    load = occ.load_photo
+
+    def held(*asked: Any, progress: Callable[[float], object], **how: Any) -> occ.Photo:
+        progress(0.5)
+        assert go_on.wait(10.0)
+        return load(*asked, progress=progress, **how)
+
+    monkeypatch.setattr(photo_room.occ, "load_photo", held)
+    bar = application.window.reading
+    application.open_photo(taken, match=True)
+    qtbot.waitUntil(bar.isVisible)
+    qtbot.waitUntil(lambda: bar.progress.value() == bar.progress.maximum() // 2)
+    bar.cancel.click()
+    assert not bar.isVisible()
+    assert application.desk.is_idle
+    go_on.set()
+    application.open_photo(taken)
+    user.rest()
+    assert not bar.isVisible()
+    assert application.desk.matching.photo is not None
+    assert application.desk.matching.match is None
 
 
 def test_a_match_finds_the_cameras_readout_time_and_one_step_applies_it(

@@ -193,7 +193,7 @@ def test_a_cancelled_dialog_does_nothing(
     ):
         ask_user()
     assert bench.said == []
-    assert bench.photos.runner.is_idle
+    assert not bench.photos.runner.is_running
     assert bench.store.scene == small_scene
 
 

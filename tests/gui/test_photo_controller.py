@@ -1,7 +1,7 @@
 """Photos are read off the window's thread; the last one asked for is the one that stays."""
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -36,17 +36,19 @@ class Bench:
         self._load = occ.photo.load.load_photo
         self._qtbot = qtbot
 
-    def _read(self, path: Path, scan_axis: str, *, channel: str) -> Photo:
+    def _read(
+        self, path: Path, scan_axis: str, *, channel: str, progress: Callable[[float], object]
+    ) -> Photo:
         self.begun.set()
         assert self.go_on.wait(PATIENCE_S)
-        return self._load(path, scan_axis, channel=channel)
+        return self._load(path, scan_axis, channel=channel, progress=progress)
 
     def show_photo(self, photo: Photo | None) -> None:
         self.shown.append(photo)
 
     def rest(self) -> None:
         self.go_on.set()
-        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+        self._qtbot.waitUntil(lambda: not self.controller.runner.is_running)
 
     def open(self, path: Path) -> None:
         self.controller.open(path)
@@ -116,6 +118,33 @@ def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
     bench.controller.close()
     bench.rest()
     assert bench.shown == [None]
+
+
+def test_progress_is_told_from_the_beginning_to_the_end(bench: Bench, photo_file: Path) -> None:
+    told: list[object] = []
+    bench.controller.begun.connect(lambda: told.append("begun"))
+    bench.controller.progressed.connect(told.append)
+    bench.controller.ended.connect(lambda: told.append("ended"))
+    bench.open(photo_file)
+    assert (told[0], told[1], told[-2], told[-1]) == ("begun", 0.0, 1.0, "ended")
+
+
+def test_a_cancelled_reading_is_given_up_at_once_and_the_last_photo_stays(
+    bench: Bench, photo_file: Path, other_file: Path, stripes: Grey, qtbot: QtBot
+) -> None:
+    bench.open(photo_file)
+    ended: list[bool] = []
+    bench.controller.ended.connect(lambda: ended.append(True))
+    bench.open_and_hold(other_file)
+    bench.controller.cancel()
+    assert not bench.controller.runner.is_running
+    assert ended == [True]
+    bench.go_on.set()
+    bench.controller.scan_along("lines")
+    bench.rest()
+    assert [photo.path for photo in bench.shown if photo] == [photo_file, photo_file]
+    assert np.array_equal(bench.image, stripes.T)
+    assert bench.failures == []
 
 
 def test_opening_another_photo_while_one_is_read_shows_the_other(

@@ -40,19 +40,18 @@ print(json.dumps({"memory_mb": peak, "refusal": refusal}))
 """
 
 
-class Stopped(Exception):
+class Stopped(Exception):  # noqa: N818 - no error: the caller wanted it
     """What a caller ends the reading with."""
 
 
 def png(side: int, bits: int, colours: int, interlaced: int = 0) -> bytes:
     """Give a PNG of one colour: a few hundred kilobytes for as many pixels as are allowed."""
-    bands = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[colours]
+    bands = {0: 1, 2: 3, 4: 2, 6: 4}[colours]
     line = b"\0" + b"\x50" * ((side * bands * bits + 7) // 8)
     shrink = zlib.compressobj(1)
     data = b"".join(shrink.compress(line) for _ in range(side)) + shrink.flush()
     header = struct.pack(">IIBBBBB", side, side, bits, colours, 0, 0, interlaced)
-    palette = [(b"PLTE", bytes(range(240)))] if colours == 3 else []
-    chunks = [(b"IHDR", header), *palette, (b"IDAT", data), (b"IEND", b"")]
+    chunks = [(b"IHDR", header), (b"IDAT", data), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(
         struct.pack(">I", len(content)) + name + content
         + struct.pack(">I", zlib.crc32(name + content))
@@ -87,15 +86,13 @@ FILES: dict[str, Callable[[], bytes]] = {
     "png-16-rgba": lambda: png(SIDE, 16, 6),
     "png-16-rgb-accepted": lambda: png(9_700, 16, 2),
     "png-8-rgba": lambda: png(SIDE, 8, 6),
-    "png-palette": lambda: png(SIDE, 8, 3),
-    "jpeg": lambda: large("JPEG", SIDE, subsampling=0),
     "jpeg-progressive": lambda: large("JPEG", SIDE, progressive=True),
     "jpeg-2000-promises": lambda: jpeg_2000_that_promises(SIDE),
     "avif": lambda: large("AVIF", 9_000, speed=10),
     "webp": lambda: large("WEBP", 12_000, lossless=True, method=0, quality=0),
     "gif": lambda: large("GIF", SIDE, "P"),
 }
-ACCEPTED = {"png-16-rgb-accepted", "png-8-rgba", "png-palette", "jpeg", "gif"}
+ACCEPTED = {"png-16-rgb-accepted", "png-8-rgba", "gif"}
 
 
 @pytest.mark.parametrize("kind", FILES)

@@ -1,0 +1,58 @@
+"""How far some work is, and a way out of it."""
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
+
+_STEPS = 1000
+"""Steps of the progress bar."""
+
+_PATIENCE_MS = 300
+"""Work that is done sooner is not told of: a bar that flashes up tells nothing."""
+
+
+class WorkBar(QWidget):
+    """A progress bar and a button that cancels, hidden while there is no work.
+
+    Parameters
+    ----------
+    what
+        What the bar shows, for those who hear it.
+    parent
+        The parent widget.
+    """
+
+    cancelled = Signal()
+
+    def __init__(self, what: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.progress = QProgressBar()
+        self.progress.setRange(0, _STEPS)
+        self.progress.setAccessibleName(what)
+        self.progress.setToolTip(what)
+        self.cancel = QPushButton(self.tr("Cancel"))
+        self.cancel.setToolTip(self.tr("Give up what is being worked on."))
+        self.cancel.clicked.connect(self.cancelled)
+        self._patience = QTimer(self)
+        self._patience.setSingleShot(True)
+        self._patience.setInterval(_PATIENCE_MS)
+        self._patience.timeout.connect(self.show)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.progress)
+        layout.addWidget(self.cancel)
+        self.hide()
+
+    def begin(self) -> None:
+        """Show, unless it is done at once, that work has begun."""
+        self.progress.setValue(0)
+        if self.isHidden():
+            self._patience.start()
+
+    def show_progress(self, share: float) -> None:
+        """Show which share of the work is done, from 0 to 1."""
+        self.progress.setValue(round(_STEPS * share))
+
+    def end(self) -> None:
+        """Show that there is no work any more."""
+        self._patience.stop()
+        self.hide()

@@ -4,10 +4,11 @@ import argparse
 import math
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
-import time
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -25,10 +26,10 @@ try:
     said = " x ".join(f"{n:,}" for n in photo.image.shape) + f", {photo.channel}"
 except occ.PhotoError as error:
     said = str(error)
-seconds = time.perf_counter() - begin
+seconds, spent = time.perf_counter() - begin, time.process_time() - cpu
 for line in open("/proc/self/status"):
     if line.startswith("VmHWM:"):
-        print(int(line.split()[1]) // 1000, f"MB {seconds:.1f} s wall {time.process_time() - cpu:.1f} s CPU", said)
+        print(int(line.split()[1]) // 1000, f"MB {seconds:.1f} s wall {spent:.1f} s CPU", said)
 """
 
 
@@ -97,24 +98,33 @@ _MOST_WRITTEN = {"WebP": 60.0, "AVIF": 65.0, "HEIC": 65.0, "QOI": 60.0}
 
 _FAST = (cv2.IMWRITE_PNG_COMPRESSION, 1)
 
-def _interlaced(path: Path, count: int, noisy: bool) -> None:
-    """Adam7 of grey 8 or RGB: written by hand, as no library here writes it."""
-    import struct
-    import zlib
 
+_PASSES = (
+    (0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2),
+)  # fmt: skip
+"""First column and row, and steps to the next, of what an interlaced PNG gives one by one."""
+
+
+def _interlaced(path: Path, count: int, noisy: bool) -> None:
+    """Write what no library here does."""
     pixels = np.ascontiguousarray(pixels_of(count, 3, np.uint8, noisy))
     height, width = pixels.shape[:2]
     shrink = zlib.compressobj(1)
-    data = []
-    for x0, y0, dx, dy in ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)):
-        for row in pixels[y0::dy, x0::dx]:
-            data.append(shrink.compress(b"\0" + row.tobytes()))
-    data.append(shrink.flush())
+    data = [
+        shrink.compress(b"\0" + row.tobytes())
+        for column, line, across, down in _PASSES
+        for row in pixels[line::down, column::across]
+    ]
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 1)
+    chunks = ((b"IHDR", header), (b"IDAT", b"".join(data) + shrink.flush()), (b"IEND", b""))
     with path.open("wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n")
-        for name, content in ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 1)), (b"IDAT", b"".join(data)), (b"IEND", b"")):
-            file.write(struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content)))
+        for name, content in chunks:
+            check = zlib.crc32(name + content)
+            file.write(struct.pack(">I", len(content)) + name + content + struct.pack(">I", check))
 
+
+_SHRUNK = {"compression": "zlib"}
 
 KINDS: dict[str, tuple[str, Callable[[Path, int, bool], None]]] = {
     "PNG 16-bit RGBA": ("png", with_opencv(4, np.uint16, *_FAST)),
@@ -133,7 +143,8 @@ KINDS: dict[str, tuple[str, Callable[[Path, int, bool], None]]] = {
     "JPEG 4:4:4": ("jpg", with_pillow("RGB", "JPEG", subsampling=0, quality=95)),
     "JPEG progressive": ("jpg", with_opencv(3, np.uint8, cv2.IMWRITE_JPEG_PROGRESSIVE, 1)),
     "JPEG progressive 4:4:4": (
-        "jpg", with_pillow("RGB", "JPEG", progressive=True, subsampling=0, quality=95)
+        "jpg",
+        with_pillow("RGB", "JPEG", progressive=True, subsampling=0, quality=95),
     ),
     "JPEG CMYK": ("jpg", with_pillow("CMYK", "JPEG")),
     "JPEG 2000": ("jp2", with_pillow("RGB", "JPEG2000")),
@@ -150,19 +161,31 @@ KINDS: dict[str, tuple[str, Callable[[Path, int, bool], None]]] = {
     "QOI": ("qoi", with_pillow("RGB", "QOI")),
     "QOI alpha": ("qoi", with_pillow("RGBA", "QOI")),
     "TIFF 8-bit RGB": ("tif", with_tifffile(3, np.uint8)),
-    "TIFF 8-bit RGB deflate strips": ("tif", with_tifffile(3, np.uint8, compression="zlib", rowsperstrip=16)),
-    "TIFF 8-bit RGB deflate tiles": ("tif", with_tifffile(3, np.uint8, compression="zlib", tile=(256, 256))),
-    "TIFF 8-bit RGB deflate one strip": ("tif", with_tifffile(3, np.uint8, compression="zlib", rowsperstrip=1 << 30)),
+    "TIFF 8-bit RGB deflate strips": (
+        "tif",
+        with_tifffile(3, np.uint8, **_SHRUNK, rowsperstrip=16),
+    ),
+    "TIFF 8-bit RGB deflate tiles": (
+        "tif",
+        with_tifffile(3, np.uint8, **_SHRUNK, tile=(256, 256)),
+    ),
+    "TIFF 8-bit RGB deflate one strip": (
+        "tif",
+        with_tifffile(3, np.uint8, **_SHRUNK, rowsperstrip=1 << 30),
+    ),
     "TIFF 8-bit RGBA": ("tif", with_tifffile(4, np.uint8)),
     "TIFF 8-bit planes": ("tif", with_pillow("RGB", "TIFF")),
     "TIFF 16-bit grey": ("tif", with_tifffile(1, np.uint16)),
-    "TIFF 16-bit grey deflate": ("tif", with_tifffile(1, np.uint16, compression="zlib")),
+    "TIFF 16-bit grey deflate": ("tif", with_tifffile(1, np.uint16, **_SHRUNK)),
     "TIFF 16-bit RGB": ("tif", with_tifffile(3, np.uint16)),
-    "TIFF 16-bit RGB deflate tiles": ("tif", with_tifffile(3, np.uint16, compression="zlib", tile=(256, 256))),
+    "TIFF 16-bit RGB deflate tiles": (
+        "tif",
+        with_tifffile(3, np.uint16, **_SHRUNK, tile=(256, 256)),
+    ),
     "TIFF 16-bit RGBA": ("tif", with_tifffile(4, np.uint16)),
     "TIFF 32-bit": ("tif", with_tifffile(1, np.int32)),
     "TIFF float": ("tif", with_tifffile(1, np.float32)),
-    "TIFF float deflate": ("tif", with_tifffile(1, np.float32, compression="zlib")),
+    "TIFF float deflate": ("tif", with_tifffile(1, np.float32, **_SHRUNK)),
     "TIFF CMYK": ("tif", with_pillow("CMYK", "TIFF")),
     "BMP": ("bmp", with_opencv(3, np.uint8)),
     "PPM": ("ppm", with_opencv(3, np.uint8)),

@@ -28,7 +28,7 @@ _MOST_BYTES = {
 _MOST_BYTES_OF_TIFF = 150_000_000
 """The same of one that is compressed."""
 
-_MOST_BYTES_IN_PYTHON = 4_000_000
+_MOST_BYTES_IN_PYTHON = 3_500_000
 """The same of what Pillow decodes in Python: QOI, some BMP and PPM."""
 
 _DEEP_COLOURS = 2

@@ -88,7 +88,7 @@ NONSENSE = [
     (0, 100),
     None,
     [100],
-    object(),
+    pytest.param(object(), id="an object"),
 ]
 
 

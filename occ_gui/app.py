@@ -15,17 +15,17 @@ import occ_model as occ
 from occ_gui.starting import Start, Unasked, start_of
 from occ_model.errors import one_line, shown
 from occ_model.exit_codes import EXIT_MISUSE
-from occ_model.output import write_whole
+from occ_model.files.writing import write_whole
 from occ_model.program import run_program, say
-from occ_model.scene import Scene
-from occ_model.settings import (
+from occ_model.scene.from_text import (
     DEFAULT_PRESET,
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
 )
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QSettings

@@ -29,13 +29,13 @@ from occ_gui.views.margin_strips import MarginStrips
 from occ_gui.views.photo_view import PhotoView
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.widgets.control_panel import ControlPanel
-from occ_model.declarations import ParameterValue
 from occ_model.effects.registry import EFFECTS
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Match
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 # What a sentence in the status line can be shown until.
 _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"

@@ -35,10 +35,10 @@ from occ_gui.views.pointer import Pointer
 from occ_gui.views.profile_view import ProfileView
 from occ_gui.views.shortcut_sheet import ShortcutSheet
 from occ_gui.widgets.control_panel import ControlPanel
-from occ_model.photo.load import Photo
-from occ_model.presets import load_preset
+from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import DECODERS
-from occ_model.settings import DEFAULT_PRESET
+from occ_model.scene.from_text import DEFAULT_PRESET
+from occ_model.scene.presets import load_preset
 
 _THEME, _OVERLAY = "view/theme", "view/overlay"
 _HOLD, _YES = "edit/hold_brightness", "yes"

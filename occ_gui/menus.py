@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 from occ_gui.views.photo_overlay import MODES
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
 from occ_model.errors import one_line
-from occ_model.photo.load import SCAN_AXES
+from occ_model.photo.reading.load import SCAN_AXES
 
 _WITH_PHOTO = ("close_photo", "match", "use_settings")
 """What can be done while a photo is open."""

@@ -9,14 +9,10 @@ Everything here works without a window. A scene is a value; the functions take i
     result = occ.decode(frame.image, scene)
 """
 
-import sys
-from types import ModuleType
-
 from occ_model.version import __version__
 
 TYPE_CHECKING = False  # as typing has it, which is slow to import
 if TYPE_CHECKING:
-    from occ_model.band_model import band_lengths, band_profile
     from occ_model.camera.exposure import on_time
     from occ_model.camera.photometry import column_profile
     from occ_model.camera.projection import panel_corners
@@ -34,10 +30,9 @@ if TYPE_CHECKING:
         SceneFileError,
     )
     from occ_model.photo.comparison import compare
-    from occ_model.photo.load import Photo, load_photo
     from occ_model.photo.match import match_photo
-    from occ_model.photo.stripes import find_stripes
-    from occ_model.presets import delete_preset, load_preset, presets, save_preset
+    from occ_model.photo.reading.load import Photo, load_photo
+    from occ_model.photo.stripes.find import find_stripes
     from occ_model.receiver.decode import decode
     from occ_model.results import (
         Comparison,
@@ -51,14 +46,16 @@ if TYPE_CHECKING:
         Stripes,
         SweepTable,
     )
-    from occ_model.scene import Scene
-    from occ_model.simulation import render
-    from occ_model.simulation_settings import SimulationSettings
+    from occ_model.scene.presets import delete_preset, load_preset, presets, save_preset
+    from occ_model.scene.scene import Scene
+    from occ_model.scene.simulation_settings import SimulationSettings
+    from occ_model.simulation.band_model import band_lengths, band_profile
+    from occ_model.simulation.render import render
     from occ_model.study.accuracy import accuracy
     from occ_model.study.confidence import wilson_interval
     from occ_model.study.limits import limits
     from occ_model.study.success_rate import success_rate
-    from occ_model.study.sweep import sweep
+    from occ_model.study.sweep.sweep import sweep
     from occ_model.transmitter.packet import packet
 
 __all__ = [
@@ -123,38 +120,38 @@ _MODULES = {
     "OccError": "errors",
     "OutputError": "errors",
     "ParameterError": "errors",
-    "Photo": "photo.load",
+    "Photo": "photo.reading.load",
     "PhotoError": "errors",
     "Plan": "results",
     "PresetError": "errors",
     "ProjectionError": "errors",
     "Region": "results",
-    "Scene": "scene",
+    "Scene": "scene.scene",
     "SceneFileError": "errors",
-    "SimulationSettings": "simulation_settings",
+    "SimulationSettings": "scene.simulation_settings",
     "Stripes": "results",
     "SweepTable": "results",
     "accuracy": "study.accuracy",
-    "band_lengths": "band_model",
-    "band_profile": "band_model",
+    "band_lengths": "simulation.band_model",
+    "band_profile": "simulation.band_model",
     "column_profile": "camera.photometry",
     "compare": "photo.comparison",
     "decode": "receiver.decode",
-    "delete_preset": "presets",
-    "find_stripes": "photo.stripes",
+    "delete_preset": "scene.presets",
+    "find_stripes": "photo.stripes.find",
     "limits": "study.limits",
-    "load_photo": "photo.load",
-    "load_preset": "presets",
+    "load_photo": "photo.reading.load",
+    "load_preset": "scene.presets",
     "match_photo": "photo.match",
     "on_time": "camera.exposure",
     "packet": "transmitter.packet",
     "panel_corners": "camera.projection",
     "plan": "effects.plan",
-    "presets": "presets",
-    "render": "simulation",
-    "save_preset": "presets",
+    "presets": "scene.presets",
+    "render": "simulation.render",
+    "save_preset": "scene.presets",
     "success_rate": "study.success_rate",
-    "sweep": "study.sweep",
+    "sweep": "study.sweep.sweep",
     "wilson_interval": "study.confidence",
 }
 """Where each name is: it is imported when it is first asked for, so that a program can answer
@@ -173,14 +170,3 @@ def __getattr__(name: str) -> object:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
-
-
-class _Package(ModuleType):
-    """The package: its function ``presets`` is not hidden by the module of that name."""
-
-    def __setattr__(self, name: str, value: object) -> None:
-        if name not in _MODULES or not isinstance(value, ModuleType):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package

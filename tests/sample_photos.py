@@ -9,7 +9,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 FOLDER = Path(__file__).parents[1] / "resources" / "photos"
 QUALITY = 85

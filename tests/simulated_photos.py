@@ -8,7 +8,7 @@ import numpy as np
 import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import luminance_of
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 def photo_of(image: ByteArray) -> occ.Photo:

@@ -14,8 +14,8 @@ from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Crew, Lane
 from occ_gui.tasks.parcel import Parcel, Stage
 from occ_model.receiver.decoders import DECODERS
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 RATE = 99.0
 """Percent of the bits from which a decoder counts as reading."""

@@ -10,8 +10,8 @@ from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 from occ_gui.state.kept_file import is_something_else, read_kept
 from occ_gui.state.scene_store import SceneStore
 from occ_model.errors import OccError
-from occ_model.output import make_folder, write_whole
-from occ_model.scene import Scene
+from occ_model.files.writing import make_folder, write_whole
+from occ_model.scene.scene import Scene
 
 STATE_FOLDER = "OCC_STATE"
 """The environment variable that names another folder for what the program keeps."""

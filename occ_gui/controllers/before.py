@@ -8,7 +8,7 @@ from shiboken6 import isValid
 
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 class BeforePane(Protocol):

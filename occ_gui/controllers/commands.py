@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QLineEdit, QMenu, QMenuBar, QTab
 from occ_gui.views.command_palette import Command
 from occ_gui.widgets.control_panel import ControlPanel
 from occ_gui.widgets.parameter_rows import ParameterRow
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
 

@@ -13,8 +13,8 @@ from occ_gui.tasks.latest_wins import LatestWins
 from occ_model.arrays import FloatArray
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
-from occ_model.photo.load import Photo
-from occ_model.photo.stripes import find_stripes
+from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.find import find_stripes
 from occ_model.results import Comparison, Match, Stripes
 
 _FLAT = 0.5

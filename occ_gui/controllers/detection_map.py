@@ -15,14 +15,14 @@ from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Lane
 from occ_gui.tasks.parcel import Stage
-from occ_model.declarations import ParameterValue
 from occ_model.errors import OccError
-from occ_model.parameters import quantity
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import SweepPoint
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
-from occ_model.study.sweep import rate_intervals
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.sweep.sweep import rate_intervals
 
 FIRST_AXES = ("switching_frequency", "distance")
 

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.controllers.files import FileController
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.widgets.plain_text import in_title
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 class Document(QObject):

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.state.scene_store import SceneStore
 from occ_model.results.teaching import Equation
-from occ_model.scene import GROUPS, Scene
+from occ_model.scene.scene import GROUPS, Scene
 from occ_model.teaching.equations import equations
 
 _NAMES = tuple(name for names in GROUPS.values() for name in names)

@@ -12,7 +12,7 @@ from occ_gui.state.gesture import new_gesture
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.results.teaching import Exploration, Step
 from occ_model.teaching.explorations import explorations
 

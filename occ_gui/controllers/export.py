@@ -12,7 +12,7 @@ from occ_gui.controllers.figures import Figures, NothingToDraw
 from occ_gui.state.memory import Memory
 from occ_gui.tasks.latest_wins import LatestWins
 from occ_model.errors import one_line
-from occ_model.scene_inside import ENDINGS
+from occ_model.scene.scene_inside import ENDINGS
 
 
 class ExportController(QObject):

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from occ_gui.controllers.export_folder import folder_aside, remove_left_behind
 from occ_model.errors import OutputError
-from occ_model.output import check_replaceable, make_folder
-from occ_model.provenance import Provenance
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.files.writing import check_replaceable, make_folder
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:
-    from occ_model.export.drawn import Drawing
+    from occ_model.figures.drawn import Drawing
 
 # matplotlib takes half a second to import: nothing here imports the export before it is used.
 
@@ -39,7 +39,7 @@ class Sketch:
 
     def provenance(self, drawing: "Drawing") -> Provenance:
         """Say where the figure's numbers come from."""
-        from occ_model.export.notes import settings_notes
+        from occ_model.figures.notes import settings_notes
 
         scenes, settings = {"at hand": self.scene}, self.settings
         notes = settings_notes(settings)
@@ -99,7 +99,7 @@ def export(job: ExportJob) -> Exported:
     if job.path is not None:
         drawing.write(job.path, sketch.provenance(drawing))
         return Exported(job, (job.path,))
-    from occ_model.export.drawing import figure_bytes, house_style
+    from occ_model.figures.drawing import figure_bytes, house_style
 
     with house_style():
         return Exported(job, png=figure_bytes(drawing.draw(), "png", sketch.provenance(drawing)))
@@ -113,7 +113,7 @@ def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
     OutputError
         A figure cannot be written.
     """
-    from occ_model.export.drawn import write_all
+    from occ_model.figures.drawn import write_all
 
     is_new = not folder.exists()
     make_folder(folder)

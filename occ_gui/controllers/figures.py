@@ -14,12 +14,12 @@ from occ_gui.state.rate_map import RateMap
 from occ_gui.state.settings_store import SettingsStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.errors import OccError
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.results import AccuracyPoint, Comparison, DecodeResult
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from occ_model.export.drawn import Drawing
+    from occ_model.figures.drawn import Drawing
 
 
 class NothingToDraw(OccError):  # noqa: N818 - no error: it is only too early
@@ -98,7 +98,7 @@ class Figures(QObject):
         table = table_of(*there)
 
         def draw() -> "Drawing":
-            from occ_model.export.sweep_figure import sweep_drawing
+            from occ_model.figures.sweep import sweep_drawing
 
             return sweep_drawing(table)
 
@@ -138,7 +138,7 @@ class Figures(QObject):
         frame, region = shown.frame, shown.decoded.region
 
         def draw() -> "Drawing":
-            from occ_model.export.view_figures import picture_drawing
+            from occ_model.figures.window_panes import picture_drawing
 
             return picture_drawing(frame, region, photo)
 
@@ -149,7 +149,7 @@ class Figures(QObject):
         first, last = self._profile.columns_in_view()
 
         def draw() -> "Drawing":
-            from occ_model.export.view_figures import profile_drawing
+            from occ_model.figures.window_panes import profile_drawing
 
             return profile_drawing(
                 shown.frame, shown.band, shown.band_undefined, comparison, first, last
@@ -166,7 +166,7 @@ class Figures(QObject):
             )
 
         def draw() -> "Drawing":
-            from occ_model.export.view_figures import decode_drawing
+            from occ_model.figures.window_panes import decode_drawing
 
             return decode_drawing(shown.frame.scene, result)
 
@@ -180,7 +180,7 @@ class Figures(QObject):
             )
 
         def draw() -> "Drawing":
-            from occ_model.export.accuracy_figure import accuracy_drawing
+            from occ_model.figures.accuracy import accuracy_drawing
 
             return accuracy_drawing(points)
 

@@ -3,9 +3,9 @@
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.state.scene_store import SceneStore
-from occ_model.declarations import ParameterValue
-from occ_model.parameters import quantity
-from occ_model.scene import Scene
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
 
 _EXPOSURE, _ISO = "exposure_time", "iso"
 

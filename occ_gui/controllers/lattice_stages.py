@@ -10,8 +10,8 @@ from occ_gui.state.rate_map import STRIDES, lattice
 from occ_gui.tasks.parcel import Parcel, Stage
 from occ_model.arrays import IndexArray
 from occ_model.results import SweepRequest
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 SHAPE = (25, 13)
 """Points along both axes: of two processes the first stage takes some 40 ms, all of them under a

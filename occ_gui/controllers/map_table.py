@@ -6,7 +6,7 @@ from occ_gui.controllers.detection_map import MapRequest
 from occ_gui.controllers.lattice_stages import map_request
 from occ_gui.state.rate_map import RateMap
 from occ_model.results import SweepPoint, SweepTable
-from occ_model.study.sweep import rate_intervals
+from occ_model.study.sweep.sweep import rate_intervals
 
 
 def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:

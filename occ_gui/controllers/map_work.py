@@ -9,18 +9,18 @@ import numpy as np
 from occ_gui.state.advice import Advice, TheoryNumbers
 from occ_gui.state.rate_map import LINES, TheoryFields
 from occ_gui.tasks.parcel import Pulse
-from occ_model.declarations import ParameterValue
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
-from occ_model.parameters import quantity
 from occ_model.results import RateSettings, SweepPoint, Way
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import theory
 from occ_model.study.limits import limits
 from occ_model.study.observation import panel_span
-from occ_model.study.sweep_work import measure_point
+from occ_model.study.sweep.points import measure_point
 
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
 """Effects that need whole images, and make a point 50 to 100 times slower."""

@@ -14,11 +14,11 @@ from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Lane
 from occ_gui.tasks.parcel import Parcel, Stage
-from occ_model.parameters import quantity
 from occ_model.receiver.decoders import PAPERS
 from occ_model.results import SweepPoint
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 POSITIONS = 29
 """Positions along a slider."""

@@ -11,12 +11,12 @@ from occ_gui.state.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.tasks.cancellable import Cancellable, Progress
 from occ_model.errors import OccError
-from occ_model.parameters import PARAMETERS, quantity
-from occ_model.photo.load import Photo
 from occ_model.photo.match import ESTIMATES, match_photo
-from occ_model.presets import save_preset
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
-from occ_model.scene import Scene
+from occ_model.scene.parameters import PARAMETERS, quantity
+from occ_model.scene.presets import save_preset
+from occ_model.scene.scene import Scene
 
 SQUARE_WAVE = "10"
 """The chips of an LED that blinks: on for half a cycle, off for the other half."""

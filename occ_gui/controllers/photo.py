@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
 from occ_gui.tasks.cancellable import Cancellable, Progress
-from occ_model.photo.load import CHANNELS, SCAN_AXES, Photo
+from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 
 
 class PhotoView(Protocol):

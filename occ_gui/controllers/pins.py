@@ -10,11 +10,11 @@ from occ_gui.state.pinned import ComparedRow, Pin, Pinned
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.widgets.parameter_rows import explain
-from occ_model.declarations import Parameter, ParameterValue, Quantity
-from occ_model.parameters import PARAMETERS
 from occ_model.results import DecodeResult
-from occ_model.scene import GROUPS
-from occ_model.simulation_settings import TOLERANCE
+from occ_model.scene.parameter_kinds import Parameter, ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS
+from occ_model.scene.simulation_settings import TOLERANCE
 
 _ALL_DIGITS = 17
 

@@ -10,15 +10,15 @@ from occ_gui.state.gesture import new_gesture
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
-from occ_model.preset_file import Preset
-from occ_model.presets import (
+from occ_model.scene.preset_file import Preset
+from occ_model.scene.presets import (
     all_presets,
     delete_preset,
     preset_named,
     unreadable_presets,
     user_presets,
 )
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 class PresetController(QObject):

@@ -12,8 +12,8 @@ from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.session import Session, keep_session
 from occ_gui.state.settings_store import SettingsStore
-from occ_model.scene import Scene
-from occ_model.settings import read_scene_file
+from occ_model.scene.from_text import read_scene_file
+from occ_model.scene.scene import Scene
 
 
 class SessionKeeper(QObject):

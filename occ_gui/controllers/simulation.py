@@ -16,8 +16,8 @@ from occ_gui.state.snapshot import Snapshot
 from occ_gui.tasks.latest_wins import LatestWins
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import DecodeResult, Frame
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.transmitter.packet import bits_of
 
 _TURN = 0.004

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.parameters import quantity
 from occ_model.results import SweepPoint
+from occ_model.scene.parameters import quantity
 
 MAP_PARAMETERS = (
     "switching_frequency", "distance", "exposure_time", "readout_time", "iso", "f_number",

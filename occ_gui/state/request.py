@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from occ_gui.state.gesture import NO_GESTURE
-from occ_model.declarations import ParameterValue
 from occ_model.errors import OccError, one_line
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 
 _MOST_STEPS = 500
 """Steps that can be undone: nobody goes back further, and each holds a scene."""

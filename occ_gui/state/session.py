@@ -6,9 +6,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from occ_gui.state.memory import Memory, text_of
-from occ_model.checks import check_seed
-from occ_model.scene import Scene
-from occ_model.simulation_settings import (
+from occ_model.scene.argument_checks import check_seed
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import (
     NOISE_SOURCES,
     OBSERVABLES,
     TOLERANCE,

@@ -5,7 +5,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal
 
 from occ_model.errors import OccError
-from occ_model.simulation_settings import (
+from occ_model.scene.simulation_settings import (
     TOLERANCE,
     NoiseSource,
     Observable,

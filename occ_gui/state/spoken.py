@@ -2,7 +2,7 @@
 
 import re
 
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS
 
 _FIRST = re.compile(r"^[a-z]\w*")
 _INNER = re.compile(r"\b[a-z]+(?:_[a-z0-9]+)+\b")

@@ -13,7 +13,7 @@ from occ_gui.tasks.failure import sentence_of
 from occ_gui.tasks.parcel import Outcome, Parcel, Stage, Stages, Task, Workers
 from occ_gui.tasks.worker_thread import WorkerThread
 from occ_model.errors import one_line
-from occ_model.processes import NO_PROCESSES
+from occ_model.parallel.processes import NO_PROCESSES
 
 _AHEAD = 2
 """Parcels in flight to a worker: one at work, and one that it can go on with."""

@@ -6,7 +6,7 @@ from time import monotonic
 from typing import Any
 
 from occ_gui.tasks.parcel import SLOTS, Outcome, Task, do_task
-from occ_model.processes import begin_worker, process_context, worker_start
+from occ_model.parallel.processes import begin_worker, process_context, worker_start
 
 _NICENESS = 10
 """How far the processes stand back behind the window."""

@@ -10,7 +10,7 @@ from occ_gui.views.effect_table import EffectTable
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.parameter_rows import QuantityRow, explain
-from occ_model.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 
 _WIDEST_TABLE = 780
 """Pixels that the table can make use of; the rest is the plot's."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject
 
 from occ_gui.state.advice import Advice, TheoryNumbers
-from occ_model.parameters import quantity
 from occ_model.results import Edge, Limits, Reach, Trial
-from occ_model.units import HERTZ, SECOND
+from occ_model.scene.parameters import quantity
+from occ_model.scene.units import HERTZ, SECOND
 
 _DIGITS = 4
 """Of an edge that is known to a few thousandths."""

@@ -18,7 +18,7 @@ from occ_gui.views.plots import BAND, REGION, SIMULATION, new_plot, thin
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.inks import pen_on
 from occ_model.results.teaching import ExposureWindow
-from occ_model.units import SECOND
+from occ_model.scene.units import SECOND
 
 _MICRO = 1e6
 _SHADE = 60

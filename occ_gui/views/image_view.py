@@ -18,7 +18,7 @@ from occ_gui.views.photo_overlay import MODES, PhotoOverlay
 from occ_gui.views.picture_pane import PicturePane
 from occ_gui.widgets.word_choice import WordChoice
 from occ_model.arrays import ByteArray
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 
 _GAINS = (1, 2, 4, 8)
 _FIRST_GAIN = 4

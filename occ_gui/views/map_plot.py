@@ -21,7 +21,7 @@ from occ_gui.views.contours import Point
 from occ_gui.views.map_ticks import axis_title, ticks
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import IndexArray
-from occ_model.declarations import Quantity
+from occ_model.scene.parameter_kinds import Quantity
 
 STYLES: dict[str, Qt.PenStyle] = {
     "band": Qt.PenStyle.SolidLine,

@@ -13,7 +13,7 @@ from occ_gui.views.map_colours import DIFFERENCES, RATES, colour_table, image_of
 from occ_gui.views.map_plot import MapPlot
 from occ_gui.widgets.colour_bar import ColourBar
 from occ_model.arrays import FloatArray
-from occ_model.parameters import quantity
+from occ_model.scene.parameters import quantity
 
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
 """What both ends of a colour map stand for, in percent."""

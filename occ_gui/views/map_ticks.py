@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from occ_model.declarations import Quantity
+from occ_model.scene.parameter_kinds import Quantity
 
 _STEPS = (1.0, 2.0, 5.0)
 

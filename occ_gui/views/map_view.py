@@ -19,8 +19,8 @@ from occ_gui.views.map_legend import MapLegend
 from occ_gui.views.map_plots import MapPlots
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.word_choice import WordChoice
-from occ_model.parameters import quantity
-from occ_model.scene import Scene
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
 
 
 class MapView(QWidget):

@@ -7,7 +7,7 @@ from occ_gui.views.map_colours import RATES, painted
 from occ_gui.widgets.margin_strip import MarginStrip
 from occ_gui.widgets.parameter_rows import QuantityRow
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS
 
 
 class MarginStrips(QObject):

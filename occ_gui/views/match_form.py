@@ -18,10 +18,10 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.parameter_rows import explain
 from occ_gui.widgets.quantity_edit import QuantityEdit
 from occ_gui.widgets.word_choice import WordChoice
-from occ_model.declarations import Quantity
-from occ_model.parameters import quantity
-from occ_model.scene import Scene
-from occ_model.units import HERTZ
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ
 
 SQUARE_FREQUENCY = Quantity(
     "square_frequency",

@@ -8,11 +8,11 @@ from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QVB
 
 from occ_gui.state.match_choice import CHIPS_OF_A_CYCLE, KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_model.declarations import Quantity
-from occ_model.parameters import quantity
 from occ_model.results import Match
-from occ_model.scene import Scene
-from occ_model.units import HERTZ
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ
 
 _ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 

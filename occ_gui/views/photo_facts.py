@@ -6,10 +6,10 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_gui.widgets.word_choice import WordChoice
-from occ_model.declarations import Quantity
 from occ_model.errors import one_line
-from occ_model.parameters import PARAMETERS
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 _PREFIXES = {"exposure_time": "", "iso": "ISO ", "f_number": "f/"}
 """What stands before a camera's notes, by the names of the scene's parameters."""

@@ -17,9 +17,9 @@ from occ_gui.views.match_result import MatchResult
 from occ_gui.views.photo_facts import PhotoFacts
 from occ_gui.views.placement_form import PlacementForm
 from occ_gui.widgets.scroll_pane import ScrollPane
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 _SCROLL_BAR = 20
 _LEAST_HEIGHT = 200

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
 from occ_gui.state.gesture import Gestures
 from occ_gui.widgets.undo_keys import leave_undo_to_window
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 class CodeEntry(QWidget):

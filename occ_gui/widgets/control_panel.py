@@ -19,8 +19,8 @@ from occ_gui.widgets.parameter_panel import ParameterPanel
 from occ_gui.widgets.parameter_rows import QuantityRow
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import GROUPS, Scene
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS, Scene
 
 MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number", "distance")
 """The parameters whose sliders are always at hand."""

@@ -6,9 +6,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from occ_gui.widgets.parameter_rows import ParameterRow, explain, row_for
-from occ_model.declarations import Parameter
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
+from occ_model.scene.parameter_kinds import Parameter
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 
 
 class ParameterPanel(QWidget):

@@ -15,7 +15,8 @@ from occ_gui.state.gesture import Gestures
 from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.quantity_edit import QuantityEdit
 from occ_gui.widgets.undo_keys import leave_undo_to_window
-from occ_model.declarations import (
+from occ_model.errors import ParameterError
+from occ_model.scene.parameter_kinds import (
     ChipPattern,
     Choice,
     Count,
@@ -24,7 +25,6 @@ from occ_model.declarations import (
     ParameterValue,
     Quantity,
 )
-from occ_model.errors import ParameterError
 
 _SLIDER_STEPS = 1000
 

@@ -5,8 +5,8 @@ from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 
 from occ_gui.widgets.undo_keys import leave_undo_to_window
-from occ_model.declarations import Quantity
 from occ_model.errors import ParameterError
+from occ_model.scene.parameter_kinds import Quantity
 
 _STEP = 0.01
 """Share of the slider's way that one step of the arrows goes."""

@@ -10,7 +10,7 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 

@@ -17,7 +17,7 @@ from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.coverage import Coverage
 from occ_model.camera.photometry import luminance_of, pixel_value
 from occ_model.camera.projection import row_spans
-from occ_model.scene import Camera, Scene
+from occ_model.scene.scene import Camera, Scene
 
 
 @dataclass(frozen=True, eq=False, slots=True)

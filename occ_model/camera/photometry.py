@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.scene import Camera, Scene
+from occ_model.scene.scene import Camera, Scene
 
 WHITE = 255.0
 """The largest pixel value."""

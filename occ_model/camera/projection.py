@@ -4,8 +4,8 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
 from occ_model.errors import ProjectionError
-from occ_model.scene import Camera, Pose, Scene
-from occ_model.units import METRE
+from occ_model.scene.scene import Camera, Pose, Scene
+from occ_model.scene.units import METRE
 
 MAX_PIXELS = 170_000_000
 """The largest image that is made or read; a larger one is refused, not left to fill the memory."""

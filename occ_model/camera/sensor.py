@@ -11,7 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE, luminance_of, pixel_value
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 _EXPOSURE_FACTOR = 0.65
 """H = 0.65 L t / N^2 in lux seconds: what lenses let through of a luminance (ISO 12232).

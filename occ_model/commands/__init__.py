@@ -15,7 +15,7 @@ from occ_model.commands import (
     sweep,
 )
 from occ_model.commands.files import check_files
-from occ_model.commands.parser import Parser
+from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
 _COMMANDS = (render, plan, accuracy, sweep, limits, decode, match, figures, listing)

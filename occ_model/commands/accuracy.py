@@ -5,11 +5,11 @@ import sys
 from pathlib import Path
 
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.errors import one_line
-from occ_model.output import make_folder
+from occ_model.files.writing import make_folder
 from occ_model.results import AccuracyPoint
-from occ_model.settings import (
+from occ_model.scene.from_text import (
     add_scene_options,
     add_simulation_options,
     scene_of,
@@ -44,7 +44,7 @@ def _run(options: argparse.Namespace) -> int:
             bar.update()
     if options.out:
         # matplotlib takes half a second to import: only for those who want a figure.
-        from occ_model.export.accuracy_figure import write_accuracy_figure
+        from occ_model.figures.accuracy import write_accuracy_figure
 
         write_accuracy_figure(options.out, scene, settings, points)
         print(f"{one_line(str(options.out))}: the figure as PDF, PNG and CSV")

@@ -4,16 +4,16 @@ import argparse
 import sys
 from pathlib import Path
 
-from occ_model.checks import check_count, check_seed
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.errors import one_line
-from occ_model.output import make_folder
-from occ_model.photo.load import Photo, load_photo
+from occ_model.files.writing import make_folder
+from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results.sweep_request import MOST_IMAGES
+from occ_model.scene.argument_checks import check_count, check_seed
+from occ_model.scene.units import HERTZ
 from occ_model.study.paper_grid import DEVICES, IMAGES, GridPoint, ceases_at, measure, point_count
-from occ_model.units import HERTZ
 
 
 def add_to(commands: Commands) -> None:
@@ -34,7 +34,7 @@ def _run(options: argparse.Namespace) -> int:
     check_count("images", options.images, 1, MOST_IMAGES)
     check_seed(options.seed)
     # matplotlib takes half a second to import: only for those who want a figure.
-    from occ_model.export.drawing import house_style
+    from occ_model.figures.drawing import house_style
 
     photos = [
         load_photo(path) if path else None for path in (options.photo_68us, options.photo_136us)
@@ -49,18 +49,18 @@ def _run(options: argparse.Namespace) -> int:
 def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> None:
     from tqdm import tqdm
 
-    from occ_model.export import paper_figures
+    from occ_model.figures import paper
 
-    paper_figures.write_process_figure(options.out)
-    paper_figures.write_profile_figure(options.out, 3, "phone-68us", photos[0])
-    paper_figures.write_profile_figure(options.out, 4, "phone-136us", photos[1])
+    paper.write_process_figure(options.out)
+    paper.write_profile_figure(options.out, 3, "phone-68us", photos[0])
+    paper.write_profile_figure(options.out, 4, "phone-136us", photos[1])
     decoders = tuple(DECODERS)
     total = sum(point_count(presets, decoders) for presets in DEVICES.values())
     with tqdm(total=total, unit="point", file=sys.stderr) as bar:
         for number, (device, presets) in enumerate(DEVICES.items(), start=5):
             bar.set_description(device)
             points = list(measure(presets, decoders, options.images, options.seed, bar.update))
-            paper_figures.write_rate_figure(options.out, number, device, points, options.seed)
+            paper.write_rate_figure(options.out, number, device, points, options.seed)
             for preset in presets:
                 bar.write(_ceasing(preset, points), file=sys.stdout)
 

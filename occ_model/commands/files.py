@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from occ_model.errors import OutputError, one_line
-from occ_model.output import PICTURE_ENDINGS
-from occ_model.presets import user_folder
-from occ_model.settings import check_scene_path
+from occ_model.files.writing import PICTURE_ENDINGS
+from occ_model.scene.from_text import check_scene_path
+from occ_model.scene.presets import user_folder
 
 INPUTS = {
     "file": "the photo",

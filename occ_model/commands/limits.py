@@ -4,16 +4,16 @@ import argparse
 import math
 import sys
 
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.exit_codes import EXIT_FAILURE
-from occ_model.parameters import PARAMETERS
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import Edge, Limits, Reach, Trial
-from occ_model.scene import Scene
-from occ_model.settings import add_scene_options, scene_of
+from occ_model.scene.from_text import add_scene_options, scene_of
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory
 from occ_model.study.limits import limits
-from occ_model.units import HERTZ, SECOND
 
 _DIGITS = 4
 """Of an edge that is known to a few thousandths."""

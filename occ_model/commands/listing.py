@@ -2,10 +2,10 @@
 
 import argparse
 
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.errors import one_line
-from occ_model.parameters import PARAMETERS
-from occ_model.presets import all_presets, preset_named, unreadable_presets
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
 
 _LONGEST_NOTE = 1000
 """Characters of the note on a value that are shown."""

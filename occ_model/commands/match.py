@@ -5,15 +5,15 @@ import sys
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE
-from occ_model.commands.parser import Commands
-from occ_model.declarations import Quantity
+from occ_model.commands.options import Commands
 from occ_model.errors import one_line
-from occ_model.parameters import PARAMETERS, parameter_named
-from occ_model.photo.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.photo.match import ESTIMATES, SENT, match_photo
+from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.results import Match
-from occ_model.scene import Scene
-from occ_model.settings import add_scene_options, scene_of, write_scene_file
+from occ_model.scene.from_text import add_scene_options, scene_of, write_scene_file
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS, parameter_named
+from occ_model.scene.scene import Scene
 
 _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 

@@ -2,15 +2,15 @@
 
 import argparse
 
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.effects.plan import plan
-from occ_model.settings import (
+from occ_model.scene.from_text import (
     add_plan_options,
     add_scene_options,
     scene_of,
     simulation_settings_of,
 )
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.simulation_settings import SimulationSettings
 
 
 def add_to(commands: Commands) -> None:

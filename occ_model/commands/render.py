@@ -4,17 +4,17 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.errors import one_line
-from occ_model.output import write_image
-from occ_model.settings import (
+from occ_model.files.writing import write_image
+from occ_model.scene.from_text import (
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
     write_scene_file,
 )
-from occ_model.simulation import render
+from occ_model.simulation.render import render
 
 
 def add_to(commands: Commands) -> None:

@@ -8,10 +8,9 @@ from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from occ_model.checks import check_choice, check_count
 from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
-from occ_model.commands.parser import Commands
+from occ_model.commands.options import Commands
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError, one_line, shown
@@ -19,10 +18,11 @@ from occ_model.exit_codes import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPERS
 from occ_model.results import RateSettings, SweepRequest, SweepTable
 from occ_model.results.sweep_request import MOST_JOBS, WAYS
-from occ_model.settings import add_scene_options, scene_of
-from occ_model.simulation_settings import TOLERANCE
-from occ_model.study.sweep import sweep
-from occ_model.study.sweep_check import checked_request
+from occ_model.scene.argument_checks import check_choice, check_count
+from occ_model.scene.from_text import add_scene_options, scene_of
+from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.sweep import sweep
 
 BOTH = "both"
 
@@ -108,7 +108,7 @@ def _run(options: argparse.Namespace) -> int:
         sys.stdout.writelines(table.csv())
     if options.plot:
         # matplotlib takes half a second to import: only for those who want a figure.
-        from occ_model.export.sweep_figure import write_sweep_figure
+        from occ_model.figures.sweep import write_sweep_figure
 
         write_sweep_figure(options.plot, table)
         print(f"{one_line(str(options.plot))}: success rate over {' and '.join(axes)}")

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from occ_model.declarations import Count, Parameter, ParameterValue, Quantity
 from occ_model.errors import ParameterError, shown
-from occ_model.parameters import parameter_named
 from occ_model.results.sweep_request import MOST_POINTS
-from occ_model.study.sweep_check import check_points
+from occ_model.scene.parameter_kinds import Count, Parameter, ParameterValue, Quantity
+from occ_model.scene.parameters import parameter_named
+from occ_model.study.sweep.request_check import check_points
 
 SYNTAX = (
     "NAME=a,b,c: these values; NAME=low:high:step: from low in even steps, with high where a step "

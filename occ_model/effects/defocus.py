@@ -14,15 +14,15 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import pixel_value
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.sight import (
+from occ_model.effects.paper_view import (
     contrast,
     just_white,
     reachable_luminances,
     shown_change,
     sight_of,
 )
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 _REACH = 4.0
 """Standard deviations from the rim after which nothing of it is left."""

@@ -15,11 +15,11 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.effects.defocus import blur_of
 from occ_model.effects.effect import OpticsEffect
+from occ_model.effects.paper_view import contrast, sight_of
 from occ_model.effects.polygon import clipped, subdivided
-from occ_model.effects.sight import contrast, sight_of
 from occ_model.errors import ProjectionError
-from occ_model.scene import Camera, Lens, Scene
-from occ_model.simulation_settings import Observable
+from occ_model.scene.scene import Camera, Lens, Scene
+from occ_model.scene.simulation_settings import Observable
 
 _PARTS = 64
 """Parts that each edge of the panel is bent in at least."""

@@ -14,8 +14,8 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import ColumnLight
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
 """Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""

@@ -8,9 +8,9 @@ from occ_model.arrays import Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.sight import just_white, largest_change, reachable_luminances, sight_of
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.effects.paper_view import just_white, largest_change, reachable_luminances, sight_of
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 
 class Emission(OpticsEffect):

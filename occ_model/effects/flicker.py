@@ -10,9 +10,9 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import cycle_phases
 from occ_model.camera.photometry import ColumnLight, luminance_levels
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.sight import largest_change
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.effects.paper_view import largest_change
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 
 class Flicker(LightEffect):

@@ -4,9 +4,9 @@ import numpy as np
 
 from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import PixelEffect, Values
-from occ_model.effects.sight import reachable_luminances, shown_value
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.effects.paper_view import reachable_luminances, shown_value
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 
 class FullWell(PixelEffect):

@@ -9,12 +9,12 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import FileEffect
-from occ_model.effects.sight import sight_of
+from occ_model.effects.paper_view import sight_of
 from occ_model.errors import ParameterError
-from occ_model.output import LONGEST_SIDE
+from occ_model.files.writing import LONGEST_SIDE
 from occ_model.results import Region
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 _LUMINANCE_STEPS = (
     (16, 11, 10, 16, 24, 40, 51, 61),

@@ -10,9 +10,9 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import ColumnLight, pixel_value
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.sight import reachable_luminances, shown_change, sight_of
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.effects.paper_view import reachable_luminances, shown_change, sight_of
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 from occ_model.transmitter.edges import EdgedWaveform, most_changes
 from occ_model.transmitter.packet import sent_chips
 

@@ -8,9 +8,9 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE, pixel_value
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.sight import off_axis_factor, reachable_luminances, sight_of
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.effects.paper_view import off_axis_factor, reachable_luminances, sight_of
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 _FAR = 9.0
 """Standard deviations beyond which nothing of a normal distribution is left."""

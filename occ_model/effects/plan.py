@@ -5,14 +5,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
-from occ_model.checks import check_choice, check_switches
 from occ_model.effects.effect import Effect, FileEffect
 from occ_model.effects.noise_bound import louder, noise_bound
+from occ_model.effects.paper_view import sight_of
 from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS
-from occ_model.effects.sight import sight_of
 from occ_model.results import Decision, Plan
-from occ_model.scene import Scene, check_scene
-from occ_model.simulation_settings import OBSERVABLES, TOLERANCE, Observable
+from occ_model.scene.argument_checks import check_choice, check_switches
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import OBSERVABLES, TOLERANCE, Observable
 
 _DITHERING = 0.5
 """Grey levels of noise that spread a pixel evenly over the steps of rounding."""

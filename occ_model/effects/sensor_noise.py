@@ -6,8 +6,8 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.sensor import converter_step, deviation
 from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.noise_bound import noise_bound
-from occ_model.scene import Scene
-from occ_model.simulation_settings import Observable
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 
 
 class SensorNoise(NoiseEffect):

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.errors import MatchError, ParameterError
-from occ_model.photo.explanation import Explanation
+from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fitted_scene import at_the_photo, with_chips, with_levels
-from occ_model.photo.load import Photo
-from occ_model.photo.stripe_fit import StripeFit
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, Stripes
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 ESTIMATES = ("readout_time", "switching_frequency")

@@ -7,14 +7,14 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_rays
-from occ_model.declarations import ParameterValue
 from occ_model.effects.distortion import distorted
 from occ_model.errors import MatchError, ParameterError
-from occ_model.parameters import PARAMETERS
-from occ_model.photo.load import Photo
-from occ_model.photo.stripe_fit import StripeFit
+from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Region
-from occ_model.scene import Lens, Scene
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Lens, Scene
 from occ_model.transmitter import line_code
 from occ_model.transmitter.packet import HEADER, code_of, packet_length, sent_chips
 

@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.checks import check_choice
 from occ_model.errors import MatchError
 from occ_model.photo.description import ESTIMATES, described
-from occ_model.photo.explanation import Explanation, explain
+from occ_model.photo.fit.best_timing import Explanation, explain
+from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
+from occ_model.photo.fit.read_pattern import read_pattern
 from occ_model.photo.fitted_scene import with_notes
-from occ_model.photo.load import Photo
-from occ_model.photo.pattern import read_pattern
-from occ_model.photo.stripes import find_stripes
-from occ_model.photo.tone import AVERAGINGS, CameraTone, camera_tones
+from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.find import find_stripes
 from occ_model.results import Match, Stripes
-from occ_model.scene import Scene, check_scene
+from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
 __all__ = ["ESTIMATES", "SENT", "match_photo"]

@@ -15,7 +15,7 @@ from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Region
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 _LARGEST_LEVEL = 1e5
 """Beyond any grey level, of whatever bit depth: a value that is none."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.plan import Plan
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import Region
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from occ_model.simulation_settings import Observable
+from occ_model.scene.simulation_settings import Observable
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.declarations import ParameterValue
 from occ_model.errors import ParameterError, shown
-from occ_model.output import write_whole
+from occ_model.files.writing import write_whole
 from occ_model.results.sweep_csv import header_text, point_text
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
+from occ_model.scene.parameter_kinds import ParameterValue
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,9 @@ import math
 from collections.abc import Sequence
 from io import StringIO
 
-from occ_model.declarations import ParameterValue, Quantity
-from occ_model.parameters import PARAMETERS
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
+from occ_model.scene.parameter_kinds import ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.version import __version__
 
 _FORMAT = 1

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import Literal, TypeAlias
 
-from occ_model.declarations import ParameterValue
-from occ_model.scene import Scene
-from occ_model.simulation_settings import TOLERANCE
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import TOLERANCE
 
 Way: TypeAlias = Literal["auto", "profile", "image"]
 """How a decoder gets to see a scene: by the column means alone, by the whole image, or whichever

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

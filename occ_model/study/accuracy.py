@@ -17,16 +17,16 @@ from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
-from occ_model.checks import check_seed
-from occ_model.columns import expose_columns
 from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.paper_view import sight_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
-from occ_model.effects.sight import sight_of
 from occ_model.results import AccuracyPoint, Plan
-from occ_model.scene import Scene
-from occ_model.simulation import observe, render
-from occ_model.simulation_settings import NOISE_SOURCES, SimulationSettings
+from occ_model.scene.argument_checks import check_seed
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings
+from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.render import observe, render
 from occ_model.study.observation import panel_span
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 

@@ -4,8 +4,8 @@ import math
 from numbers import Real
 from statistics import NormalDist
 
-from occ_model.checks import check_count
 from occ_model.errors import ParameterError, shown
+from occ_model.scene.argument_checks import check_count
 
 _MOST = 2**53
 """Trials that can be counted one by one in a float."""

@@ -6,15 +6,15 @@ from numbers import Real
 
 import numpy as np
 
-from occ_model.declarations import Quantity
 from occ_model.errors import ParameterError, shown
-from occ_model.parameters import PARAMETERS
 from occ_model.receiver.decoders import PAPERS
 from occ_model.results import Edge, Limits, RateSettings, Reach, SweepPoint, Trial, Way
-from occ_model.scene import Scene, check_scene
-from occ_model.simulation_settings import TOLERANCE
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.success_rate import check_rate, right_bits
-from occ_model.study.sweep import rate_intervals
+from occ_model.study.sweep.sweep import rate_intervals
 
 STEP = 1.15
 """Ratio of neighbouring values in the first, coarse search."""

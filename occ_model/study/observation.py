@@ -13,13 +13,13 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import saturate
 from occ_model.camera.projection import panel_corners, row_spans
-from occ_model.columns import Columns, expose_columns
 from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.effects.registry import planned
 from occ_model.receiver.decode import decode
 from occ_model.receiver.locate import bright_level
 from occ_model.results import DecodeResult, Plan, Region
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
+from occ_model.simulation.columns import Columns, expose_columns
 
 _REACH = 5.0
 """Standard deviations after which the noise's distribution is cut off."""

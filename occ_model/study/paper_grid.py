@@ -6,9 +6,9 @@ from itertools import product
 
 import numpy as np
 
-from occ_model.presets import load_preset
 from occ_model.results import RateSettings
-from occ_model.scene import Scene
+from occ_model.scene.presets import load_preset
+from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import check_rate, right_bits
 
 FREQUENCIES = tuple(2000.0 * step for step in range(1, 11))

@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 _SAMPLES_AT_ONCE = 1_000_000

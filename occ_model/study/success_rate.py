@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.checks import check_choice, check_count, check_seed, check_switches
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
@@ -14,9 +13,10 @@ from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPERS, decoder_named
 from occ_model.results import DecodeResult, RateSettings, Region, Way
 from occ_model.results.sweep_request import MOST_IMAGES, WAYS
-from occ_model.scene import Scene, check_scene
-from occ_model.simulation import render
-from occ_model.simulation_settings import TOLERANCE
+from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.simulation.render import render
 from occ_model.study.observation import Observation, observe_profile, panel_span
 from occ_model.transmitter.packet import bits_of, packet_length
 

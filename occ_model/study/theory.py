@@ -10,8 +10,8 @@ import numpy as np
 
 from occ_model.camera.photometry import WHITE, luminance_levels, luminance_of
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.sight import region_of
-from occ_model.scene import Scene
+from occ_model.effects.paper_view import region_of
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import packet_length
 
 

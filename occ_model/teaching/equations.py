@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from occ_model.band_model import band_lengths
 from occ_model.camera.photometry import WHITE, level_values, luminance_levels
 from occ_model.errors import BandModelUndefined
-from occ_model.parameters import PARAMETERS
 from occ_model.results.teaching import Equation, Term
-from occ_model.scene import Scene
-from occ_model.units import HERTZ, NIT, SECOND
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, NIT, SECOND
+from occ_model.simulation.band_model import band_lengths
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 

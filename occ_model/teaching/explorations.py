@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from occ_model.errors import OccError, SceneFileError, one_line, shown
-from occ_model.input_file import read_text
-from occ_model.presets import load_preset
-from occ_model.resource_files import resource_names, resource_text
+from occ_model.files.reading import read_text
+from occ_model.files.resources import resource_names, resource_text
 from occ_model.results.teaching import Exploration, Step
-from occ_model.scene_file import parse_toml
-from occ_model.settings import with_settings
+from occ_model.scene.from_text import with_settings
+from occ_model.scene.presets import load_preset
+from occ_model.scene.toml_format import parse_toml
 
 _FOLDER, _ENDING = "explorations", ".toml"
 

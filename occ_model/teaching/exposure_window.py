@@ -6,10 +6,10 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.camera.exposure import on_time
-from occ_model.checks import check_count
 from occ_model.errors import ParameterError, shown
 from occ_model.results.teaching import ExposureWindow
-from occ_model.scene import Scene, check_scene
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
 _MOST_CHIPS = 400

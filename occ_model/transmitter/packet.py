@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.scene import Scene, Transmitter
+from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter import line_code
 
 HEADER = (1, 1, 1, 0)

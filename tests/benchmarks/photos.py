@@ -7,7 +7,7 @@ import cv2
 from measuring import Row, side_by_side
 
 import occ_model as occ
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 _ROWS, _COLUMNS = 3024, 4032
 

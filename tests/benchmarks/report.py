@@ -19,8 +19,8 @@ from photos import match_cost, reading_cost
 
 import occ_model as occ
 from occ_model.camera.enhancement import enhance
-from occ_model.receiver.code_book import code_book
-from occ_model.scene import Scene
+from occ_model.receiver.matched.code_templates import code_book
+from occ_model.scene.scene import Scene
 
 _COLD_STARTS = 7
 _FIRST_FRAME = Path(__file__).with_name("first_frame.py")

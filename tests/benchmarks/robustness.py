@@ -17,7 +17,7 @@ from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import level_values
 from occ_model.camera.projection import row_spans
 from occ_model.receiver.decoders import DECODERS
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 POSES: dict[str, dict[str, float]] = {
     "level": {},

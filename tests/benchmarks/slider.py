@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QApplication
 
 import occ_model as occ
 from occ_gui.application import Application
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.simulation_settings import SimulationSettings
 
 _MOVES = 150
 _WARM_UP = 20

@@ -22,9 +22,9 @@ from occ_gui.controllers.simulation import simulate
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.tasks.parcel import Outcome, Task
 from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
-from occ_model.photo.load import Photo
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.photo.reading.load import Photo
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 Grey = NDArray[np.uint8]
 

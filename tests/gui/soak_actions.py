@@ -19,12 +19,12 @@ from occ_gui.state.gesture import NO_GESTURE, new_gesture
 from occ_gui.state.settings_store import FIRST_SETTINGS
 from occ_gui.views.exploration_view import ExplorationView
 from occ_gui.views.photo_overlay import MODES
-from occ_model.declarations import Choice, Quantity
 from occ_model.effects.registry import NAMES
-from occ_model.parameters import PARAMETERS
 from occ_model.results.teaching import Exploration
-from occ_model.scene import Scene
-from occ_model.scene_inside import ENDINGS
+from occ_model.scene.parameter_kinds import Choice, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.scene_inside import ENDINGS
 from occ_model.teaching.explorations import explorations
 
 _HEAVY = ("rows", "columns", "point_spread", "distance", "panel_width", "panel_height")

@@ -15,8 +15,8 @@ from occ_gui.state.request import SimulationRequest
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_model.results import AccuracyPoint
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 PATIENCE_S = 10.0
 TOTAL = 3

@@ -14,7 +14,7 @@ from occ_gui.views.advice_view import AdviceView
 from occ_gui.views.advice_words import AdviceWords
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Edge, Limits, Reach, Trial
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 THEORY = TheoryNumbers(7353.0, 14706.0, 3468.0, 100e-6, 200e-6, 1.17e-3)
 GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0)

@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_gui.application import Application
 from occ_gui.state import gesture
 from occ_gui.widgets.parameter_rows import QuantityRow
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 Picture = Callable[[QWidget], NDArray[np.uint8]]
 User = Any  # the fixture of that name

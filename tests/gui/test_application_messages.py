@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 
 import occ_model as occ
 from occ_gui.application import Application
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name
 

@@ -17,7 +17,7 @@ from occ_gui.application import Application
 from occ_gui.controllers import files as files_room
 from occ_gui.controllers import photo as photo_room
 from occ_gui.state.placement import Placement
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name
 

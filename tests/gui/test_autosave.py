@@ -16,7 +16,7 @@ from occ_gui.controllers.session_keeper import SessionKeeper
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.session import Session
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path, qtbot: QtBot) -> None:

@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.widgets.code_entry import CodeEntry
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 class Bench:

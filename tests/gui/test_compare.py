@@ -15,7 +15,7 @@ from occ_gui.state.pinned import Pinned
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.compare_view import CompareView
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 SnapshotOf = Callable[..., Snapshot]
 User = Any  # the fixture of that name

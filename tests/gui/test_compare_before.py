@@ -18,7 +18,7 @@ from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.before_wipe import BeforeWipe
 from occ_gui.views.picture_pane import PicturePane
 from occ_gui.views.profile_view import ProfileView
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 Grey = NDArray[np.uint8]
 SnapshotOf = Callable[..., Snapshot]

@@ -19,7 +19,7 @@ from occ_gui.state.placement import Placement, PlacementStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, Match, Region, Stripes
 
 Grey = NDArray[np.uint8]

@@ -9,8 +9,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.control_panel import MAIN, ControlPanel
 from occ_gui.widgets.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 
 EFFECTS = ("edge_time", "jpeg_quality")
 PRESETS = [("small", "A small scene"), ("large", "A large scene")]

@@ -19,8 +19,8 @@ from occ_gui.state.memory import Memory
 from occ_gui.state.session import Session, keep_session, recall_session
 from occ_gui.views.exploration_view import ExplorationView
 from occ_model.effects.registry import NAMES
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 PROJECT = Path(__file__).resolve().parents[2]
 

@@ -17,7 +17,7 @@ from occ_gui.state.scene_store import SceneStore
 from occ_gui.views.command_palette import Command, CommandPalette
 from occ_gui.views.plots import Plot
 from occ_gui.views.shortcut_sheet import ShortcutSheet
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name
 

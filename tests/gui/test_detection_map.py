@@ -18,7 +18,7 @@ from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Crew
 from occ_gui.tasks.parcel import Outcome, Task
 from occ_model.receiver.decoders import DECODERS
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 SHAPE = (13, 7)
 IMAGES = (1, 2)

@@ -19,9 +19,9 @@ from occ_gui.views.contours import zero_lines
 from occ_gui.views.map_colours import DIFFERENCES, RATES, painted
 from occ_gui.views.map_ticks import axis_title, ticks
 from occ_gui.views.map_view import MapView
-from occ_model.parameters import quantity
 from occ_model.results import SweepPoint
-from occ_model.scene import Scene
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
 
 Picture = Callable[[QWidget], Any]
 DECODERS = ("threshold", "matched")

@@ -15,7 +15,7 @@ from occ_gui.state.scene_store import SceneStore
 from occ_gui.views import equation_text
 from occ_gui.views.equation_text import EquationText
 from occ_model.results.teaching import Equation
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
 
 User = Any  # the fixture of that name

@@ -31,8 +31,8 @@ from shiboken6 import isValid
 from occ_gui.application import Application
 from occ_gui.controllers.commands import entries, plain
 from occ_gui.widgets.parameter_rows import QuantityRow
-from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 User = Any  # the fixture of that name
 

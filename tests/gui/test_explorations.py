@@ -12,7 +12,7 @@ from occ_gui.application import Application
 from occ_gui.controllers import explorations as explorations_room
 from occ_gui.views.exploration_view import ExplorationView
 from occ_model.errors import SceneFileError
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
 
 User = Any  # the fixture of that name

@@ -17,7 +17,7 @@ from occ_gui.controllers.detection_map import MapRequest
 from occ_gui.controllers.lattice_stages import SHAPE
 from occ_gui.state.rate_map import RateMap, lattice
 from occ_model.results import AccuracyPoint, SweepPoint
-from occ_model.scene_inside import ENDINGS, scene_inside
+from occ_model.scene.scene_inside import ENDINGS, scene_inside
 
 User = Any  # the fixture of that name
 

@@ -16,7 +16,7 @@ from occ_gui.state.snapshot import Snapshot
 from occ_gui.views.column_picker import ColumnPicker
 from occ_gui.views.exposure_plot import ExposurePlot
 from occ_model.results.teaching import ExposureWindow
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.teaching.exposure_window import exposure_window
 
 SnapshotOf = Callable[..., Snapshot]

@@ -14,8 +14,8 @@ from occ_gui.controllers.photo import PhotoController
 from occ_gui.state.memory import Memory
 from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.snapshot import Snapshot
-from occ_model.output import PICTURE_ENDINGS
-from occ_model.scene import Scene
+from occ_model.files.writing import PICTURE_ENDINGS
+from occ_model.scene.scene import Scene
 
 
 class Bench:

@@ -16,7 +16,7 @@ from occ_gui.views.averaged_image import AveragedImage
 from occ_gui.views.image_view import ImageView
 from occ_gui.views.photo_overlay import MODES
 from occ_gui.views.picture_pane import PicturePane
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.results import DecodeResult, Region
 
 Grey = NDArray[np.uint8]

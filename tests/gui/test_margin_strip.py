@@ -21,7 +21,7 @@ from occ_gui.state.settings_store import SettingsStore
 from occ_gui.tasks.crew import Crew
 from occ_gui.widgets.control_panel import MAIN
 from occ_gui.widgets.margin_strip import MarginStrip
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 POSITIONS = 9
 NAMES = ("switching_frequency", "iso")

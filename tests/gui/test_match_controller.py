@@ -17,10 +17,10 @@ from occ_gui.controllers.matching import SQUARE_WAVE, MatchController
 from occ_gui.state.match_choice import MatchChoice
 from occ_gui.state.scene_store import SceneStore
 from occ_model.errors import MatchError
-from occ_model.photo.load import Photo
-from occ_model.presets import USER_FOLDER, preset_named, user_presets
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, Region, Stripes
-from occ_model.scene import Scene
+from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
+from occ_model.scene.scene import Scene
 
 PATIENCE_S = 10.0
 DAY = date(2026, 1, 31)

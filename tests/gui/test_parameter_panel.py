@@ -7,7 +7,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.parameter_panel import ParameterPanel
 from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 NAMES = ("distance", "bits", "readout_time")
 

@@ -12,8 +12,8 @@ from occ_gui.widgets.parameter_rows import (
     explain,
     row_for,
 )
-from occ_model.declarations import ChipPattern, Choice, Count, ParameterValue, Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 KINDS = {Quantity: QuantityRow, Count: CountRow, Choice: ChoiceRow, ChipPattern: PatternRow}
 

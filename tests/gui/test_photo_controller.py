@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.controllers import photo as photo_room
 from occ_gui.controllers.photo import PhotoController, PhotoReading
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 
 Grey = NDArray[np.uint8]
 PATIENCE_S = 10.0

@@ -15,11 +15,11 @@ from occ_gui.state.placement import Placement
 from occ_gui.views.match_form import SQUARE_FREQUENCY
 from occ_gui.views.match_result import with_uncertainty
 from occ_gui.views.photo_view import PhotoView
-from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
-from occ_model.photo.load import CHANNELS, SCAN_AXES, Photo
 from occ_model.photo.match import ESTIMATES, SENT
+from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 from occ_model.results import Match, Region, Stripes
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 READOUT = PARAMETERS["readout_time"]
 

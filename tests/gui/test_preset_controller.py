@@ -10,14 +10,14 @@ from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 import occ_model as occ
 from occ_gui.application import Application
-from occ_model.presets import (
+from occ_model.scene.presets import (
     USER_FOLDER,
     delete_preset,
     preset_named,
     save_preset,
     user_presets,
 )
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name
 Answer = Callable[[str, bool], None]

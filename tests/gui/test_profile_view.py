@@ -15,7 +15,7 @@ from occ_gui.state.photo_profile import PhotoProfile
 from occ_gui.state.snapshot import Snapshot
 from occ_gui.views import profile_view
 from occ_gui.views.profile_view import ProfileView
-from occ_model.photo.load import Photo
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, DecodeResult
 
 SnapshotOf = Callable[..., Snapshot]

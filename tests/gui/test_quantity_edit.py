@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QAbstractSpinBox
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.quantity_edit import QuantityEdit
-from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 QUANTITIES = [declared for declared in PARAMETERS.values() if isinstance(declared, Quantity)]
 

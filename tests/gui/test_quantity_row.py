@@ -9,8 +9,8 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.parameter_rows import QuantityRow
-from occ_model.declarations import Quantity
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 QUANTITIES = [declared for declared in PARAMETERS.values() if isinstance(declared, Quantity)]
 LOGARITHMIC = [declared for declared in QUANTITIES if declared.scale == "log"]

@@ -5,7 +5,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.state.gesture import NO_GESTURE, new_gesture
 from occ_gui.state.scene_store import SceneStore
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @pytest.fixture

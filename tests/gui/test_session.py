@@ -21,8 +21,8 @@ from occ_gui.controllers.autosave import Autosave
 from occ_gui.state.memory import Memory
 from occ_gui.state.session import Session, recall_session
 from occ_model.effects.registry import NAMES
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 PROJECT = Path(__file__).resolve().parents[2]
 

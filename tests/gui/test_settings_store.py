@@ -3,7 +3,7 @@
 import pytest
 
 from occ_gui.state.settings_store import SettingsStore
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.simulation_settings import SimulationSettings
 
 
 class Told:

@@ -16,7 +16,7 @@ from occ_gui.state.scene_store import SceneStore
 from occ_gui.state.settings_store import SettingsStore
 from occ_gui.state.snapshot import Snapshot
 from occ_model.receiver.decoders import DECODERS
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 BEHIND_THE_CAMERA = {"distance": 0.1, "yaw": 1.2}
 

@@ -4,7 +4,7 @@ import pytest
 
 from occ_gui.state.spoken import spoken
 from occ_model.errors import ParameterError
-from occ_model.parameters import PARAMETERS, quantity
+from occ_model.scene.parameters import PARAMETERS, quantity
 
 
 @pytest.mark.parametrize("name", ["switching_frequency", "iso", "f_number"])

@@ -21,8 +21,8 @@ from occ_gui.controllers.explorations import ExplorationController
 from occ_gui.views.exploration_view import ExplorationView
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_model.presets import USER_FOLDER, save_preset
-from occ_model.scene import Scene
+from occ_model.scene.presets import USER_FOLDER, save_preset
+from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
 
 User = Any  # the fixture of that name

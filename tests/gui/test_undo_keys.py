@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.application import Application
 from occ_gui.widgets.parameter_rows import QuantityRow
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name
 

@@ -8,8 +8,8 @@ from functools import cached_property
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 
 PATTERNS = st.one_of(st.just(""), st.text(alphabet="01", min_size=1, max_size=40))
 """Packets, or raw chips."""

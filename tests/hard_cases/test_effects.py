@@ -30,7 +30,7 @@ from occ_model.effects.flicker import Flicker, ambient_shares, response
 from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
 from occ_model.effects.sensor_noise import SensorNoise
 from occ_model.effects.vignetting import Vignetting
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 mpmath.mp.dps = 50
 

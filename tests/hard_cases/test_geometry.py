@@ -26,7 +26,7 @@ from occ_model.camera.projection import (
 )
 from occ_model.effects.defocus import blur_of
 from occ_model.effects.distortion import Distortion, distorted
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 STEEP = math.radians(89.99)
 ANGLES = st.floats(-STEEP, STEEP) | st.sampled_from([0.0, STEEP, -STEEP])

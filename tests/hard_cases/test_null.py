@@ -20,7 +20,7 @@ from hard_cases.references import (
 )
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.photometry import FLAT
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 mpmath.mp.dps = 40
 

@@ -21,8 +21,8 @@ from occ_model.camera.photometry import (
     pixel_value,
 )
 from occ_model.camera.photometry import ColumnLight as Light
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Camera, Scene
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Camera, Scene
 
 CAMERAS = st.builds(
     Camera,

@@ -17,7 +17,7 @@ from occ_model.receiver.locate import locate
 from occ_model.receiver.otsu import otsu_split
 from occ_model.receiver.signal import otsu_threshold
 from occ_model.results import DecodeResult, Region
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 BOTH = sorted(DECODERS)
 COUNTS = st.one_of(st.just(0), st.integers(0, 3), decades(1, 1e12).map(int))

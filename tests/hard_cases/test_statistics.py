@@ -13,15 +13,15 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.camera.enhancement import Enhancement
-from occ_model.columns import expose_columns
-from occ_model.effects.noise import ReusedNoise
 from occ_model.effects.registry import EFFECTS
-from occ_model.pixels import ExposedRows, PixelExposure, _ColumnTally
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import Region
-from occ_model.scene import Scene
-from occ_model.stage_clock import StageClock
+from occ_model.scene.scene import Scene
+from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.noise_source import ReusedNoise
+from occ_model.simulation.pixels import ExposedRows, PixelExposure, _ColumnTally
+from occ_model.simulation.stage_timer import StageClock
 from occ_model.study.confidence import wilson_interval
 
 

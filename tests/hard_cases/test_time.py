@@ -19,7 +19,7 @@ from hard_cases.references import (
     within,
 )
 from occ_model.camera.exposure import column_phases, lit_fraction
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 CHIPS = decades(1e-3, 1e6)
 """Exposures in chips."""

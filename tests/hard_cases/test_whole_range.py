@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, decades, signed_decades, within
-from occ_model.declarations import ChipPattern, Choice, Count
 from occ_model.effects.registry import NAMES
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
-from occ_model.simulation_settings import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable
 
 Made = TypeVar("Made")
 

@@ -12,7 +12,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS
 
 SMALL = ("--set", "rows=300")
 

@@ -13,7 +13,7 @@ from occ_gui.app import read_command_line as read_window_command_line
 from occ_model.cli import main
 from occ_model.commands import files, read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
-from occ_model.output import write_image
+from occ_model.files.writing import write_image
 
 SCENE = occ.load_preset("phone-68us").replace(rows=60)
 
@@ -170,7 +170,7 @@ def test_names_that_are_no_text_are_read_written_and_shown(tmp_path: Path, name:
 
 
 def test_a_photo_whose_name_is_no_text_is_told_in_a_figure(tmp_path: Path) -> None:
-    from occ_model.export.paper_figures import write_profile_figure
+    from occ_model.figures.paper import write_profile_figure
 
     photo = tmp_path / os.fsdecode(b"caf\xe9.png")
     write_image(photo, occ.render(occ.load_preset("phone-68us")).image)

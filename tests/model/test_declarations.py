@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occ_model.declarations import (
+from occ_model.errors import ParameterError
+from occ_model.scene.parameter_kinds import (
     MAX_PATTERN_CHIPS,
     ChipPattern,
     Choice,
@@ -16,9 +17,8 @@ from occ_model.declarations import (
     Parameter,
     Quantity,
 )
-from occ_model.errors import ParameterError
-from occ_model.parameters import PARAMETERS
-from occ_model.units import SECOND
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.units import SECOND
 
 QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
 COUNTS = [p for p in PARAMETERS.values() if isinstance(p, Count)]

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from occ_model.camera.enhancement import Enhancement, enhance, to_bytes
-from occ_model.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS
 
 METHODS = ("equalization", "stretch", "none")
 

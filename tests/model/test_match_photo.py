@@ -11,7 +11,7 @@ from simulated_photos import photo_of, random_scene, take
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.exit_codes import EXIT_MISUSE
-from occ_model.output import write_image
+from occ_model.files.writing import write_image
 
 SCENE = random_scene(6)
 PHOTO = take(SCENE)

@@ -10,16 +10,16 @@ import matplotlib as mpl
 import pytest
 from matplotlib.figure import Figure
 
-from occ_model.export.drawing import figure_bytes, house_style
-from occ_model.provenance import Provenance
-from occ_model.scene import Scene
+from occ_model.figures.drawing import figure_bytes, house_style
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.scene import Scene
 
 DRAW = """
 import sys
 from hashlib import sha256
-from occ_model.export.drawing import figure_bytes, house_style
-from occ_model.provenance import Provenance
-from occ_model.scene import Scene
+from occ_model.figures.drawing import figure_bytes, house_style
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.scene import Scene
 from matplotlib.figure import Figure
 
 with house_style():
@@ -123,7 +123,7 @@ def test_where_matplotlib_can_write_nowhere_a_sentence_says_so(tmp_path: Path) -
         "import tempfile\n"
         f"tempfile.tempdir = {nowhere!r}\n"
         "from occ_model.errors import OutputError\n"
-        "try:\n    import occ_model.export\nexcept OutputError as error:\n    print(error)\n"
+        "try:\n    import occ_model.figures\nexcept OutputError as error:\n    print(error)\n"
     )
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", program],
@@ -153,7 +153,7 @@ def test_what_was_set_in_the_same_process_reaches_no_figure_and_is_set_afterward
 
 def test_a_backend_that_the_environment_names_is_that_of_the_users_own_figures() -> None:
     program = (
-        "import os, occ_model.export, matplotlib\n"
+        "import os, occ_model.figures, matplotlib\n"
         "print(matplotlib.rcParams['backend'], os.environ['MPLBACKEND'])\n"
     )
     done = subprocess.run(

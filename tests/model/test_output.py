@@ -15,7 +15,7 @@ from hypothesis.extra import numpy as arrays
 from PIL import Image
 
 from occ_model.errors import OutputError
-from occ_model.output import PICTURE_ENDINGS, make_folder, write_image, write_whole
+from occ_model.files.writing import PICTURE_ENDINGS, make_folder, write_image, write_whole
 
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.parameters.light import MAX_BITS
-from occ_model.scene import Scene
+from occ_model.scene.parameters.light import MAX_BITS
+from occ_model.scene.scene import Scene
 from occ_model.transmitter import line_code
 from occ_model.transmitter.packet import HEADER, bits_of, code_of, packet_length, sent_chips
 

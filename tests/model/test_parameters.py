@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occ_model.declarations import Count, Parameter, Quantity
 from occ_model.errors import OccError, ParameterError
-from occ_model.parameters import PARAMETERS, parameter_named
-from occ_model.parameters.light import MAX_BITS
+from occ_model.scene.parameter_kinds import Count, Parameter, Quantity
+from occ_model.scene.parameters import PARAMETERS, parameter_named
+from occ_model.scene.parameters.light import MAX_BITS
 
 every_parameter = pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
 every_quantity = pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from PIL import Image
 from pillow_heif import from_pillow
 
 from occ_model.errors import PhotoError
-from occ_model.photo.load import Photo, load_photo
+from occ_model.photo.reading.load import Photo, load_photo
 
 FILES = 5000
 AT_ONCE = 2

@@ -10,7 +10,7 @@ from photo_files import saved
 from PIL import Image
 
 from occ_model.errors import ParameterError
-from occ_model.photo.load import load_photo
+from occ_model.photo.reading.load import load_photo
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
 PICTURE = Image.fromarray(STRIPES)

@@ -15,7 +15,7 @@ from photo_files import saved
 from PIL import Image
 
 from occ_model.errors import PhotoError
-from occ_model.photo.load import load_photo
+from occ_model.photo.reading.load import load_photo
 
 MOST_MEMORY_MB = 1200
 SIDE = 13_034
@@ -25,7 +25,7 @@ SIDE = 13_034
 _READ = """
 import json, pathlib, sys
 from occ_model.errors import PhotoError
-from occ_model.photo.load import load_photo
+from occ_model.photo.reading.load import load_photo
 refusal = ""
 try:
     load_photo(sys.argv[1])

@@ -11,8 +11,8 @@ from photo_files import saved
 from PIL import Image
 from PIL.TiffImagePlugin import IFDRational
 
-from occ_model.photo.exif import camera_notes
-from occ_model.photo.load import Photo, load_photo
+from occ_model.photo.reading.exif import camera_notes
+from occ_model.photo.reading.load import Photo, load_photo
 
 PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
 EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827

@@ -16,7 +16,7 @@ from photo_files import saved
 from PIL import Image, PngImagePlugin
 
 from occ_model.errors import ParameterError, PhotoError, one_line
-from occ_model.photo.load import load_photo
+from occ_model.photo.reading.load import load_photo
 
 PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
 

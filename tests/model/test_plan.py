@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 LIGHTS_WAY = [
     "led-edges",

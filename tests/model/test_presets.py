@@ -6,11 +6,13 @@ from typing import Any
 
 import pytest
 
-from occ_model import resource_files, scene_file
+from occ_model import resource_files
 from occ_model.cli import main
 from occ_model.errors import OccError, OutputError, ParameterError, PresetError, SceneFileError
-from occ_model.parameters import PARAMETERS
-from occ_model.presets import (
+from occ_model.receiver.decoders import decoder_named
+from occ_model.scene import toml_format
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.presets import (
     USER_FOLDER,
     all_presets,
     delete_preset,
@@ -22,8 +24,7 @@ from occ_model.presets import (
     user_folder,
     user_presets,
 )
-from occ_model.receiver.decoders import decoder_named
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 PAPER = ("phone-136us", "phone-68us", "tablet-122us", "tablet-61us")
 
@@ -366,14 +367,14 @@ def test_a_mistake_of_ours_over_one_file_does_not_hide_the_others(
 ) -> None:
     save_preset("good", MINE)
     save_preset("bad", MINE, title="bad")
-    read = scene_file.from_toml
+    read = toml_format.from_toml
 
     def mistaken(text: str) -> dict[str, Any]:
         if "bad" in text:
             raise ZeroDivisionError("of ours")
         return read(text)
 
-    monkeypatch.setattr(scene_file, "from_toml", mistaken)
+    monkeypatch.setattr(toml_format, "from_toml", mistaken)
     assert user_presets() == ("good",)
     assert "ZeroDivisionError" in unreadable_presets()["bad"]
 

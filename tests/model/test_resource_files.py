@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
-from occ_model.resource_files import resource_names, resource_path, resource_text
+from occ_model.files.resources import resource_names, resource_path, resource_text
 
 ROOT = Path(occ.__file__).parent.parent
 
@@ -66,7 +66,7 @@ def test_explorations_are_loaded_out_of_an_archive(archive: Path) -> None:
 
 def test_photos_of_an_archive_are_copied_until_the_program_ends(archive: Path) -> None:
     program = (
-        "from occ_model.resource_files import resource_path\n"
+        "from occ_model.files.resources import resource_path\n"
         "folder = resource_path('photos')\n"
         "print(folder, *sorted(path.name for path in folder.glob('*.jpg')))\n"
         "print(len(resource_path('photos', 'led-1khz.jpg').read_bytes()))\n"

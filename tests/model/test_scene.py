@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import occ_model.scene
-from occ_model.declarations import ChipPattern, Choice, Count, Parameter, Quantity
+import occ_model.scene.scene
 from occ_model.errors import ParameterError
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import GROUPS, Scene, group_of
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Parameter, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS, Scene, group_of
 
 
 def values(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
@@ -93,7 +93,7 @@ def test_scenes_that_differ_in_one_parameter_are_not_equal(parameter: Parameter)
 def test_a_scene_survives_copy_pickle_and_repr(changes: dict[str, float]) -> None:
     scene = Scene().replace(**changes)
     copies = [copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))]
-    copies.append(eval(repr(scene), vars(occ_model.scene)))
+    copies.append(eval(repr(scene), vars(occ_model.scene.scene)))
     for same in copies:
         assert same == scene
         assert hash(same) == hash(scene)

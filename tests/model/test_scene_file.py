@@ -4,12 +4,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from occ_model.declarations import ChipPattern, Choice, Count, Quantity
 from occ_model.errors import OccError, ParameterError, SceneFileError
-from occ_model.parameters import PARAMETERS
-from occ_model.parameters.light import MAX_BITS
-from occ_model.scene import GROUPS, Scene
-from occ_model.scene_file import parse_toml
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters.light import MAX_BITS
+from occ_model.scene.scene import GROUPS, Scene
+from occ_model.scene.toml_format import parse_toml
 
 
 @st.composite

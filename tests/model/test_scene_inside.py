@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.export.drawing import FORMATS, house_style, write_figure
-from occ_model.export.tables import write_table
-from occ_model.provenance import Provenance, scenes_in
-from occ_model.scene import Scene
-from occ_model.scene_inside import ENDINGS, scene_inside
-from occ_model.settings import read_scene_file
+from occ_model.figures.drawing import FORMATS, house_style, write_figure
+from occ_model.figures.table import write_table
+from occ_model.scene.from_text import read_scene_file
+from occ_model.scene.provenance import Provenance, scenes_in
+from occ_model.scene.scene import Scene
+from occ_model.scene.scene_inside import ENDINGS, scene_inside
 
 SCENE = occ.load_preset("tablet-122us-real").replace(pattern="10110", start_time=-0.125)
 OTHER = occ.load_preset("phone-68us")
@@ -122,7 +122,7 @@ READ = """
 import resource, sys
 from pathlib import Path
 from occ_model.errors import SceneFileError
-from occ_model.settings import read_scene_file
+from occ_model.scene.from_text import read_scene_file
 from PIL import PngImagePlugin
 
 used = resource.getrusage(resource.RUSAGE_SELF)

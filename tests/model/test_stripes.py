@@ -8,7 +8,7 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.projection import panel_corners
-from occ_model.photo.period import repeat_period, self_likeness
+from occ_model.photo.stripes.period import repeat_period, self_likeness
 
 
 @pytest.mark.parametrize("seed", range(12))

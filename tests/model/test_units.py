@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from occ_model.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND, Unit
+from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND, Unit
 
 UNITS = (NONE, SECOND, HERTZ, METRE, RADIAN, LUX, NIT)
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 
 @pytest.mark.parametrize(

@@ -14,13 +14,13 @@ import pytest
 import occ_model as occ
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.photometry import luminance_of
-from occ_model.declarations import Choice, ParameterValue, Quantity
 from occ_model.effects.effect import FileEffect, NoiseEffect
 from occ_model.effects.registry import EFFECTS, NAMES
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
-from occ_model.simulation import observe
-from occ_model.simulation_settings import OBSERVABLES, Observable
+from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import OBSERVABLES, Observable
+from occ_model.simulation.render import observe
 
 SCENES = 200
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)

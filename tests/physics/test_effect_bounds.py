@@ -9,8 +9,8 @@ import pytest
 import occ_model as occ
 from occ_model.effects.effect import Observable
 from occ_model.effects.registry import EFFECTS
-from occ_model.scene import Scene
-from occ_model.simulation import observe
+from occ_model.scene.scene import Scene
+from occ_model.simulation.render import observe
 
 BOUNDS = {effect.name: effect for effect in EFFECTS}
 MEANS = sorted(set(BOUNDS) - {"sensor-noise", "fixed-pattern", "jpeg"})

@@ -15,8 +15,8 @@ from occ_model.camera.photometry import (
     surroundings_values,
 )
 from occ_model.effects.defocus import Defocus, blur_of
-from occ_model.scene import Scene
-from occ_model.simulation import observe
+from occ_model.scene.scene import Scene
+from occ_model.simulation.render import observe
 
 ROWS, COLUMNS = 201, 401
 WIDTH, HEIGHT = 151, 81

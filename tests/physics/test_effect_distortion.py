@@ -11,7 +11,7 @@ import occ_model as occ
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import Distortion
-from occ_model.scene import Lens, Scene
+from occ_model.scene.scene import Lens, Scene
 
 ROWS, COLUMNS = 200, 400
 LENSES = [

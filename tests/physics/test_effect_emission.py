@@ -16,7 +16,7 @@ from occ_model.camera.photometry import (
 )
 from occ_model.camera.projection import image_points
 from occ_model.effects.emission import Emission
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 101, 301
 AXIS = (50, 150)

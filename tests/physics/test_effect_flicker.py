@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_model.camera.photometry import luminance_levels, pixel_value
 from occ_model.camera.projection import row_spans
 from occ_model.effects.flicker import Flicker, ambient_shares
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 ONLY_FLICKER = {"sensor-noise": False, "fixed-pattern": False, "flicker": True}

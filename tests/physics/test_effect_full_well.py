@@ -7,7 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.full_well import FullWell
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 ONLY = {"sensor-noise": False, "fixed-pattern": False}
 

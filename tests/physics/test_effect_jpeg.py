@@ -10,8 +10,8 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.effects.jpeg import Jpeg, quantization_steps
-from occ_model.effects.sight import region_of
-from occ_model.scene import Scene
+from occ_model.effects.paper_view import region_of
+from occ_model.scene.scene import Scene
 
 QUALITIES = [1, 2, 5, 10, 20, 35, 49, 50, 51, 65, 80, 90, 95, 98, 99, 100]
 

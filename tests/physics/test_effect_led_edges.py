@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight
 from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.edges import most_changes
 
 FREQUENCY = 8192.0

@@ -12,7 +12,7 @@ from occ_model.effects.flicker import Flicker
 from occ_model.effects.full_well import FullWell
 from occ_model.effects.led_edges import LedEdges
 from occ_model.effects.registry import EFFECTS, NAMES
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 200, 400
 COLUMN_EFFECTS = {"led-edges", "flicker", "full-well"}

@@ -8,7 +8,7 @@ import pytest
 import occ_model as occ
 from occ_model.effects.fixed_pattern import FixedPattern
 from occ_model.effects.sensor_noise import SensorNoise
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 100, 200
 SHOT = {"fixed-pattern": False, "full-well": False, "sensor-noise": True}

@@ -8,8 +8,8 @@ import pytest
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.effects.vignetting import Vignetting
-from occ_model.scene import Scene
-from occ_model.simulation import observe
+from occ_model.scene.scene import Scene
+from occ_model.simulation.render import observe
 
 ONLY = {"sensor-noise": False, "fixed-pattern": False, "vignetting": True}
 

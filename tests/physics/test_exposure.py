@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.exposure import column_phases, lit_fraction
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 PATTERNS = st.text(alphabet="01", min_size=1, max_size=40)
 

@@ -9,15 +9,15 @@ import pytest
 import occ_model as occ
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.receiver.code_book import (
+from occ_model.receiver.matched.code_templates import (
     BINS_PER_CHIP,
     CodeBook,
     code_book,
     codes_by_levels,
     sums_of_halves,
 )
-from occ_model.receiver.decoders.matched import most_likely
-from occ_model.scene import Scene
+from occ_model.receiver.matched.decoder import most_likely
+from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import success_rate
 from occ_model.transmitter.packet import packet_length, packets
 

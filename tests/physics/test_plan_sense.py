@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.effects.paper_view import sight_of
 from occ_model.effects.registry import EFFECTS
-from occ_model.effects.sight import sight_of
 from occ_model.receiver.decoders import DECODERS
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.study.observation import decode_profile
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES, point_scene
 

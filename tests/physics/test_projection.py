@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.projection import paint, row_spans
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 
 POINTS = st.tuples(st.floats(-50, 90), st.floats(-50, 90))
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.declarations import ParameterValue, Quantity
-from occ_model.parameters import PARAMETERS
-from occ_model.scene import Scene
-from occ_model.simulation import observe
-from occ_model.simulation_settings import OBSERVABLES, Observable
+from occ_model.scene.parameter_kinds import ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import OBSERVABLES, Observable
+from occ_model.simulation.render import observe
 
 SCENES = 240
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)

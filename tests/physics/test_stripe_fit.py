@@ -11,9 +11,9 @@ from simulated_photos import photo_of, random_scene, take
 import occ_model as occ
 from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import luminance_of
-from occ_model.photo.search import Search
-from occ_model.photo.stripe_fit import StripeModel, Timing
-from occ_model.photo.tone import camera_tones
+from occ_model.photo.fit.camera_response import camera_tones
+from occ_model.photo.fit.initial_search import Search
+from occ_model.photo.fit.least_squares import StripeModel, Timing
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.waveform import Waveform
 

@@ -9,10 +9,10 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.effects.sight import sight_of
+from occ_model.effects.paper_view import sight_of
 from occ_model.results import ACCURACY_PARTS, AccuracyPoint
-from occ_model.scene import Scene
-from occ_model.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.accuracy import SAMPLES, accuracy, point_count
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 

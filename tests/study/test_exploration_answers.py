@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.resource_files import resource_path
+from occ_model.files.resources import resource_path
 from occ_model.results.teaching import Step
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
 
 

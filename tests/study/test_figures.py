@@ -8,7 +8,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.study import paper_grid
 
 
@@ -73,9 +73,9 @@ def test_figure_4_holds_the_simulated_profile(folder: Path) -> None:
 def test_a_photo_is_drawn_beside_the_simulation(tmp_path: Path) -> None:
     photo = tmp_path / "photo.png"
     Image.fromarray(occ.render(Scene().replace(rows=20)).image).save(photo)
-    from occ_model.export import paper_figures
+    from occ_model.figures import paper
 
-    paper_figures.write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
+    paper.write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
     assert "photo (grey level)" in rows(tmp_path / "figure-3.csv")[0]
     assert "photo.png" in comments(tmp_path / "figure-3.csv")
 

@@ -13,7 +13,7 @@ import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
 from occ_model.results import Edge, RateSettings
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.study import limits as module
 from occ_model.study import theory
 from occ_model.study.limits import NEAR, STEP

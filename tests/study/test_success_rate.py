@@ -5,7 +5,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.receiver.locate import locate
-from occ_model.scene import Scene
+from occ_model.scene.scene import Scene
 from occ_model.study.observation import decode_profile
 
 

@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.parameters import PARAMETERS
 from occ_model.results import RateSettings, SweepTable
 from occ_model.results.sweep_request import MOST_AXES
-from occ_model.scene import Scene
-from occ_model.study import sweep_pool
-from occ_model.study.sweep_check import checked_request
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.study.sweep import pool
+from occ_model.study.sweep.request_check import checked_request
 
 BOTH = ("threshold", "matched")
 AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
@@ -165,7 +165,7 @@ def test_importing_the_package_imports_nothing_that_starts_processes() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     loaded = set(done.stdout.split())
-    assert "occ_model.study.sweep" in loaded
+    assert "occ_model.study.sweep.sweep" in loaded
     assert (
         loaded & {"concurrent.futures.process", "multiprocessing", "distributed", "tqdm"} == set()
     )
@@ -188,7 +188,7 @@ def test_no_more_processes_are_started_than_have_points_or_cores(
         raise Stop
 
     monkeypatch.setattr(os, "cpu_count", lambda: cores)
-    monkeypatch.setattr(sweep_pool, "OwnWorkers", start)
+    monkeypatch.setattr(pool, "OwnWorkers", start)
     axes = {"iso": [100.0 + place for place in range(points)]}
     with suppress(Stop):
         occ.sweep(occ.load_preset("phone-68us").replace(rows=60), axes, 1, jobs=jobs)

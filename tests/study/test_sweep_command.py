@@ -16,7 +16,7 @@ from occ_model.cli import main
 from occ_model.commands import cluster
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
-from occ_model.export.sweep_figure import write_sweep_figure
+from occ_model.figures.sweep import write_sweep_figure
 
 VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.8m,120cm")
 

@@ -6,7 +6,7 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 
 import occ_model as occ
-from occ_model.export.sweep_figure import sweep_drawing
+from occ_model.figures.sweep import sweep_drawing
 from occ_model.results import SweepTable
 
 FREQUENCIES = np.geomspace(0.97e3, 31e3, 13).tolist()

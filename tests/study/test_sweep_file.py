@@ -10,8 +10,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.results import SweepTable
-from occ_model.scene import Scene
-from occ_model.study import sweep_file, sweep_work
+from occ_model.scene.scene import Scene
+from occ_model.study.sweep import points, results_file
 
 BOTH = ("threshold", "matched")
 AXES: dict[str, list[float]] = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
@@ -46,13 +46,13 @@ def whole(table: SweepTable) -> bytes:
 def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Which points were measured."""
     indices: list[int] = []
-    real = sweep_work.measure_point
+    real = points.measure_point
 
     def spy(scene: Scene, settings: object, index: int, *others: object) -> object:
         indices.append(index)
         return real(scene, settings, index, *others)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(sweep_work, "measure_point", spy)
+    monkeypatch.setattr(points, "measure_point", spy)
     return indices
 
 
@@ -215,7 +215,7 @@ def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
         return real(descriptor, text[:40] if left == 0.5 else text)
 
     with monkeypatch.context() as patch:
-        patch.setattr(sweep_file.os, "write", write)
+        patch.setattr(results_file.os, "write", write)
         with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
             run(scene, path)
     kept = path.read_bytes()

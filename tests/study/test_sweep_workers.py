@@ -17,11 +17,11 @@ import pytest
 
 import occ_model as occ
 from occ_model.results import RateSettings, SweepPoint, SweepTable
-from occ_model.scene import Scene
-from occ_model.study import sweep_work
-from occ_model.study.sweep import measure
-from occ_model.study.sweep_check import checked_request
-from occ_model.study.sweep_work import Delivery, Parcel
+from occ_model.scene.scene import Scene
+from occ_model.study.sweep import points
+from occ_model.study.sweep.points import Delivery, Parcel
+from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.sweep import measure
 
 BOTH = ("threshold", "matched")
 AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
@@ -154,7 +154,7 @@ def test_an_error_of_the_model_itself_is_passed_on_from_a_worker(
     def fail(*_: object) -> None:
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr(sweep_work, "right_bits", fail)
+    monkeypatch.setattr(points, "right_bits", fail)
     with ThreadPoolExecutor(1) as executor, pytest.raises(ZeroDivisionError, match="a bug"):
         occ.sweep(scene, AXES, executor=executor)
 
@@ -191,7 +191,7 @@ def test_what_progress_raises_ends_the_sweep_and_calls_back_what_is_pending(
 def test_a_slow_point_gives_signs_of_life_from_image_to_image(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.study import sweep as module
+    from occ_model.study.sweep import sweep as module
 
     monkeypatch.setattr(module, "_BEAT", 0.0)
     told: list[int] = []

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import WHITE, level_values
 from occ_model.errors import ParameterError, SceneFileError
-from occ_model.parameters import PARAMETERS
-from occ_model.resource_files import resource_path
+from occ_model.files.resources import resource_path
 from occ_model.results.teaching import Equation
-from occ_model.scene import Scene
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
 from occ_model.teaching.explorations import explorations, read_exploration
 from occ_model.teaching.exposure_window import exposure_window

@@ -1,0 +1,186 @@
+"""The paper's figures 2 to 6, from the simulation."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.patches import Polygon
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.projection import row_spans
+from occ_model.errors import BandModelUndefined, one_line
+from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure
+from occ_model.figures.table import write_table
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Frame
+from occ_model.scene.presets import load_preset
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, METRE
+from occ_model.simulation.band_model import band_profile
+from occ_model.simulation.render import render
+from occ_model.study.confidence import wilson_interval
+from occ_model.study.paper_grid import DEVICES, DISTANCES, FREQUENCIES, GridPoint
+from occ_model.transmitter.packet import packet
+
+_PICTURE_STEP = 8
+"""Every figure of a picture shows means of this many pixels a side: print has no more."""
+
+_PACKETS_SHOWN = 2.5
+
+
+def write_process_figure(folder: Path) -> None:
+    """Write figure 2: corners, mask, calculated values, simulated picture."""
+    scene = load_preset("phone-68us")
+    frame = render(scene, tolerance=math.inf)
+    figure = Figure(figsize=(7.2, 2.5))
+    axes = figure.subplots(1, 4)
+    rows, columns = frame.image.shape
+    mask = np.zeros((rows, columns), dtype=np.uint8)
+    for row, (first, last) in enumerate(zip(*row_spans(frame.corners, rows, columns), strict=True)):
+        mask[row, first:last] = 255
+    covered = np.broadcast_to(frame.enhanced, (rows, columns))
+    for ax, picture in zip(axes, (None, mask, covered, frame.image), strict=True):
+        _show_picture(ax, picture, rows, columns)
+    axes[0].add_patch(Polygon(frame.corners, closed=True, fill=False, color=SIMULATION["color"]))
+    axes[0].plot(*frame.corners.T, "o", color=BAND["color"], markersize=4)
+    titles = ("(a) corners", "(b) mask", "(c) calculated values", "(d) simulated picture")
+    for ax, title in zip(axes, titles, strict=True):
+        ax.set_title(title, fontsize=9)
+    axes[0].set_ylabel("row")
+    places = "; ".join(f"column {x:.2f}, row {y:.2f}" for x, y in frame.corners.tolist())
+    title = "Figure 2: from the panel's corners to the picture"
+    provenance = Provenance(title, {"phone-68us": scene}, notes=(f"corners: {places}",))
+    save_figure(figure, folder, "figure-2", provenance)
+    lit = mask > 0
+    header = (
+        "column", "calculated value (grey level)", "first row of the mask", "rows of the mask",
+    )  # fmt: skip
+    table = np.stack(
+        [np.arange(columns), frame.enhanced, lit.argmax(axis=0), lit.sum(axis=0)], axis=1
+    )
+    write_table(folder / "figure-2.csv", header, table.tolist(), provenance)
+
+
+def _show_picture(ax: Axes, picture: np.ndarray | None, rows: int, columns: int) -> None:
+    ax.set_xlim(0, columns)
+    ax.set_ylim(rows, 0)
+    ax.set_aspect("equal")
+    ax.set_xlabel("column")
+    ax.tick_params(labelsize=7)
+    ax.set_xticks([0, columns])
+    ax.set_yticks([0, rows])
+    if picture is not None:
+        step = _PICTURE_STEP
+        whole = picture[: rows // step * step, : columns // step * step]
+        # The mean of each cell: taking one pixel of it would show stripes that are not there.
+        cells = whole.reshape(rows // step, step, columns // step, step).mean(axis=(1, 3))
+        ax.imshow(cells, cmap="gray", vmin=0, vmax=255, extent=(0, columns, rows, 0))
+
+
+def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | None) -> None:
+    """Write figure 3 or 4: the profiles of the band model, the simulation and a photo."""
+    scene = load_preset(preset)
+    frame = render(scene, tolerance=math.inf)
+    band, undefined = None, ""
+    try:
+        band = band_profile(scene)
+    except BandModelUndefined as reason:
+        undefined = str(reason)
+    first, last = _shown_columns(scene, frame)
+    column = np.arange(first, last)
+    shown: dict[str, FloatArray | None] = {
+        "band model": None if band is None else band[first:last],
+        "simulation": frame.profile[first:last],
+        "simulation, enhanced": frame.enhanced[first:last].astype(np.float64),
+        "photo": None if photo is None else _padded(photo.profile, last - first),
+    }
+    figure = Figure(figsize=(7.2, 2.8))
+    ax = figure.subplots()
+    styles = (BAND, {**SIMULATION, "alpha": 0.45}, SIMULATION, PHOTO)
+    for (name, values), style in zip(shown.items(), styles, strict=True):
+        if values is not None:
+            ax.plot(column, values, label=name, linewidth=1.2, **style)  # type: ignore[arg-type]
+    ax.set_xlabel("column")
+    ax.set_ylabel("grey level")
+    ax.set_ylim(0, 262)
+    figure.legend(loc="outside upper center", ncols=4, frameon=False)
+    if undefined:
+        ax.set_title(undefined, fontsize=8)
+    frequency = HERTZ.format(scene.transmitter.switching_frequency)
+    distance = METRE.format(scene.pose.distance)
+    title = f"Figure {number}: pixel values, {preset} at {frequency} and {distance}"
+    drawn = f"photo {one_line(photo.path.name)}, drawn from column {first}" if photo else ""
+    notes = (drawn,) if drawn else ()
+    provenance = Provenance(title, {preset: scene}, notes=notes)
+    save_figure(figure, folder, f"figure-{number}", provenance)
+    names = [name for name, values in shown.items() if values is not None]
+    table = np.stack([column, *(values for values in shown.values() if values is not None)], axis=1)
+    header = ("column", *(f"{name} (grey level)" for name in names))
+    write_table(folder / f"figure-{number}.csv", header, table.tolist(), provenance)
+
+
+def _shown_columns(scene: Scene, frame: Frame) -> tuple[int, int]:
+    first = max(0, int(np.ceil(frame.corners[:, 0].min())))
+    period = len(packet(scene)) * scene.transmitter.switching_period / scene.camera.readout_time
+    return first, min(len(frame.profile), first + round(_PACKETS_SHOWN * period))
+
+
+def _padded(values: FloatArray, length: int) -> FloatArray:
+    return np.pad(values[:length], (0, max(0, length - len(values))), constant_values=np.nan)
+
+
+def write_rate_figure(
+    folder: Path, number: int, device: str, points: Sequence[GridPoint], seed: int
+) -> None:
+    """Write figure 5 or 6: success rate over frequency and distance, at both exposure times."""
+    presets = DEVICES[device]
+    decoders = list(dict.fromkeys(point.decoder for point in points))
+    figure = Figure(figsize=(7.2, 2.6 * len(decoders) + 0.6))
+    axes = figure.subplots(len(decoders), len(presets), squeeze=False, sharex=True, sharey=True)
+    for row, decoder in enumerate(decoders):
+        for column, preset in enumerate(presets):
+            ax = axes[row, column]
+            rates = {
+                (p.distance, p.switching_frequency): p.rate
+                for p in points
+                if (p.preset, p.decoder) == (preset, decoder)
+            }
+            grid = np.array([[rates[d, f] for f in FREQUENCIES] for d in DISTANCES])
+            image = _draw_rates(ax, grid)
+            exposure = load_preset(preset).camera.exposure_time
+            ax.set_title(f"{exposure * 1e6:.0f} µs, {decoder} decoder", fontsize=9)
+            ax.label_outer()
+    figure.supxlabel("switching frequency (kHz)", fontsize=9)
+    figure.supylabel("distance (cm)", fontsize=9)
+    figure.colorbar(image, ax=axes, label="success rate (%)", shrink=0.8)
+    title = f"Figure {number}: success rate, {device}, {points[0].images} images a point"
+    provenance = Provenance(title, {name: load_preset(name) for name in presets}, seed)
+    save_figure(figure, folder, f"figure-{number}", provenance)
+    header = (
+        "preset", "decoder", "switching frequency (Hz)", "distance (m)", "images", "seed",
+        "success rate (%)", "95 % from (%)", "95 % to (%)",
+    )  # fmt: skip
+    rows = [
+        (
+            p.preset, p.decoder, p.switching_frequency, p.distance, p.images, p.seed, p.rate,
+            *(100.0 * end for end in wilson_interval(p.right_bits, p.sent_bits)),
+        )
+        for p in points
+    ]  # fmt: skip
+    write_table(folder / f"figure-{number}.csv", header, rows, provenance)
+
+
+def _draw_rates(ax: Axes, grid: FloatArray) -> AxesImage:
+    image = ax.imshow(grid, cmap="cividis", vmin=0, vmax=100, origin="lower", aspect="auto")
+    ax.set_xticks(range(len(FREQUENCIES)), [f"{f / 1e3:.0f}" for f in FREQUENCIES], fontsize=7)
+    ax.set_yticks(range(len(DISTANCES)), [f"{d * 100:.0f}" for d in DISTANCES], fontsize=7)
+    ax.spines[:].set_visible(False)
+    for (y, x), rate in np.ndenumerate(grid):
+        colour = "black" if rate > 50 else "white"
+        ax.text(x, y, f"{rate:.0f}", ha="center", va="center", fontsize=6, color=colour)
+    return image

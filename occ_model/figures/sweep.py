@@ -1,0 +1,245 @@
+"""A sweep's success rates, drawn: over one axis as curves, over two as maps."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+
+from occ_model import colours
+from occ_model.arrays import FloatArray
+from occ_model.errors import ParameterError
+from occ_model.figures.drawing import figure_format, house_style, write_figure
+from occ_model.figures.drawn import Drawing
+from occ_model.results import SweepTable
+from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.provenance import Provenance
+
+_STYLES: tuple[dict[str, Any], ...] = (
+    {"color": colours.SIMULATION, "marker": "o", "markersize": 6.5, "linestyle": "-"},
+    {"color": colours.BAND, "marker": "s", "markersize": 3, "linestyle": "--"},
+    {"color": colours.PHOTO, "marker": "^", "markersize": 3, "linestyle": ":"},
+    {"color": colours.NOISE, "marker": "D", "markersize": 3, "linestyle": "-."},
+)
+"""Told apart by any eye, in grey print, and where one curve lies on another."""
+
+_REFUSED = "0.75"
+"""Grey, which the map's colours do not hold."""
+
+_TICKS = 10
+"""Labels that fit an axis."""
+
+_CELLS_WITH_NUMBERS = 14
+"""Cells a side in which there is room for a number."""
+
+
+def write_sweep_figure(path: Path, table: SweepTable) -> None:
+    """Draw a table's success rates and write them in the format that the file's ending names.
+
+    One axis: a curve a decoder, with its 95 % intervals. Two: a map a decoder side by side, the
+    first axis from left to right. What the model refuses is a gap, or grey.
+
+    Parameters
+    ----------
+    path
+        The file: PNG, PDF or SVG, its provenance inside.
+    table
+        The rates.
+
+    Raises
+    ------
+    ParameterError
+        The table has more than two axes.
+    OutputError
+        The ending names no such format, or the file cannot be written.
+    """
+    figure_format(path)  # before anything is drawn
+    names = list(table.axes)
+    if len(names) > 2:
+        raise ParameterError(
+            f"The sweep varies {', '.join(names)}; allowed to be drawn: one parameter or two."
+        )
+    with house_style():
+        figure = _curves(table) if len(names) == 1 else _maps(table)
+        write_figure(path, figure, _provenance(table))
+
+
+def sweep_drawing(table: SweepTable) -> Drawing:
+    """Draw a table's success rates over one axis or two.
+
+    Parameters
+    ----------
+    table
+        The rates.
+    """
+    names = list(table.axes)
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        for row in table.rows:
+            values = (row.point[name] for name in names)
+            yield (*values, row.decoder, row.right, row.sent, row.rate, row.low, row.high, row.note)
+
+    header = (
+        *(_with_unit(name) for name in names), "decoder", "right bits", "sent bits",
+        "success rate (%)", "95 % from (%)", "95 % to (%)", "note",
+    )  # fmt: skip
+    title = f"Success rate over {' and '.join(names)}, {table.request.settings.images} images"
+    draw = _curves if len(names) == 1 else _maps
+    return Drawing("map", title, lambda: draw(table), header, rows)
+
+
+def _with_unit(name: str) -> str:
+    parameter = PARAMETERS[name]
+    unit = parameter.unit.symbol if isinstance(parameter, Quantity) else ""
+    return f"{name} ({unit})" if unit else name
+
+
+def _provenance(table: SweepTable) -> Provenance:
+    settings = table.request.settings
+    title = f"Success rate over {' and '.join(table.axes)}"
+    notes = (
+        f"{settings.images} images a point",
+        *(f"{name}: {', '.join(map(_text, values))}" for name, values in table.axes.items()),
+    )
+    return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
+
+
+def _text(value: ParameterValue) -> str:
+    return value if isinstance(value, str) else repr(value)
+
+
+def _curves(table: SweepTable) -> Figure:
+    ((name, values),) = table.axes.items()
+    figure = Figure(figsize=(6.4, 3.6))
+    ax = figure.subplots()
+    unit, worth = _shown_unit(name, values)
+    at, labels = _places(name, values, worth)
+    for decoder, look in zip(table.decoders, _STYLES * len(table.decoders), strict=False):
+        style = look if labels is None else {**look, "linestyle": ""}  # nothing is between words
+        rates = table.rates(decoder)
+        low, high = table.intervals(decoder)
+        error = np.maximum([rates - low, high - rates], 0.0)  # no less than rounding leaves of it
+        ax.errorbar(
+            at, rates, error, label=f"{decoder} decoder", capsize=2, linewidth=1.0,
+            elinewidth=0.7, markerfacecolor="none", clip_on=False, **style,
+        )  # fmt: skip
+    if labels is not None:
+        ax.set_xticks(at[:: _step(len(at))], labels[:: _step(len(at))])
+    elif _is_log(name, at):
+        ax.set_xscale("log")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.set_ylim(-3, 103)
+    ax.set_yticks(range(0, 101, 20))
+    ax.grid(linewidth=0.3)
+    ax.set_xlabel(_axis_label(name, unit))
+    ax.set_ylabel("success rate (%)")
+    figure.legend(loc="outside upper center", ncols=len(table.decoders), frameon=False)
+    return figure
+
+
+def _maps(table: SweepTable) -> Figure:
+    (across, columns), (upwards, rows) = table.axes.items()
+    width = min(3.2 * len(table.decoders) + 1.6, 12.0)
+    figure = Figure(figsize=(width, 3.6))
+    axes = figure.subplots(1, len(table.decoders), squeeze=False, sharex=True, sharey=True)[0]
+    for ax, decoder in zip(axes, table.decoders, strict=True):
+        # Even cells whatever the values: the axes need not be even, nor numbers.
+        _draw_map(ax, table.rates(decoder).T)
+        _label_cells(ax.xaxis, across, columns)
+        _label_cells(ax.yaxis, upwards, rows)
+        ax.set_title(f"{decoder} decoder", fontsize=9)
+        ax.label_outer(remove_inner_ticks=True)
+    figure.supxlabel(_axis_label(across, _shown_unit(across, columns)[0]), fontsize=9)
+    figure.supylabel(_axis_label(upwards, _shown_unit(upwards, rows)[0]), fontsize=9)
+    colour = ScalarMappable(Normalize(0, 100), "cividis")
+    figure.colorbar(colour, ax=list(axes), label="success rate (%)")
+    if table.notes:
+        refused = [Patch(color=_REFUSED, label="no picture: see the notes in the table")]
+        figure.legend(handles=refused, loc="outside upper left", frameon=False, fontsize=7)
+    return figure
+
+
+def _draw_map(ax: Axes, grid: FloatArray) -> None:
+    ax.set_facecolor(_REFUSED)
+    ax.imshow(
+        grid, cmap="cividis", vmin=0, vmax=100, origin="lower", aspect="auto",
+        interpolation="nearest",
+    )  # fmt: skip
+    ax.spines[:].set_visible(False)
+    if max(grid.shape) > _CELLS_WITH_NUMBERS:
+        return
+    for (y, x), rate in np.ndenumerate(grid):
+        if not np.isnan(rate):
+            colour = "black" if rate > 50 else "white"
+            ax.text(x, y, f"{rate:.0f}", ha="center", va="center", fontsize=6, color=colour)
+
+
+def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> None:
+    _, worth = _shown_unit(name, values)
+    axis.set_tick_params(labelsize=7)
+    at, words = _places(name, values, worth)
+    if words is None and len(at) > _TICKS and bool(np.all(np.diff(at) > 0)):
+        axis.set_ticks(*_round_ticks(at, _is_log(name, at)))
+        return
+    step = _step(len(values))
+    labels = [_number(value, worth) for value in values]
+    axis.set_ticks(range(0, len(values), step), labels[::step])
+
+
+def _round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
+    """Give places among the cells of increasing values for round ones, and their texts."""
+    locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
+    marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
+    scale = np.log if is_log else np.asarray
+    return np.interp(scale(marks), scale(at), np.arange(len(at))), [f"{mark:g}" for mark in marks]
+
+
+def _step(count: int) -> int:
+    return -(-count // _TICKS)
+
+
+def _places(
+    name: str, values: tuple[ParameterValue, ...], worth: float
+) -> tuple[FloatArray, list[str] | None]:
+    """Give where values stand on an axis, and their names where they are words."""
+    if isinstance(PARAMETERS[name], Choice):
+        return np.arange(len(values), dtype=np.float64), [str(value) for value in values]
+    return np.array([float(value) / worth for value in values]), None
+
+
+def _is_log(name: str, at: FloatArray) -> bool:
+    """Say whether values are spread as their logarithmic slider would spread them."""
+    parameter = PARAMETERS[name]
+    is_log = isinstance(parameter, Quantity) and parameter.scale == "log"
+    if not is_log or len(at) < 3 or float(at.min()) <= 0.0:
+        return False
+    steps, ratios = np.diff(at), np.diff(np.log(at))
+    return bool(np.std(ratios) / abs(np.mean(ratios)) < np.std(steps) / abs(np.mean(steps)))
+
+
+def _shown_unit(name: str, values: tuple[ParameterValue, ...]) -> tuple[str, float]:
+    """Choose the unit that suits the middle of some values, and what it is worth in SI."""
+    parameter = PARAMETERS[name]
+    if not isinstance(parameter, Quantity):
+        return "", 1.0
+    sizes = sorted(abs(float(value)) for value in values)
+    return parameter.unit.display(sizes[len(sizes) // 2])
+
+
+def _axis_label(name: str, unit: str) -> str:
+    label = PARAMETERS[name].label
+    first = label if label[:2].isupper() else label[0].lower() + label[1:]
+    return f"{first} ({unit})" if unit else first
+
+
+def _number(value: ParameterValue, worth: float) -> str:
+    return value if isinstance(value, str) else f"{float(value) / worth:.3g}"

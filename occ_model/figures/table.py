@@ -1,0 +1,39 @@
+"""Tables as CSV, with their provenance in comment lines."""
+
+import csv
+from collections.abc import Iterable, Sequence
+from io import StringIO
+from pathlib import Path
+
+from occ_model.files.writing import write_whole
+from occ_model.scene.provenance import Provenance
+
+
+def write_table(
+    path: Path, header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
+) -> None:
+    """Write a table.
+
+    Parameters
+    ----------
+    path
+        The file.
+    header
+        Names of the columns, with units.
+    rows
+        The rows; None is written as nothing.
+    provenance
+        Goes in front, each line after a ``#``.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written; nothing half-written stays.
+    """
+    text = StringIO()
+    for line in provenance.lines():
+        text.write(f"# {line}".rstrip() + "\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    write_whole(path, text.getvalue().encode("utf-8"))

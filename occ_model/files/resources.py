@@ -1,0 +1,74 @@
+"""The files that come with the package, wherever it is imported from."""
+
+import atexit
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # slow to import, and only needed where the package is in an archive
+    from importlib.resources.abc import Traversable
+
+
+def resource_names(folder: str, ending: str) -> tuple[str, ...]:
+    """List the files of a folder with an ending, without it, by name."""
+    names = (entry.name for entry in _resource(folder).iterdir())
+    return tuple(sorted(name.removesuffix(ending) for name in names if name.endswith(ending)))
+
+
+def resource_text(*parts: str) -> str:
+    """Read a text that comes with the package.
+
+    Raises
+    ------
+    OSError
+        There is no such file.
+    """
+    return _resource(*parts).read_text(encoding="utf-8")
+
+
+def resource_path(*parts: str) -> Path:
+    """Give the path of a file or folder that comes with the package.
+
+    Of a package in an archive a copy is made, which is there until the program ends.
+    """
+    resource = _resource(*parts)
+    return resource if isinstance(resource, Path) else _copy_of(parts)
+
+
+def _resource(*parts: str) -> "Path | Traversable":
+    """Find a file: an installed package has it inside, a checkout beside the packages."""
+    package = Path(__file__).parents[1]
+    for root in (package / "resources", package.parent / "resources"):
+        if root.is_dir():
+            return root.joinpath(*parts)
+    from importlib.resources import files
+
+    return files("occ_model").joinpath("resources", *parts)
+
+
+@lru_cache
+def _copy_of(parts: tuple[str, ...]) -> Path:
+    target = Path(_folder_of_copies(), *parts)
+    _copy(_resource(*parts), target)
+    return target
+
+
+@lru_cache
+def _folder_of_copies() -> str:
+    # Only needed where the package is in an archive.
+    import shutil
+    import tempfile
+
+    folder = tempfile.mkdtemp(prefix="occ-resources-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+def _copy(resource: "Path | Traversable", target: Path) -> None:
+    if resource.is_dir():
+        target.mkdir(parents=True, exist_ok=True)
+        for entry in resource.iterdir():
+            _copy(entry, target / entry.name)
+    elif resource.is_file():  # what is not there has no copy, as a missing file has none
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(resource.read_bytes())

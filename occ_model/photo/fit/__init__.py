@@ -1,0 +1,1 @@
+"""The exposure model fitted to the stripes."""

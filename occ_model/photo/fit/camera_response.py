@@ -1,0 +1,105 @@
+"""From lit fractions to how bright a column looks between its two levels."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import ColumnLight, level_values, panel_values
+from occ_model.photo.fit.least_squares import Tone
+from occ_model.scene.scene import Scene
+
+_BRIGHT = 1000.0
+"""Luminance in cd/m2 of the lit panel; only that of the dark one beside it matters."""
+
+_DARKEST = 0.5
+"""Grey levels below which dark columns are black."""
+
+_STEADY = np.ones(1)
+
+
+_GRAIN = 0.5
+
+AVERAGINGS = ("pixel-value", "light")
+
+
+@dataclass(frozen=True, slots=True)
+class CameraTone:
+    """What a camera, and whoever enhanced its picture, made of the light.
+
+    Parameters
+    ----------
+    averaging, enhancement
+        In the words of the scene's parameters.
+    tone
+        What comes of it.
+    grain
+        Columns within which it does not follow a change of the timing, as ranks do not.
+    """
+
+    averaging: str
+    enhancement: str
+    tone: Tone
+    grain: float = 0.0
+
+
+def camera_tones(
+    scene: Scene, averagings: Sequence[str], low: float, high: float
+) -> list[CameraTone]:
+    """Give the tones that a scene's picture can have, for stripes between two grey levels.
+
+    Parameters
+    ----------
+    scene
+        Where it equalizes histograms, a picture that has been equalized is reckoned with too.
+    averagings
+        What may have been averaged.
+    low, high
+        The levels: with gamma they say how bright the dark panel is beside the lit one.
+    """
+    tones = []
+    for averaging in averagings:
+        tone = _camera_tone(scene.replace(averaging=averaging), low, high)
+        tones.append(CameraTone(averaging, "none", tone))
+        if scene.model.enhancement == "equalization":
+            tones.append(CameraTone(averaging, "equalization", _equalized(tone), _GRAIN))
+    return tones
+
+
+def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
+    """Give the tone of a scene's camera."""
+
+    @lru_cache(maxsize=4)  # a fit asks again and again for the same gamma
+    def levels(gamma: float) -> tuple[Scene, float, float]:
+        dark = (low / high) ** gamma if low > _DARKEST else 0.0
+        camera = scene.replace(
+            gamma=gamma,
+            reflectance=1.0,
+            illuminance=math.pi * _BRIGHT * dark,
+            luminance=_BRIGHT * (1.0 - dark),
+        )
+        black, white = level_values(camera).tolist()
+        return camera, black, white
+
+    def tone(lit: FloatArray, gamma: float) -> FloatArray:
+        camera, black, white = levels(gamma)
+        values = panel_values(camera, ColumnLight(lit, _STEADY))
+        return np.asarray((values - black) / (white - black))
+
+    return tone
+
+
+def _equalized(tone: Tone) -> Tone:
+    """Give the tone of a picture whose histogram has been equalized: each column's rank."""
+
+    def of_rank(lit: FloatArray, gamma: float) -> FloatArray:
+        values = np.round(tone(lit, gamma), 3)  # grey levels are no finer
+        in_order = np.sort(values)
+        rank = np.searchsorted(in_order, values, side="right").astype(np.float64)
+        least, most = float(rank.min()), float(rank.max())
+        return np.asarray((rank - least) / (most - least)) if most > least else values
+
+    return of_rank

@@ -1,0 +1,119 @@
+"""Where to begin a fit: the timings with which known chips explain a profile best.
+
+The chips' profile has a line spectrum: harmonics of the period. So for every step from column to
+column the profile's spectrum is read where those harmonics would lie, and one short inverse Fourier
+transform gives the correlation with the chips at every phase.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.fit.least_squares import Timing
+
+EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
+"""Exposures in chips that a search tries; a fit goes on from the nearest."""
+
+_ROUGHLY = (0.3, 1.4, 2.4, 3.5, 5.4)
+"""Those that every step is tried with."""
+
+_FASTEST = 0.95
+"""Chips a column: beyond it a chip has no column of its own."""
+
+_PADDING = 4
+_PHASES_A_CHIP = 8
+
+_STEPS_A_TURN = 4.0
+"""Steps tried while the profile's last chip moves by one."""
+
+_BEST_STEPS = 24
+_AT_ONCE = 2**19
+"""Numbers held at once, so that long chips need no gigabytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A timing to begin with, and the correlation it reaches."""
+
+    timing: Timing
+    correlation: float
+
+
+class Search:
+    """Compares a profile with chips at any timing.
+
+    Parameters
+    ----------
+    evened : ndarray of float64, shape (columns,)
+        The profile without uneven light.
+    chips : ndarray of uint8, shape (chips,)
+        One period of what is sent.
+    """
+
+    def __init__(self, evened: FloatArray, chips: ByteArray) -> None:
+        about = evened - evened.mean()
+        self._columns, self._period = len(evened), len(chips)
+        size = _PADDING * self._columns
+        # Phases are counted from the middle column, where a step's error moves them least: half a
+        # column off a whole one, which two rounds of the spectrum make whole.
+        turn = np.exp(1j * np.pi * (self._columns - 1) / size * np.arange(2 * size))
+        self._turned = np.tile(np.fft.fft(about, size), 2) * turn
+        self._power = float(about @ about)
+        self._harmonics = np.arange(1, 2 * self._period + 1)
+        lines = np.fft.fft(chips)[self._harmonics % self._period] / self._period
+        # A chip is a box of length one: the spectrum of the impulses times its own.
+        self._lines = lines * np.sinc(self._harmonics / self._period)
+
+    def steps(self) -> FloatArray:
+        """Give all steps that are worth a try, in chips a column."""
+        slowest = max(1.5, 0.75 * self._period) / self._columns
+        count = int(np.ceil((_FASTEST - slowest) * self._columns * _STEPS_A_TURN))
+        return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_A_TURN)
+
+    def candidates(self, steps: FloatArray, gamma: float) -> list[Candidate]:
+        """Find the best timing for each exposure, over some steps, best first."""
+        rough = np.zeros(len(steps))
+        together = max(1, _AT_ONCE // (_PHASES_A_CHIP * self._period))
+        for first in range(0, len(steps), together):
+            part = slice(first, first + together)
+            seen = self._read(steps[part])
+            for exposure in _ROUGHLY:
+                rough[part] = np.maximum(rough[part], self._scores(seen, exposure)[0])
+        best = steps[np.argsort(rough)[-_BEST_STEPS:]]
+        seen = self._read(best)
+        found = []
+        for exposure in EXPOSURES:
+            scores, phases = self._scores(seen, exposure)
+            top = int(scores.argmax())
+            timing = Timing(float(best[top]), exposure, float(phases[top]), gamma)
+            found.append(Candidate(timing, float(scores[top])))
+        return sorted(found, key=lambda candidate: -candidate.correlation)
+
+    def _scores(
+        self, seen: NDArray[np.complex128], exposure: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Give the best correlation over all phases, and the middle phase that gives it."""
+        # An exposure is a box too; its middle is where its phase is counted from.
+        lines = self._lines * np.sinc(self._harmonics * (exposure / self._period))
+        energy = 2.0 * float((np.abs(lines) ** 2).sum()) * self._columns
+        phases = _PHASES_A_CHIP * self._period
+        products = np.zeros((len(seen), phases // 2 + 1), dtype=np.complex128)
+        products[:, self._harmonics] = np.conj(seen) * lines
+        sums = np.fft.irfft(products, phases, axis=1) * phases
+        best = sums.argmax(axis=1)
+        scores = sums[np.arange(len(seen)), best] / np.sqrt(max(energy * self._power, 1e-300))
+        # A chip's own box is centred half a chip after its start.
+        return scores, best / _PHASES_A_CHIP + 0.5
+
+    def _read(self, steps: FloatArray) -> NDArray[np.complex128]:
+        """Read the profile's spectrum at the chips' harmonics, about its middle.
+
+        Returns
+        -------
+        ndarray of complex128, shape (steps, harmonics)
+        """
+        rounds = len(self._turned)
+        nearest = np.rint(np.outer(steps, self._harmonics * (rounds / 2 / self._period)))
+        return np.asarray(self._turned[nearest.astype(np.int64) % rounds])

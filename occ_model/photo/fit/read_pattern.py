@@ -1,0 +1,214 @@
+"""Chips read from stripes of which only the period is known.
+
+What repeats after T columns is a sum of harmonics of 1/T. With P chips a period the chips have only
+P numbers to tell them; the exposure and the chips' own length weigh the harmonics as boxes do. So
+for every P and exposure the chips that explain the harmonics best are a few divisions; they are
+rounded to on and off, and the shortest period whose rounded chips explain the stripes is taken.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.stripes.envelope import without_trend
+
+MOST_CHIPS = 128
+"""Chips a period can have."""
+
+_LEAST_COLUMNS = 2.0
+"""Columns a chip must have."""
+
+_EXPOSURES = (0.1, 0.5, 0.9, 1.3, 1.7, 2.3, 2.7, 3.3)
+_PHASES = 8
+"""Phases of a chip that are tried."""
+
+_NOISE = 0.01
+"""Share of a harmonic's largest weight below which it tells nothing but noise."""
+
+_MOST_HARMONICS = 160
+
+_COHERENT = 0.93
+"""How sharply edges lie on a lattice of chips, as a share of the sharpest lattice.
+
+Less than all, since gamma makes bright runs longer than dark ones. So of one pulse in a long period
+it cannot be told whether it is 1/8 or 1/9 of it.
+"""
+
+_LEAST_COHERENCE = 0.6
+
+_LEAST_CROSSINGS = 4
+
+_UNEXPLAINED = 0.15
+"""Share of the harmonics' power that the right chips may leave unexplained."""
+
+_DIP = 0.5
+"""How much less the right number of chips leaves unexplained than the numbers beside it."""
+
+_BESIDE = (-3, -2, -1, 1, 2, 3)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReadPattern:
+    """Chips that were read.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        One period.
+    explained
+        Correlation of the harmonics that they make with those in the photo.
+    """
+
+    chips: ByteArray
+    explained: float
+
+
+def read_pattern(profile: FloatArray, evened: FloatArray, period: float) -> ReadPattern | None:
+    """Read the shortest repeating sequence of chips that explains the stripes.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
+    evened : ndarray of float64, shape (columns,)
+        The same without uneven light, from 0 (dark) to 1 (bright).
+    period
+        Columns after which it repeats.
+
+    Returns
+    -------
+    ReadPattern or None
+        None where no sequence does.
+
+    Notes
+    -----
+    Chips may be misread, or not be read, where the exposure is shorter than a column's readout:
+    edges sharper than a column lie anywhere in it.
+    """
+    lines = _harmonics(without_trend(profile), period)
+    most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
+    count = _chips_by_edges(evened, period, most)
+    read = None if count is None else _coarsest(lines, count)
+    if read is None:
+        read = _chips_by_lines(lines, most)
+    return None if read is None else ReadPattern(canonical(read.chips), read.explained)
+
+
+def _coarsest(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
+    """Find the chips that explain the harmonics, as many as given or a divisor of it.
+
+    An exposure of nearly a chip moves the edges off the chips' lattice, to a finer one.
+    """
+    for divisor in range(2, count + 1):
+        if count % divisor == 0:
+            read = _best_chips(lines, divisor)
+            if read is not None and _unexplained(read) <= _UNEXPLAINED:
+                return read
+    return None
+
+
+def _chips_by_edges(evened: FloatArray, period: float, most: int) -> int | None:
+    """Count the chips of a period by the coarsest lattice that all edges lie on."""
+    above = evened > 0.5
+    before = np.flatnonzero(above[1:] != above[:-1])
+    if before.size < _LEAST_CROSSINGS:
+        return None
+    low, high = evened[before], evened[before + 1]
+    edges = before + (0.5 - low) / (high - low)
+    count = np.arange(2, most + 1)
+    turns = np.exp(2j * np.pi / period * np.outer(count, edges))
+    coherence = np.abs(turns.mean(axis=1))
+    if coherence.size == 0 or coherence.max() < _LEAST_COHERENCE:
+        return None
+    return int(count[np.flatnonzero(coherence >= _COHERENT * coherence.max())[0]])
+
+
+def _chips_by_lines(lines: NDArray[np.complex128], most: int) -> ReadPattern | None:
+    """Find the shortest chips that explain the harmonics far better than those beside them do.
+
+    It needs no edges: an exposure of several chips leaves none.
+    """
+    read = {count: _best_chips(lines, count) for count in range(2, most + 1)}
+    left = {count: 1.0 if one is None else _unexplained(one) for count, one in read.items()}
+    for count, one in read.items():
+        beside = [left[count + step] for step in _BESIDE if count + step in left]
+        stands_out = bool(beside) and left[count] <= _DIP * float(np.median(beside))
+        if left[count] <= _UNEXPLAINED and stands_out:
+            return one
+    return None
+
+
+def _unexplained(read: ReadPattern) -> float:
+    return 1.0 - max(read.explained, 0.0) ** 2
+
+
+def canonical(chips: ByteArray) -> ByteArray:
+    """Turn a repeating sequence so that it starts with its longest run of ones, and shorten it."""
+    text = "".join(map(str, chips.tolist()))
+    shortest = (text + text).find(text, 1)
+    text = text[:shortest]
+    turned = max(text[start:] + text[:start] for start in range(len(text)))
+    return np.array(list(turned), dtype=np.uint8)
+
+
+def _harmonics(even: FloatArray, period: float) -> NDArray[np.complex128]:
+    """Give the strength of each harmonic of 1/period, from the first."""
+    columns = len(even)
+    count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
+    # Whole periods, or the harmonics leak into each other.
+    whole = int(int(columns / period) * period) or columns
+    turn = np.exp(-2j * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(whole)))
+    return np.asarray(turn @ even[:whole] / whole)
+
+
+def _best_chips(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
+    """Find the chips, for any exposure and phase, whose harmonics are most like those seen."""
+    order = np.arange(1, len(lines) + 1)
+    best: ReadPattern | None = None
+    for exposure in _EXPOSURES:
+        weight = np.sinc(order / count) * np.sinc(order * exposure / count) / count
+        for phase in range(_PHASES):
+            turned = weight * np.exp(-2j * np.pi * order * phase / (_PHASES * count))
+            chips = _rounded(_levels(lines, turned, count))
+            if chips is None:
+                continue
+            model = np.fft.fft(chips)[order % count] * turned
+            explained = _likeness(lines, model)
+            if best is None or explained > best.explained:
+                best = ReadPattern(chips, explained)
+    return best
+
+
+def _levels(
+    lines: NDArray[np.complex128], weight: NDArray[np.complex128], count: int
+) -> FloatArray:
+    """Solve for the chips' levels: all harmonics that are alike modulo their number tell one."""
+    order = np.arange(1, len(lines) + 1) % count
+    power = np.bincount(order, np.abs(weight) ** 2, count)
+    told = lines * np.conj(weight)
+    sums = np.bincount(order, told.real, count) + 1j * np.bincount(order, told.imag, count)
+    spectrum = sums / (power + _NOISE * power.max())
+    # A harmonic and its mirror image tell the same of real levels.
+    spectrum[0] = 0.0
+    mirrored = np.conj(spectrum[(-np.arange(count)) % count])
+    both = (power + power[(-np.arange(count)) % count]) > 0.0
+    own = np.where(power >= power[(-np.arange(count)) % count], spectrum, mirrored)
+    return np.asarray(np.fft.ifft(np.where(both, own, 0.0)).real)
+
+
+def _rounded(levels: FloatArray) -> ByteArray | None:
+    """Part levels in off and on half-way between the middles of either kind."""
+    split = 0.5 * (levels.max() + levels.min())
+    for _ in range(8):
+        on = levels > split
+        if on.all() or not on.any():
+            return None
+        split = 0.5 * (levels[on].mean() + levels[~on].mean())
+    return np.asarray(levels > split, dtype=np.uint8)
+
+
+def _likeness(a: NDArray[np.complex128], b: NDArray[np.complex128]) -> float:
+    energy = float(np.sqrt((np.abs(a) ** 2).sum() * (np.abs(b) ** 2).sum()))
+    return float((a * np.conj(b)).real.sum()) / energy if energy > 0.0 else 0.0

@@ -1,0 +1,1 @@
+"""Photo files: from bytes to one grey picture, and what the camera noted."""

@@ -1,0 +1,105 @@
+"""Take one channel of a decoded picture, in the full depth of its file."""
+
+from collections.abc import Callable
+from typing import TypeAlias, cast
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.reading.decoding import DecodedPicture, Samples
+from occ_model.photo.reading.watched_file import Progress
+
+_Take: TypeAlias = Callable[[Samples], Samples]
+"""Takes a channel of some pixels."""
+
+CHANNELS = ("brightest", "luma", "red", "green", "blue")
+"""What of a coloured photo is taken; ``"brightest"`` is the colour with the largest mean."""
+
+_COLOURS = ("red", "green", "blue")
+_GREEN = 1
+
+_NEAR_TIE = 0.5
+"""A difference of means, in grey levels, that rounding in a lossy format makes of grey."""
+
+
+def white_of(samples: Samples) -> int:
+    """Give the sample value of white."""
+    return int(np.iinfo(samples.dtype).max)
+
+
+def take_channel(picture: DecodedPicture, channel: str, tell: Progress) -> tuple[Samples, str]:
+    """Take one channel of a picture.
+
+    Parameters
+    ----------
+    picture
+        The picture.
+    channel
+        One of :data:`CHANNELS`. A near tie of the brightest is green's, of which a sensor has the
+        most pixels.
+    tell
+        Told which share of this is done, from 0 to 1.
+
+    Returns
+    -------
+    samples : ndarray of uint8 or uint16, shape (rows, columns)
+    name
+        What was taken: ``"red"``, ``"green"``, ``"blue"``, ``"luma"``; ``"grey"`` if the picture
+        has no colours, also where its file has three equal channels.
+    """
+    first = picture.part((0, 0, 1, 1))
+    take: _Take = _all_of
+    name = "grey"
+    if first.ndim == 3:
+        means, has_colours = _colours_of(picture, lambda share: tell(0.5 * share))
+        take, name = _choice(means, has_colours, channel, _NEAR_TIE * white_of(first) / 255)
+    samples = np.empty(picture.shape, first.dtype)
+    rows = len(samples)
+    for left, top, right, bottom in picture.boxes():
+        samples[top:bottom, left:right] = take(picture.part((left, top, right, bottom)))
+        tell(0.5 + 0.5 * bottom / rows)
+    return samples, name
+
+
+def _all_of(pixels: Samples) -> Samples:
+    return pixels
+
+
+def _luma(pixels: Samples) -> Samples:
+    return cast("Samples", cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY))
+
+
+def _choice(means: FloatArray, has_colours: bool, channel: str, near: float) -> tuple[_Take, str]:
+    """Say how the channel asked for is taken of some pixels, and which one it is."""
+    if not has_colours:
+        return _only(_GREEN), "grey"
+    if channel == "luma":
+        return _luma, "luma"
+    index = int(np.argmax(means)) if channel == "brightest" else _COLOURS.index(channel)
+    if channel == "brightest" and means[index] - means[_GREEN] <= near:
+        index = _GREEN
+    return _only(index), _COLOURS[index]
+
+
+def _only(index: int) -> _Take:
+    return lambda pixels: cast("Samples", cv2.extractChannel(pixels, index))
+
+
+def _colours_of(picture: DecodedPicture, tell: Progress) -> tuple[FloatArray, bool]:
+    """Give the means of red, green and blue, and whether they differ anywhere."""
+    rows, columns = picture.shape
+    sums, has_colours = np.zeros(3), False
+    for left, top, right, bottom in picture.boxes():
+        pixels = picture.part((left, top, right, bottom))
+        mean = np.array(cv2.mean(pixels)[:3])
+        sums += mean * (pixels.shape[0] * pixels.shape[1])
+        # Equal means are rare where there are colours, and soon found.
+        has_colours = has_colours or mean.min() < mean.max() or not _has_no_colours(pixels)
+        tell(bottom / rows)
+    return sums / (rows * columns), has_colours
+
+
+def _has_no_colours(pixels: Samples) -> bool:
+    green = pixels[..., _GREEN]
+    return all(np.array_equal(pixels[..., other], green) for other in (0, 2))

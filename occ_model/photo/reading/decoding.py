@@ -1,0 +1,213 @@
+"""Decode a picture of any kind, in the full depth of its file, and give it in parts."""
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import Pixels
+from occ_model.errors import PhotoError
+from occ_model.photo.reading.limits import is_deep_in_colours, raw_modes_of
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as PillowImage
+    from PIL.ImageFile import ImageFile
+
+Samples: TypeAlias = NDArray[np.uint8 | np.uint16]
+"""8 bits or 16, white being the largest number."""
+
+Box: TypeAlias = tuple[int, int, int, int]
+"""The first column and row of a part of a picture, and the column and row after its last."""
+
+DECODED = 0.8
+"""Share of the work that is done when a picture is decoded, at the latest."""
+
+_GREY_LEVEL = 257
+"""One grey level in samples of 16 bits: 65535 / 255."""
+
+_PART = 1 << 20
+"""Pixels that are converted at once: some megabytes."""
+
+_NATIVE, _SWAPPED = ("16L", "16B") if sys.byteorder == "little" else ("16B", "16L")
+
+_OTHER_BYTE = {
+    f"{colours};{order}": f"{colours};{other}"
+    for colours in ("RGB", "RGBA", "RGBX")
+    for order, other in (("16B", "16L"), ("16L", "16B"), ("16N", _SWAPPED))
+}
+"""Pillow keeps the upper byte of 16-bit colours; read in the other order it keeps the lower."""
+
+
+class DecodedPicture:
+    """A picture that has been decoded; an array of all its colours is never made.
+
+    Parameters
+    ----------
+    opened
+        Opens the file's picture, not yet decoded; takes between which shares of the work it will
+        be decoded.
+
+    Raises
+    ------
+    PhotoError
+        It has samples of more than 16 bits.
+    """
+
+    def __init__(self, opened: "Callable[[float, float], ImageFile]") -> None:
+        self.picture = opened(0.0, DECODED / 2)
+        self._raw_modes = raw_modes_of(self.picture)
+        _load(self.picture)
+        self._lower: ImageFile | None = None
+        if is_deep_in_colours(self._raw_modes):
+            # OpenCV reads such files in one go, but writes what it thinks of a damaged one to
+            # stderr, and reads what is left of it; two readings by Pillow are worth that.
+            self._lower = opened(DECODED / 2, DECODED)
+            _take_lower_bytes(self._lower)
+            _load(self._lower)
+        elif self.picture.mode == "I":
+            _, most = self.picture.getextrema()
+            if isinstance(most, int | float) and most > 65535:
+                raise PhotoError(f"The photo has samples up to {most:,}; allowed: up to 65,535.")
+
+        self._palette = _palette_of(self.picture) if self.picture.mode == "P" else None
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """The rows and columns."""
+        return self.picture.height, self.picture.width
+
+    def boxes(self) -> Iterator[Box]:
+        """Give parts that cover the picture, line by line."""
+        rows, columns = self.shape
+        across = min(columns, _PART)
+        down = max(_PART // across, 1)
+        for top in range(0, rows, down):
+            for left in range(0, columns, across):
+                yield left, top, min(left + across, columns), min(top + down, rows)
+
+    def part(self, box: Box) -> Samples:
+        """Give a part of the picture, transparent parts being black.
+
+        Returns
+        -------
+        ndarray of uint8 or uint16, shape (rows, columns) or (rows, columns, 3)
+            Grey, or red, green and blue. 16 bits where the file has more than 8; numbers with a
+            fraction are grey levels, of which no number and minus infinity are 0.
+        """
+        part = self.picture.crop(box)
+        if self._palette is not None:
+            return np.asarray(self._palette[np.asarray(part)])
+        if self._lower is not None:
+            return _deep_colours(part, self._lower.crop(box))
+        if part.mode == "F":
+            return _of_grey_levels(np.asarray(part))
+        if part.mode.startswith("I"):
+            return _whole_numbers(part, self._raw_modes)
+        return _colours(part)
+
+    def close(self) -> None:
+        """Let go of the decoded picture, whoever still holds this object."""
+        self.picture.close()
+        if self._lower is not None:
+            self._lower.close()
+
+
+def _palette_of(picture: "PillowImage") -> Samples:
+    """Give the colours of a picture's palette, shape (256, 3)."""
+    swatch = picture.crop((0, 0, 256, 1))
+    swatch.frombytes(bytes(range(256)))
+    colours: Samples = _colours(swatch)[0]
+    return colours
+
+
+def _colours(part: "PillowImage") -> Samples:
+    """Give what is of 8 bits."""
+    from PIL import Image
+
+    shown = part
+    if part.has_transparency_data:
+        shown = part.convert("RGBA")
+        if shown.getchannel("A").getextrema() != (255, 255):
+            backed = Image.new("RGBA", part.size, (0, 0, 0, 255))
+            shown = Image.alpha_composite(backed, shown)
+    if shown.mode == "LAB":  # of which Pillow makes no other colours
+        shown = shown.getchannel("L")
+    grey = shown.mode in ("1", "L")
+    return np.asarray(shown.convert("L" if grey else "RGB"))
+
+
+def _whole_numbers(part: "PillowImage", raw_modes: set[str]) -> Samples:
+    """Give whole numbers, of 16 bits however dark the picture, as samples."""
+    values = np.asarray(part)
+    if values.dtype.itemsize > 2:
+        values = np.maximum(values, 0)
+    samples = values.astype(np.uint16)
+    if raw_modes == {"I;12"}:  # white is 4095
+        samples = ((samples.astype(np.uint32) * 65535 + 2047) // 4095).astype(np.uint16)
+    transparent = part.info.get("transparency")
+    if isinstance(transparent, int):
+        samples[samples == transparent] = 0
+    return samples
+
+
+def _of_grey_levels(levels: Pixels) -> Samples:
+    within = np.nan_to_num(np.clip(levels, 0.0, 255.0), nan=0.0)
+    return np.rint(within * _GREY_LEVEL).astype(np.uint16)
+
+
+def _deep_colours(upper: "PillowImage", lower: "PillowImage") -> Samples:
+    """Put colours of 16 bits together from their upper and their lower bytes."""
+    pixels = np.asarray(upper).astype(np.uint16)
+    pixels <<= 8
+    pixels |= np.asarray(lower)
+    transparent = upper.info.get("transparency")
+    if isinstance(transparent, tuple) and pixels.shape[2] == 3:
+        pixels[(pixels == np.array(transparent)).all(axis=2)] = 0
+    if pixels.shape[2] == 4 and pixels[..., 3].min() < 65535:
+        # Divided by 65535 and rounded, without the division, which takes longer than all else.
+        seen = pixels[..., :3].astype(np.uint32)
+        seen *= pixels[..., 3:]
+        seen += 32768
+        seen += seen >> 16
+        seen >>= 16
+        return seen.astype(np.uint16)
+    return np.ascontiguousarray(pixels[..., :3])
+
+
+def _take_lower_bytes(picture: "ImageFile") -> None:
+    for place, tile in enumerate(picture.tile):
+        raw, *more = tile[3] if isinstance(tile[3], tuple) else (tile[3],)
+        other = _OTHER_BYTE[raw]
+        arguments = (other, *more) if isinstance(tile[3], tuple) else other
+        picture.tile[place] = tile._replace(args=arguments)
+
+
+def _load(picture: "ImageFile") -> None:
+    """Decode a picture in silence."""
+    if picture.format == "TIFF":
+        with _no_stderr():
+            picture.load()
+    else:
+        picture.load()
+
+
+@contextmanager
+def _no_stderr() -> Iterator[None]:
+    """Let nobody write to stderr: libtiff prints each oddity of a file there, and asks nobody."""
+    try:
+        kept = os.dup(2)
+    except OSError:  # a program without a console has none
+        yield
+        return
+    try:
+        with Path(os.devnull).open("wb") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)

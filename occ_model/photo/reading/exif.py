@@ -1,0 +1,154 @@
+"""What a camera noted in its photo, with nonsense left out."""
+
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from occ_model.errors import ParameterError
+from occ_model.scene.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as PillowImage
+
+_EXIF_IFD = 0x8769
+_MAKE, _MODEL, _ORIENTATION = 0x010F, 0x0110, 0x0112
+_EXPOSURE_TIME, _F_NUMBER, _ISO = 0x829A, 0x829D, 0x8827
+_SHUTTER_SPEED_APEX, _APERTURE_APEX = 0x9201, 0x9202
+_ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
+
+_ISO_OR_MORE = 65535
+"""What a camera notes in the 16 bits of the oldest tag when its ISO speed does not fit."""
+
+_LONGEST_NAME = 60
+
+_FIRST_LYING = 5
+"""From this orientation on the camera's columns are stored as lines."""
+
+
+@dataclass(frozen=True, slots=True)
+class CameraNotes:
+    """What a camera noted, None where it noted nothing that makes sense.
+
+    Parameters
+    ----------
+    exposure_time, f_number, iso
+        In SI units, within the range that a scene's parameter of that name has.
+    camera
+        Its maker and model, on one line.
+    """
+
+    exposure_time: float | None = None
+    f_number: float | None = None
+    iso: float | None = None
+    camera: str | None = None
+
+
+def camera_notes(picture: "PillowImage") -> CameraNotes:
+    """Read a picture's EXIF tags (CIPA DC-008).
+
+    Where the exposure time or the f-number is missing, the APEX value that says the same is taken.
+
+    Parameters
+    ----------
+    picture
+        Decoded: the tags of a PNG may lie behind its pixels.
+    """
+    # A picture whose notes are damaged is a picture all the same.
+    tags: dict[int, Any] = {}
+    with suppress(Exception):
+        exif = picture.getexif()
+        tags = dict(exif)
+        tags |= exif.get_ifd(_EXIF_IFD)
+    return CameraNotes(
+        exposure_time=_within("exposure_time", _number(tags.get(_EXPOSURE_TIME)))
+        or _within("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
+        f_number=_within("f_number", _number(tags.get(_F_NUMBER)))
+        or _within("f_number", _power_of_two(tags.get(_APERTURE_APEX), 0.5)),
+        iso=_iso(tags),
+        camera=_camera(_text(tags.get(_MAKE)), _text(tags.get(_MODEL))),
+    )
+
+
+def orientation_of(picture: "PillowImage") -> int:
+    """Give the EXIF orientation, 1 to 8, that is left to obey once a picture is decoded."""
+    orientation: object = 1
+    with suppress(Exception):
+        orientation = picture.getexif().get(_ORIENTATION)
+    return orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1
+
+
+def turns_of(orientation: int) -> tuple[bool, bool, bool]:
+    """Say how what was stored in an EXIF orientation becomes what the camera saw.
+
+    Returns
+    -------
+    transpose, mirror_rows, mirror_columns
+        To be done in this order.
+    """
+    mirror_rows = orientation in (3, 4, 7, 8)
+    mirror_columns = orientation in (2, 3, 6, 7)
+    return orientation >= _FIRST_LYING, mirror_rows, mirror_columns
+
+
+def _iso(tags: Mapping[int, Any]) -> float | None:
+    noted = _within("iso", _number(tags.get(_ISO)))
+    if noted is not None and noted != _ISO_OR_MORE:
+        return noted
+    for tag in (_ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT):
+        exact = _within("iso", _number(tags.get(tag)))
+        if exact is not None:
+            return exact
+    return noted
+
+
+def _within(name: str, number: float | None) -> float | None:
+    """Give a number that a scene's parameter may have, None in place of any other."""
+    if number is None:
+        return None
+    try:
+        return float(PARAMETERS[name].check(number))
+    except ParameterError:
+        return None
+
+
+def _number(value: Any) -> float | None:
+    """Read a number, or the first of some, as a float; None for anything else."""
+    if isinstance(value, tuple):
+        value = value[0] if value else None
+    if value is None or isinstance(value, str | bytes):
+        return None
+    try:
+        return float(value)
+    except (TypeError, ValueError, ArithmeticError):
+        return None
+
+
+def _power_of_two(apex: Any, rate: float) -> float | None:
+    """Turn an APEX value A into 2^(rate A): CIPA DC-008, annex C."""
+    number = _number(apex)
+    if number is None:
+        return None
+    try:
+        return math.pow(2.0, rate * number)
+    except (OverflowError, ValueError):
+        return None
+
+
+def _text(value: Any) -> str:
+    """Read a text as one line of printable characters of bounded length, empty for no text."""
+    if not isinstance(value, str):
+        return ""
+    # What is behind a NUL is no part of a text any more.
+    start = value.split("\0", 1)[0][: 8 * _LONGEST_NAME]
+    line = " ".join("".join(c if c.isprintable() else " " for c in start).split())
+    return line[:_LONGEST_NAME].strip()
+
+
+def _camera(make: str, model: str) -> str | None:
+    """Join a maker and a model, which often begins with its maker's name."""
+    first_word = make.split(" ", 1)[0].casefold()
+    if first_word and model.casefold().startswith(first_word):
+        return model
+    return f"{make} {model}"[:_LONGEST_NAME].strip() or None

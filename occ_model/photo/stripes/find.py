@@ -1,0 +1,171 @@
+"""The stripes in a photo: where they are, the light on them, and when they repeat.
+
+A rolling shutter makes the same stripes in every row that shows the panel. So the panel's rows are
+those that vary together, and its columns those between the first and the last stripe's edge.
+"""
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.errors import MatchError
+from occ_model.photo.reading.load import Photo, column_means
+from occ_model.photo.stripes.envelope import envelope
+from occ_model.photo.stripes.period import repeat_period
+from occ_model.results import Region, Stripes
+
+_BANDS = 64
+"""Bands of rows whose means are compared with each other."""
+
+_ALIKE = 0.25
+"""Share of the usual strength with which a row must show the common stripes."""
+
+_EDGE = 0.3
+"""Share of a steep edge's slope that makes an edge: less than a lens darkens the picture's rim."""
+
+_REACH = 4
+"""Columns within which a slope is looked for."""
+
+_FURTHER = 1.6
+"""How much longer than the stripes' own a way between two edges leads out of the panel."""
+
+_STEEP = 0.98
+"""Quantile of all slopes that is a steep edge's: the panel's own rim is steeper."""
+
+_LEAST_COLUMNS = 16
+_LEAST_EDGES = 3
+
+_LEAST_COHERENCE = 0.2
+"""Share of what all bands vary by that must be common to them."""
+
+_FULL = 0.996
+"""Share of white from which a sample counts as saturated."""
+
+_MOST_FULL = 0.8
+"""Share of the columns that may be white for the others to tell the stripes."""
+
+
+def find_stripes(photo: Photo) -> Stripes:
+    """Find the stripes in a photo.
+
+    Parameters
+    ----------
+    photo
+        The photo, columns being the scan axis.
+
+    Returns
+    -------
+    Stripes
+
+    Raises
+    ------
+    MatchError
+        There are none: the photo is flat or too narrow, or its rows do not vary together.
+    """
+    columns = photo.samples.shape[1]
+    if columns < _LEAST_COLUMNS:
+        raise MatchError(
+            f"No stripes: the photo has {columns} columns; at least {_LEAST_COLUMNS} are needed."
+        )
+    first_row, last_row = _striped_rows(photo)
+    profile = column_means(photo, first_row, last_row)
+    first, last, gap = _striped_columns(profile)
+    profile = profile[first:last]
+    low, high = envelope(profile, 2 * gap)
+    swing = float(np.median(high - low))
+    if swing < FLAT:
+        raise MatchError(f"No stripes: the columns differ by {swing:.2g} grey levels only.")
+    high = np.maximum(high, low + FLAT)
+    found = repeat_period((profile - low) / (high - low))
+    period, uncertainty = found if found is not None else (None, None)
+    if np.mean(profile >= _FULL * WHITE) > _MOST_FULL:
+        raise MatchError(
+            "No stripes: nearly all columns of the panel are white; expose less, or choose another "
+            "channel."
+        )
+    part = photo.samples[first_row:last_row, first:last]
+    full = np.count_nonzero(part >= _FULL * photo.white) / part.size
+    return Stripes(
+        Region(first_row, last_row, first, last), profile, low, high, period, uncertainty, full
+    )
+
+
+def _striped_rows(photo: Photo) -> tuple[int, int]:
+    """Find the rows that vary together, by how much of the common stripes each band shows."""
+    rows, columns = photo.samples.shape
+    bands = min(_BANDS, rows)
+    means = cv2.resize(photo.samples, (columns, bands), interpolation=cv2.INTER_AREA)
+    slopes = np.diff(means.astype(np.float64) * (WHITE / photo.white), axis=1)
+    if not slopes.any():
+        raise MatchError("No stripes: all columns of the photo are alike.")
+    common, strengths = _common_slopes(slopes)
+    if bands > 1 and strengths @ strengths < _LEAST_COHERENCE * float((slopes**2).sum()):
+        raise MatchError("No stripes: the rows of the photo do not vary together.")
+    shows = strengths > _ALIKE * np.median(np.sort(strengths)[-(bands // 2 + 1) :])
+    best = int(strengths.argmax())
+    first, last = best, best + 1
+    while first > 0 and shows[first - 1]:
+        first -= 1
+    while last < bands and shows[last]:
+        last += 1
+    if bands == rows:
+        return first, last
+    typical = float(np.median(strengths[first:last]))
+    return (
+        _edge_row(photo, first * rows // bands, common, typical, -1),
+        _edge_row(photo, -(-last * rows // bands), common, typical, +1),
+    )
+
+
+def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the slopes that bands share most of, of length one, and each band's strength of them."""
+    # The leading pair of singular vectors, from the small matrix of the bands' products.
+    _, vectors = np.linalg.eigh(slopes @ slopes.T)
+    common = vectors[:, -1] @ slopes
+    common /= np.linalg.norm(common)
+    strengths = slopes @ common
+    return (-common, -strengths) if strengths.sum() < 0.0 else (common, strengths)
+
+
+def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outward: int) -> int:
+    """Find, within a band to either side, the row from which the stripes are shown."""
+    rows = len(photo.samples)
+    reach = -(-rows // _BANDS)
+    first, last = max(0, near - reach), min(rows, near + reach)
+    part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)
+    strengths = np.diff(part, axis=1) @ common
+    shows: list[int] = np.flatnonzero(strengths > 0.5 * typical).tolist()
+    if not shows:
+        return near
+    return first + shows[0] if outward < 0 else first + shows[-1] + 1
+
+
+def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
+    """Find the columns from the first edge to the last, and the longest way between two edges."""
+    slopes = _local_range(profile)
+    steep = float(np.quantile(slopes, _STEEP))
+    edges = np.flatnonzero(slopes > _EDGE * steep) if steep > 0.0 else np.zeros(0, np.int64)
+    gaps = np.diff(edges)
+    # Noise beside the panel has no place among its stripes: it is further off than they are apart.
+    inner = gaps[len(gaps) // 4 : len(gaps) - len(gaps) // 4]
+    longest = int(_FURTHER * inner.max()) if inner.size else 0
+    far = np.flatnonzero(gaps > max(longest, _REACH))
+    before, after = far[far < len(gaps) // 4], far[far >= len(gaps) - len(gaps) // 4]
+    edges = edges[
+        int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
+    ]
+    gaps = np.diff(edges)
+    if np.count_nonzero(gaps > 1) + 1 < _LEAST_EDGES:
+        raise MatchError(
+            "No stripes: fewer than three edges between bright and dark columns; come closer to "
+            "the panel, or raise its frequency."
+        )
+    return int(edges[0]), int(edges[-1]) + 1, int(gaps.max())
+
+
+def _local_range(profile: FloatArray) -> FloatArray:
+    """Give by how much the few columns about each differ: more than noise does, on a slope."""
+    kernel = np.ones((1, _REACH), dtype=np.uint8)
+    line = profile[None, :]
+    return np.asarray((cv2.dilate(line, kernel) - cv2.erode(line, kernel))[0], dtype=np.float64)

@@ -1,0 +1,25 @@
+"""The decoders that there are."""
+
+from occ_model.errors import ParameterError, shown
+from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.matched.decoder import DECODER as MATCHED
+from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
+
+PAPERS = THRESHOLD.name
+"""The name of the paper's decoder, which is the default."""
+
+DECODERS: dict[str, Decoder] = {decoder.name: decoder for decoder in (THRESHOLD, MATCHED)}
+"""The decoders by name."""
+
+
+def decoder_named(name: str) -> Decoder:
+    """Find a decoder.
+
+    Raises
+    ------
+    ParameterError
+        There is none of that name; the names there are stand in the message.
+    """
+    if not isinstance(name, str) or name not in DECODERS:
+        raise ParameterError(f"There is no decoder {shown(name)}; known: {', '.join(DECODERS)}.")
+    return DECODERS[name]

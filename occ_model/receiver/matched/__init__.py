@@ -1,0 +1,1 @@
+"""The matched decoder: correlation with the forward model of every code and phase."""

@@ -1,0 +1,179 @@
+"""Beyond the paper: a decoder that knows the exposure and correlates with every code.
+
+It knows the switching frequency, the exposure time and the readout time. The signal is folded over
+one packet and correlated with the forward model of every code at every phase. An exposure of
+several chips is no obstacle: each code still has a profile of its own.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.camera.exposure import column_phases
+from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.matched.code_templates import (
+    BINS_PER_CHIP,
+    CodeBook,
+    code_book,
+    codes_by_levels,
+    sums_of_halves,
+)
+from occ_model.receiver.signal import why_flat
+from occ_model.results import DecodeResult
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import bits_of, packet_length
+
+_LEAST_CORRELATION = 0.7
+"""A code whose profile explains less than half of the signal's variance explains nothing."""
+
+_LEAST_CONFIDENCE = 0.05
+"""A code that leaves nearly as much unexplained as the second best was picked by chance."""
+
+_LIKELY = 16
+"""Codes that are compared more closely."""
+
+_AT_ONCE = 2**15
+"""Correlations, of codes at phases, that are held at once: they fit the processor's cache."""
+
+
+def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
+    """Read the code whose forward model is most like the signal.
+
+    The confidence is the share of what the second best code leaves unexplained that the best one
+    explains, 1 - (1 - r1^2) / (1 - r2^2), with r1 and r2 their correlations with the signal: 0
+    when both explain the same, 1 when the best explains everything.
+
+    Parameters
+    ----------
+    signal : ndarray of float64, shape (columns,)
+        Mean grey level of each column.
+    scene
+        Its number of bits, switching frequency, exposure time and readout time are used.
+
+    Returns
+    -------
+    DecodeResult
+        With correlation and confidence, the folded signal and the best code's profile.
+    """
+    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    if result.failure is not None:
+        return result
+    if scene.transmitter.pattern:
+        return replace(result, failure="A raw chip pattern is sent, which holds no packets.")
+    bits = scene.transmitter.bits
+    frequency = scene.transmitter.switching_frequency
+    chips_seen = len(signal) * scene.camera.readout_time * frequency
+    if chips_seen < packet_length(bits):
+        return replace(
+            result,
+            failure=f"Less than one packet: {int(chips_seen)} of {packet_length(bits)} chips fit "
+            "the panel's image; come closer or raise the frequency.",
+        )
+    book = code_book(bits, Fraction(scene.camera.exposure_time) * Fraction(frequency))
+    if not np.isfinite(book.energy).any():
+        return replace(
+            result,
+            failure="All codes look alike: the exposure time is a whole number of packets, or so "
+            "many that their mean is all it leaves.",
+        )
+    return _best_code(result, _fold(signal, scene, packet_length(bits)), book, bits)
+
+
+def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
+    """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
+    bins = period * BINS_PER_CHIP
+    # From whatever column the signal starts: the packet's phase is found, not known.
+    phases = column_phases(scene, period, columns=len(signal))
+    nearest = np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
+    counts = np.bincount(nearest, minlength=bins)
+    sums = np.bincount(nearest, signal, minlength=bins)
+    seen = np.flatnonzero(counts)
+    # Where no column starts, the neighbours tell: a profile has no jumps.
+    return np.interp(np.arange(bins), seen, sums[seen] / counts[seen], period=bins)
+
+
+def _best_code(result: DecodeResult, folded: FloatArray, book: CodeBook, bits: int) -> DecodeResult:
+    """Compare the folded signal with every code, and with the most likely ones more closely."""
+    # What the camera did to the grey levels kept their order. So a bin's rank says which lit
+    # fraction it stands for, and no gamma or enhancement needs to be known.
+    rank = folded.argsort(kind="stable").argsort()
+    likely, shifts = most_likely(book.levels[rank], book)
+    models = book.profiles(likely)
+    # Each code has levels of its own, which say so more exactly than those of all codes.
+    signals = np.sort(models, axis=1)[:, rank]
+    places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
+    models = np.take_along_axis(models, places, axis=1)
+    correlations = _row_correlations(signals, models)
+    second, best = np.argsort(correlations)[-2:].tolist()
+    r1, r2 = float(correlations[best]), float(correlations[second])
+    confidence = 1.0 - (1.0 - r1**2) / (1.0 - r2**2) if r2 < 1.0 else 0.0
+    code = int(likely[best])
+    result = replace(
+        result, correlation=r1, confidence=confidence, folded=signals[best], model=models[best]
+    )
+    if r1 < _LEAST_CORRELATION or confidence < _LEAST_CONFIDENCE:
+        return replace(
+            result,
+            failure=f"No code stands out: the best, {code}, correlates by {r1:.3f} with the "
+            f"signal, the second best, {likely[second]}, by {r2:.3f}.",
+        )
+    return replace(result, code=code, bits=np.array(bits_of(code, bits), dtype=np.uint8))
+
+
+def most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexArray]:
+    """Find the codes that correlate best with the signal over all phases, and their phases.
+
+    Returns
+    -------
+    codes, phases : ndarray of int64, shape (_LIKELY,) or fewer
+        A phase is the bin at which a code's packet starts.
+    """
+    bins, period = len(signal), packet_length(book.bits)
+    about_mean = signal - signal.mean()
+    spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(book.response))
+    with_response = np.fft.irfft(spectrum, bins)
+    places = np.arange(period)[:, None] * BINS_PER_CHIP + np.arange(bins)
+    first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], book.bits)
+    codes = codes_by_levels(book.bits)
+    scores = _largest_sums(first, second).ravel() / np.sqrt(book.energy[codes])
+    count = min(_LIKELY, len(scores))
+    likely = np.argpartition(scores, -count)[-count:]
+    of_first, of_second = np.divmod(likely, len(second))
+    return codes[likely], (first[of_first] + second[of_second]).argmax(axis=1)
+
+
+def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Give the largest value of each sum of a row of one array and a row of the other.
+
+    Returns
+    -------
+    ndarray of float64, shape (rows of ``first``, rows of ``second``)
+    """
+    columns, shape = first.shape[1], (len(first), len(second))
+    # Neighbours in memory are different sums, of which the processor takes several at a time.
+    first, second = first.T[:, :, None].copy(), second.T[:, None].copy()
+    step = max(1, _AT_ONCE // (shape[0] * shape[1]))
+    sums = np.empty((min(step, columns), *shape))
+    largest = np.full(shape, -np.inf)
+    for start in range(0, columns, step):
+        part = slice(start, start + step)
+        some = np.add(first[part], second[part], out=sums[: len(first[part])])
+        np.maximum(largest, some.reshape(len(some), -1).max(axis=0).reshape(shape), out=largest)
+    return largest
+
+
+def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Correlate each row of one array with the same row of another."""
+    a = a - a.mean(axis=1, keepdims=True)
+    b = b - b.mean(axis=1, keepdims=True)
+    energy = np.sqrt((a**2).sum(axis=1) * (b**2).sum(axis=1))
+    product = (a * b).sum(axis=1)
+    # A row without any variance correlates with nothing.
+    correlations = np.zeros(len(product))
+    np.divide(product, energy, out=correlations, where=energy > 0.0)
+    return np.clip(correlations, -1.0, 1.0)
+
+
+DECODER = Decoder("matched", "Matched: correlates with every code", read_signal)

@@ -1,0 +1,1 @@
+"""The paper's decoder: Otsu's threshold and the lengths of runs."""

@@ -1,0 +1,1 @@
+"""What is simulated: frozen values made of declared parameters, and their files."""

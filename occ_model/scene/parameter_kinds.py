@@ -1,0 +1,239 @@
+"""The kinds of parameter: what a declaration holds, and how it checks, reads and writes a value.
+
+Values are in SI units; how one is shown is its unit's business (:mod:`occ_model.scene.units`).
+"""
+
+import math
+from dataclasses import dataclass
+from numbers import Integral, Real
+from typing import Literal, TypeAlias
+
+from occ_model.errors import ParameterError, shown
+from occ_model.scene.units import LONGEST_TEXT, Unit
+
+ParameterValue: TypeAlias = float | int | str
+
+MAX_PATTERN_CHIPS = 4096
+
+
+def _whole(value: object) -> int | None:
+    """Give a whole number of any numeric type as an int, None for anything else."""
+    if isinstance(value, bool):
+        return None
+    if isinstance(value, Integral):
+        return int(value)
+    try:
+        number = float(value) if isinstance(value, Real) else math.nan
+    except OverflowError:  # a fraction too large to hold, and so for every declaration
+        return None
+    return int(number) if number.is_integer() else None
+
+
+def _read_whole(text: str) -> int:
+    """Read a whole number in any of Python's notations, or with leading zeros."""
+    try:
+        return int(text, 0)
+    except ValueError:
+        return int(text, 10)
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """What every kind of parameter has.
+
+    Parameters
+    ----------
+    name
+        The identifier, as in a scene file.
+    label
+        The field's term for it, as on screen.
+    symbol
+        The symbol in the paper's equations, empty where it has none.
+    meaning
+        One line that says what it is.
+    """
+
+    name: str
+    label: str
+    symbol: str
+    meaning: str
+
+    def refuse(self, problem: str, allowed: str) -> ParameterError:
+        """Make the error that names the parameter, what is wrong and what is allowed."""
+        return ParameterError(f"{self.name} {problem}; allowed: {allowed}.")
+
+    def _check_length(self, text: str, allowed: str) -> None:
+        """Refuse a text that is too long to be read as a number."""
+        if len(text) > LONGEST_TEXT:
+            raise self.refuse(
+                f"is a text of {len(text):,} characters",
+                f"{allowed}, written in up to {LONGEST_TEXT} characters",
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity(Declaration):
+    """A real number with a unit.
+
+    ``low`` and ``high`` bound what is accepted; ``slider`` is the part of that range that a
+    slider offers, on a ``scale`` that suits it.
+    """
+
+    unit: Unit
+    low: float
+    high: float
+    slider: tuple[float, float]
+    scale: Literal["linear", "log"]
+    default: float
+
+    @property
+    def allowed(self) -> str:
+        """The allowed range in words."""
+        if self.high == math.inf:
+            return f"from {self.unit.format(self.low)}"
+        return f"{self.unit.format(self.low)} to {self.unit.format(self.high)}"
+
+    def check(self, value: object) -> float:
+        """Return ``value`` as a float, or raise :class:`ParameterError`."""
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise self.refuse(f"is {shown(value)}, which is not a number", self.allowed)
+        try:
+            number = float(value)
+        except OverflowError:
+            number = -math.inf if value < 0 else math.inf
+        if not self.low <= number <= self.high:
+            raise self.refuse(f"is {self._outside(number)}", self.allowed)
+        return number
+
+    def _outside(self, number: float) -> str:
+        """Write a value that is not allowed with as many digits as tell it from the limits."""
+        text = self.unit.format(number)
+        if text in (self.unit.format(self.low), self.unit.format(self.high)):
+            return self.unit.format(number, digits=17)
+        return text
+
+    def parse(self, text: str, plain: float = 1.0) -> float:
+        """Read a value as people write it; a number without a unit is worth ``plain`` in SI."""
+        self._check_length(text, self.allowed)
+        number = self.unit.parse(text, plain)
+        if number is None:
+            unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
+            raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
+        return self.check(number)
+
+    def format(self, value: float, digits: int = 6) -> str:
+        """Write a value with its unit."""
+        return self.unit.format(value, digits)
+
+    def at(self, fraction: float) -> float:
+        """Give the value at a slider's position, from 0 to 1, to four significant digits."""
+        low, high = self.slider
+        if self.scale == "log":
+            value = low * (high / low) ** fraction
+        else:
+            value = low + (high - low) * fraction
+        # By way of the text, so that typing what is shown gives the very same value.
+        rounded = self.unit.parse(self.unit.format(value, digits=4))
+        return min(max(value if rounded is None else rounded, low), high)
+
+    def fraction(self, value: float) -> float:
+        """Give a slider's position for a value, 0 or 1 where the value lies outside."""
+        low, high = self.slider
+        value = min(max(value, low), high)
+        if self.scale == "log":
+            return math.log(value / low) / math.log(high / low)
+        return (value - low) / (high - low)
+
+
+@dataclass(frozen=True, slots=True)
+class Count(Declaration):
+    """A whole number."""
+
+    low: int
+    high: int
+    default: int
+
+    @property
+    def allowed(self) -> str:
+        """The allowed range in words."""
+        return f"a whole number from {self.low} to {self.high}"
+
+    def check(self, value: object) -> int:
+        """Return ``value`` as an int, or raise :class:`ParameterError`."""
+        number = _whole(value)
+        if number is None:
+            raise self.refuse(f"is {shown(value)}", self.allowed)
+        if not self.low <= number <= self.high:
+            raise self.refuse(f"is {shown(number)}", self.allowed)
+        return number
+
+    def parse(self, text: str) -> int:
+        """Read a whole number, also as ``0b...``, ``0x...`` or ``007``."""
+        self._check_length(text, self.allowed)
+        try:
+            number = _read_whole(text)
+        except ValueError:
+            raise self.refuse(f"is {shown(text)}", self.allowed) from None
+        return self.check(number)
+
+    def format(self, value: int) -> str:
+        """Write a value."""
+        return str(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Choice(Declaration):
+    """One of a few words."""
+
+    choices: tuple[str, ...]
+    default: str
+
+    @property
+    def allowed(self) -> str:
+        """The allowed words."""
+        return ", ".join(self.choices)
+
+    def check(self, value: object) -> str:
+        """Return ``value``, or raise :class:`ParameterError`."""
+        if not isinstance(value, str) or value not in self.choices:
+            raise self.refuse(f"is {shown(value)}", self.allowed)
+        return value
+
+    def parse(self, text: str) -> str:
+        """Read one of the words."""
+        return self.check(text.strip())
+
+    def format(self, value: str) -> str:
+        """Write a value."""
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class ChipPattern(Declaration):
+    """A string of 0 and 1, or nothing."""
+
+    default: str
+
+    @property
+    def allowed(self) -> str:
+        """What is allowed, in words."""
+        return f"nothing, or up to {MAX_PATTERN_CHIPS} characters 0 and 1"
+
+    def check(self, value: object) -> str:
+        """Return ``value``, or raise :class:`ParameterError`."""
+        if not isinstance(value, str) or set(value) - {"0", "1"}:
+            raise self.refuse(f"is {shown(value)}", self.allowed)
+        if len(value) > MAX_PATTERN_CHIPS:
+            raise self.refuse(f"has {len(value)} chips", self.allowed)
+        return value
+
+    def parse(self, text: str) -> str:
+        """Read a pattern; spaces between chips are fine."""
+        return self.check("".join(text.split()))
+
+    def format(self, value: str) -> str:
+        """Write a value."""
+        return value
+
+
+Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern

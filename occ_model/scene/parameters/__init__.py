@@ -1,0 +1,48 @@
+"""Every parameter of a scene, declared once.
+
+Sliders, number fields, tooltips, command-line settings, validation, the keys of a scene file and
+the README's table are all made from these declarations. Values are in SI units.
+"""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from occ_model.errors import ParameterError, shown
+from occ_model.scene.parameter_kinds import Parameter, Quantity
+from occ_model.scene.parameters.camera import CAMERA, LENS, SENSOR
+from occ_model.scene.parameters.light import SURROUNDINGS, TRANSMITTER
+from occ_model.scene.parameters.pose_receiver_model import MODEL, POSE, RECEIVER
+
+_DECLARED = (*TRANSMITTER, *CAMERA, *LENS, *SENSOR, *POSE, *SURROUNDINGS, *RECEIVER, *MODEL)
+
+PARAMETERS: dict[str, Parameter] = {parameter.name: parameter for parameter in _DECLARED}
+
+
+def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
+    """Find a declaration.
+
+    Raises
+    ------
+    ParameterError
+        There is no parameter of that name among ``among``; the closest one is suggested.
+    """
+    names = list(among)
+    if name in names:
+        return PARAMETERS[name]
+    near = get_close_matches(name, names, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
+    raise ParameterError(f"There is no parameter {shown(name)}; {hint}")
+
+
+def quantity(name: str) -> Quantity:
+    """Give the declaration of a parameter that is a quantity, with a unit and a slider.
+
+    Raises
+    ------
+    TypeError
+        It is a word, a count or a pattern.
+    """
+    declared = PARAMETERS[name]
+    if not isinstance(declared, Quantity):
+        raise TypeError(f"{name} is no quantity")
+    return declared

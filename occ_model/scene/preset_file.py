@@ -1,0 +1,151 @@
+"""A preset's file: a scene file with notes on its values, laid over those that it is based on."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any
+
+from occ_model.errors import SceneFileError, one_line, shown
+from occ_model.files.resources import resource_text
+from occ_model.scene import toml_format
+from occ_model.scene.parameters import parameter_named
+from occ_model.scene.scene import Scene
+
+FOLDER, ENDING = "presets", ".toml"
+
+_MAX_BASES = 8
+"""Presets that one is based on at most; each is laid over the others whenever it is loaded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Preset:
+    """A scene to begin with.
+
+    Parameters
+    ----------
+    name
+        The name that it is loaded by.
+    title
+        What it is, in a few words.
+    scene
+        The scene.
+    sources
+        Where a parameter's value comes from, by the parameter's name.
+    assumed
+        Why a parameter has the value it has where no source gives one.
+    """
+
+    name: str
+    title: str
+    scene: Scene
+    sources: Mapping[str, str]
+    assumed: Mapping[str, str]
+
+
+def preset_from(name: str, text: str) -> Preset:
+    """Read a preset from its file's text; without a title its name is one.
+
+    Raises
+    ------
+    SceneFileError
+        It is no preset.
+    ParameterError
+        A value is out of range, or a note is on what is no parameter.
+    """
+    preset = _put_together(name, _layers(text))
+    return preset if preset.title else Preset(name, name, preset.scene, preset.sources, {})
+
+
+@lru_cache(maxsize=64)
+def package_preset(name: str) -> Preset:
+    """Load a preset of the package.
+
+    Raises
+    ------
+    SceneFileError
+        There is no such file, or it is no preset.
+    """
+    return _put_together(name, _package_layers(name))
+
+
+@lru_cache(maxsize=64)
+def _package_layers(name: str) -> tuple[dict[str, Any], ...]:
+    """Read a preset file of the package, which does not change while the program runs."""
+    try:
+        return _layers(resource_text(FOLDER, *f"{name}{ENDING}".split("/")))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or one_line(str(error))
+        file = one_line(f"{name}{ENDING}")
+        raise SceneFileError(f"The preset file {file} cannot be read: {reason}.") from None
+
+
+def _put_together(name: str, layers: tuple[dict[str, Any], ...]) -> Preset:
+    preset = Preset(name, "", Scene(), MappingProxyType({}), MappingProxyType({}))
+    for content in layers:
+        preset = _laid_over(preset, content)
+    return preset
+
+
+def _layers(text: str) -> tuple[dict[str, Any], ...]:
+    """Read a preset file's text and, before it, what of the package it is based on."""
+    content = toml_format.from_toml(text)
+    named = content.pop("based_on", [])
+    bases = [named] if isinstance(named, str) else named
+    if not isinstance(bases, list) or not all(_is_base(base) for base in bases):
+        raise SceneFileError(
+            f"based_on is {shown(named)}; allowed: names of the program's presets."
+        )
+    if len(bases) > _MAX_BASES:
+        raise SceneFileError(f"based_on has {len(bases)} names; allowed: up to {_MAX_BASES}.")
+    return (*(layer for base in bases for layer in _package_layers(base)), content)
+
+
+def _is_base(name: object) -> bool:
+    return isinstance(name, str) and re.fullmatch(r"[\w-]+(/[\w-]+)?", name) is not None
+
+
+def _laid_over(base: Preset, content: dict[str, Any]) -> Preset:
+    """Return the preset with a file's values and notes in place of its own."""
+    tables = dict(content)
+    title = tables.pop("title", base.title)
+    if not isinstance(title, str):
+        raise SceneFileError(f"title is {shown(title)}; allowed: a text.")
+    sources = checked_notes(tables.pop("sources", {}))
+    assumed = checked_notes(tables.pop("assumed", {}))
+    # A value with a source here is no longer assumed, whatever the base said of it, and vice versa.
+    return Preset(
+        name=base.name,
+        title=title,
+        scene=base.scene.with_tables(tables),
+        sources=_over(base.sources, sources, without=assumed),
+        assumed=_over(base.assumed, assumed, without=sources),
+    )
+
+
+def _over(
+    base: Mapping[str, str], own: Mapping[str, str], without: Mapping[str, str]
+) -> Mapping[str, str]:
+    """Lay a preset's own notes over its base's, less what it says otherwise; read-only."""
+    kept = {name: note for name, note in base.items() if name not in without}
+    return MappingProxyType({**kept, **own})
+
+
+def checked_notes(table: object) -> dict[str, str]:
+    """Return the notes on a preset's values, or refuse what are none.
+
+    Raises
+    ------
+    SceneFileError
+        It is no table of texts.
+    ParameterError
+        A note is on what is no parameter.
+    """
+    if not isinstance(table, dict) or not all(isinstance(note, str) for note in table.values()):
+        raise SceneFileError(
+            f"The notes on a preset are {shown(table)}; allowed: a text a parameter."
+        )
+    for name in table:
+        parameter_named(name)
+    return table

@@ -1,0 +1,257 @@
+"""Scenes to begin with: those that come with the package, and the user's own.
+
+Each value has its source, or the reason why it is assumed, in the preset's file.
+"""
+
+import os
+import re
+from collections.abc import Mapping
+from difflib import get_close_matches
+from pathlib import Path
+
+import tomli_w
+
+from occ_model.errors import (
+    OccError,
+    OutputError,
+    ParameterError,
+    PresetError,
+    SceneFileError,
+    one_line,
+    shown,
+)
+from occ_model.files.reading import read_text
+from occ_model.files.resources import resource_names
+from occ_model.files.writing import make_folder, write_whole
+from occ_model.scene import toml_format
+from occ_model.scene.preset_file import (
+    ENDING,
+    FOLDER,
+    Preset,
+    checked_notes,
+    package_preset,
+    preset_from,
+)
+from occ_model.scene.scene import Scene, check_scene
+
+USER_FOLDER = "OCC_PRESETS"
+"""The environment variable that names another folder for the user's own presets."""
+
+_NAME = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9 _-]{0,58}[A-Za-z0-9_-])?")
+_NAMES = "1 to 60 letters, digits, spaces, - and _, the first a letter or digit, the last no space"
+_DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
+"""Names that Windows keeps for devices."""
+
+
+def presets() -> tuple[str, ...]:
+    """List the names of the presets: those of the package, then the user's own.
+
+    A file among the user's own that is no preset is left out; :func:`unreadable_presets` tells
+    why.
+    """
+    return (*_built_in(), *user_presets())
+
+
+def user_presets() -> tuple[str, ...]:
+    """List the names of the user's own presets."""
+    return tuple(_read_own()[0])
+
+
+def all_presets() -> tuple[Preset, ...]:
+    """Load all presets that can be read: those of the package, then the user's own."""
+    return (*(package_preset(name) for name in _built_in()), *_read_own()[0].values())
+
+
+def unreadable_presets() -> dict[str, str]:
+    """Tell which files among the user's own presets cannot be used.
+
+    Returns
+    -------
+    dict
+        Why not, in a sentence, by the file's name without its ending, control characters escaped.
+    """
+    return _read_own()[1]
+
+
+def load_preset(name: str) -> Scene:
+    """Load the scene of a preset.
+
+    Raises
+    ------
+    PresetError
+        No preset has that name; the names there are stand in the message.
+    SceneFileError, ParameterError
+        The user's own file of that name is no preset.
+    """
+    return preset_named(name).scene
+
+
+def preset_named(name: str) -> Preset:
+    """Load a preset with the notes on its values.
+
+    Raises
+    ------
+    PresetError
+        No preset has that name.
+    SceneFileError, ParameterError
+        The user's own file of that name is no preset.
+    """
+    if isinstance(name, str):
+        if name in _built_in():
+            return package_preset(name)
+        if name in _own_names():
+            return _load_own(name)
+    raise _unknown(name, presets())
+
+
+def save_preset(
+    name: str, scene: Scene, *, title: str = "", sources: Mapping[str, str] | None = None
+) -> Path:
+    """Save a scene as one of the user's own presets, in place of one of that name.
+
+    Parameters
+    ----------
+    name
+        The name to load it by: letters, digits, spaces, ``-`` and ``_``.
+    scene
+        The scene.
+    title
+        What it is, in a few words; by default the name.
+    sources
+        Where values come from, by the parameter's name.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    PresetError
+        The name cannot be one, or a preset of the package has it.
+    ParameterError
+        ``scene`` or ``title`` is none, or a source is of what is no parameter.
+    OutputError
+        The file cannot be written.
+    """
+    _check_name(name)
+    check_scene(scene)
+    if not isinstance(title, str):
+        raise ParameterError(f"title is {shown(title)}; allowed: a text.")
+    notes = checked_notes(dict(sources or {}))
+    head = tomli_w.dumps({"title": title or name})
+    tables: dict[str, Mapping[str, object]] = {**scene.tables()}
+    if notes:
+        tables["sources"] = notes
+    path = _own_file(name)
+    make_folder(path.parent)
+    write_whole(path, (head + toml_format.to_toml(tables)).encode("utf-8", "replace"))
+    return path
+
+
+def delete_preset(name: str) -> None:
+    """Delete one of the user's own presets.
+
+    Raises
+    ------
+    PresetError
+        None of the user's own has that name.
+    OutputError
+        It cannot be deleted.
+    """
+    if isinstance(name, str) and name in _built_in():
+        raise PresetError(f"The preset {shown(name)} comes with the program and cannot be deleted.")
+    own = _own_names()
+    if not isinstance(name, str) or name not in own:
+        raise _unknown(name, own)
+    path = _own_file(name)
+    try:
+        path.unlink()
+    except OSError as error:
+        where = one_line(str(path))
+        raise OutputError(f"{where} cannot be deleted: {error.strerror or error}.") from None
+
+
+def user_folder() -> Path:
+    """Give the folder of the user's own presets, which need not be there yet."""
+    folder = os.environ.get(USER_FOLDER)
+    if folder:
+        return Path(folder)
+    # Not needed where the user's folder is named.
+    from platformdirs import user_config_path
+
+    return user_config_path("occ-explorer", appauthor=False) / FOLDER
+
+
+def _built_in() -> tuple[str, ...]:
+    return resource_names(FOLDER, ENDING)
+
+
+def _files_in(folder: Path) -> list[Path]:
+    """List what a user keeps as presets, readable or not."""
+    try:
+        return sorted(p for p in folder.glob(f"*{ENDING}") if not p.name.startswith("."))
+    except (OSError, ValueError):  # no folder, none that may be read, or none that can be one
+        return []
+
+
+def _own_names() -> tuple[str, ...]:
+    """List the files that could be the user's own presets."""
+    return tuple(p.stem for p in _files_in(user_folder()) if _name_problem(p.stem) is None)
+
+
+def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
+    """Load the user's own presets by name; of files that are none, tell why."""
+    loaded: dict[str, Preset] = {}
+    failures: dict[str, str] = {}
+    for path in _files_in(user_folder()):
+        name = path.stem
+        try:
+            problem = _name_problem(name)
+            if problem is not None:
+                raise SceneFileError(f"The preset file {one_line(str(path))}: {problem}")
+            loaded[name] = _load_own(name)
+        except OccError as error:
+            failures[one_line(name)] = str(error)
+    return loaded, failures
+
+
+def _own_file(name: str) -> Path:
+    return user_folder() / f"{name}{ENDING}"
+
+
+def _name_problem(name: object) -> str | None:
+    """Say why a preset of the user's own cannot have a name, None where it can."""
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        return f"A preset cannot be named {shown(name)}; allowed: {_NAMES}."
+    if name.lower() in {other.lower() for other in _built_in()}:
+        return f"{shown(name)} is a preset of the program; choose another name."
+    return None
+
+
+def _check_name(name: str) -> None:
+    problem = _name_problem(name)
+    if problem is None and _DEVICE.fullmatch(name):
+        problem = f"A preset cannot be named {shown(name)}; allowed: {_NAMES}."
+    if problem is not None:
+        raise PresetError(problem)
+
+
+def _unknown(name: object, known: tuple[str, ...]) -> PresetError:
+    near = get_close_matches(name, known, n=1) if isinstance(name, str) else ()
+    hint = f" Did you mean {near[0]}?" if near else ""
+    names = ", ".join(known) or "none"
+    return PresetError(f"There is no preset {shown(name)}.{hint} Known are {names}.")
+
+
+def _load_own(name: str) -> Preset:
+    """Load one of the user's own, which may change at any time and is not trusted."""
+    path = _own_file(name)
+    text = read_text(path)
+    try:
+        return preset_from(name, text)
+    except Exception as error:  # noqa: BLE001 - a file, whatever is in it, must not hide the others
+        kind = type(error) if isinstance(error, SceneFileError | ParameterError) else SceneFileError
+        problem = error if isinstance(error, OccError) else shown(error)
+        where = one_line(str(path))
+        raise kind(f"The preset file {where} cannot be used: {problem}") from None

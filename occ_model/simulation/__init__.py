@@ -1,0 +1,1 @@
+"""From scene to picture: columns, then pixels, each stage timed."""

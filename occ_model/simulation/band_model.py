@@ -1,0 +1,99 @@
+"""The band model, the state of the art that the paper compares itself with.
+
+A chip shows as h_c = (t_LED - t) / t_r columns of one state, a change of state as h_t = t / t_r
+columns of transition. It is undefined when the exposure is longer than the switching period.
+"""
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.exposure import column_phases
+from occ_model.camera.photometry import level_values, saturate
+from occ_model.errors import BandModelUndefined
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+from occ_model.transmitter.packet import sent_chips
+
+
+def band_lengths(scene: Scene) -> tuple[float, float]:
+    """Give h_c and h_t, the columns of a complete band and of a transition, not rounded.
+
+    Raises
+    ------
+    BandModelUndefined
+        The exposure time is longer than the switching period.
+    """
+    exposure = scene.camera.exposure_time
+    period = scene.transmitter.switching_period
+    if exposure > period:
+        raise BandModelUndefined(
+            f"The band model is undefined here: the exposure time, {SECOND.format(exposure)}, is "
+            f"longer than the switching period, {SECOND.format(period)}."
+        )
+    readout = scene.camera.readout_time
+    return (period - exposure) / readout, exposure / readout
+
+
+def band_profile(scene: Scene) -> FloatArray:
+    """Give the column profile that the band model predicts.
+
+    With ``band_reading = "literal"`` h_c columns stand for every chip and h_t for every change of
+    state, both rounded to whole columns, so that the profile drifts along the picture. With
+    ``"charitable"`` a run of n equal chips has (n t_LED - t) / t_r columns, not rounded.
+    Both start in the picture where the scene's start time says.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,)
+        Grey levels, 0 to 255.
+
+    Raises
+    ------
+    BandModelUndefined
+        The exposure time is longer than the switching period, or (literal reading) a whole packet
+        rounds to no columns at all.
+    """
+    complete, transition = band_lengths(scene)
+    chips = sent_chips(scene.transmitter)
+    phases = column_phases(scene, len(chips))
+    if scene.model.band_reading == "charitable":
+        exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
+        positions, lit = _knots(chips, max(0.0, 1.0 - exposure), exposure, between_equal=exposure)
+        columns: FloatArray = phases.chip + phases.fraction
+    else:
+        positions, lit = _knots(chips, round(complete), round(transition), between_equal=0.0)
+        if positions[-1] == 0:
+            raise BandModelUndefined(
+                f"The band model is undefined here: a chip of {complete + transition:.2g} columns "
+                "rounds to none."
+            )
+        columns = np.arange(0.5, len(phases.chip))
+        columns += _literal_start(scene, chips, positions)
+    dark, bright = level_values(scene)
+    values = np.interp(np.mod(columns, positions[-1]), positions, lit)
+    return saturate(dark + (bright - dark) * values)
+
+
+def _knots(
+    chips: ByteArray, complete: float, transition: float, *, between_equal: float
+) -> tuple[FloatArray, FloatArray]:
+    """Corner points of one packet's polyline: positions, from 0 to its length, and states.
+
+    Each chip holds its state for ``complete``, then moves to the next chip's: over ``transition``
+    where that differs, over ``between_equal`` where it is the same.
+    """
+    following = np.roll(chips, -1)
+    moves = np.where(chips != following, transition, between_equal)
+    ends = np.cumsum(complete + moves)
+    starts = np.concatenate([[0.0], ends[:-1]])
+    positions = np.stack([starts, starts + complete], axis=1).ravel()
+    states = np.repeat(chips.astype(np.float64), 2)
+    return np.append(positions, ends[-1]), np.append(states, states[0])
+
+
+def _literal_start(scene: Scene, chips: ByteArray, positions: FloatArray) -> float:
+    """Say at which column of the packet's polyline the picture starts."""
+    start = column_phases(scene, len(chips), columns=1)
+    chip = int(start.chip[0])
+    into_chip = float(start.fraction[0]) * scene.transmitter.switching_period
+    return float(positions[2 * chip]) + round(into_chip / scene.camera.readout_time)

@@ -1,0 +1,105 @@
+"""Where the noise's random numbers come from: drawn for each pixel, or taken from a plane again."""
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import Protocol, TypeAlias
+from zlib import crc32
+
+import numpy as np
+
+from occ_model.arrays import Pixels
+from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.scene.scene import Scene
+
+Done: TypeAlias = Callable[[str], None]
+"""Is told that a stage has just ended."""
+
+_PLANE = 2**21
+"""Numbers in the plane: eight megabytes, which stay in the processor's cache."""
+
+
+class Noise(Protocol):
+    """Makes the deviation of every pixel from its mean."""
+
+    def deviation(self, values: Pixels, rows: int) -> Pixels:
+        """Give the deviations of the next rows, in grey levels.
+
+        Parameters
+        ----------
+        values : ndarray of float32, shape (rows, columns) or (1, columns)
+            Mean pixel values before saturation.
+        rows
+            How many rows.
+
+        Returns
+        -------
+        ndarray of float32, shape (rows, columns)
+        """
+
+
+def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
+    """Give an effect's own stream of random numbers.
+
+    It depends on the seed and the effect alone: switching another effect on or off leaves it as it
+    was. What belongs to the camera does not depend on the seed either.
+    """
+    entropy = 0 if effect.of_the_camera else seed
+    own = np.random.SeedSequence(entropy, spawn_key=(crc32(effect.name.encode()),))
+    return np.random.default_rng(own)
+
+
+class ExactNoise:
+    """Each pixel's number is drawn anew, for each effect from its own stream."""
+
+    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, done: Done) -> None:
+        self._scene = scene
+        self._done = done
+        self._streams = [(effect, stream(effect, seed)) for effect in effects]
+
+    def deviation(self, values: Pixels, rows: int) -> Pixels:
+        """Give the deviations of the next rows."""
+        total = np.zeros((rows, values.shape[1]), dtype=np.float32)
+        for effect, random in self._streams:
+            normal = random.standard_normal(total.shape, dtype=np.float32)
+            total += effect.apply(self._scene, values, normal)
+            self._done(effect.name)
+        return total
+
+
+class ReusedNoise:
+    """Each row is a piece of one long row of numbers, from a random place.
+
+    Much faster than drawing. All effects share the numbers, scaled to what they make together.
+    Pieces overlap, but at random, so that neither the rows of a picture nor its columns' means
+    show it.
+    """
+
+    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, done: Done) -> None:
+        self._scene = scene
+        self._effects = effects
+        self._done = done
+        self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
+        self._places = _plane(scene.camera.columns)
+        self._values: Pixels | None = None
+        self._spread: Pixels = np.empty(0, dtype=np.float32)
+
+    def deviation(self, values: Pixels, rows: int) -> Pixels:
+        """Give the deviations of the next rows."""
+        chosen = self._random.integers(0, len(self._places), rows)
+        total: Pixels = self._places[chosen]
+        if values is not self._values:  # most rows have the mean values of the rows before
+            self._values = values
+            self._spread = pixel_spread(self._effects, self._scene, values)
+        total *= self._spread
+        self._done(self._effects[-1].name)  # the others come with it for nothing
+        return total
+
+
+@lru_cache(maxsize=2)
+def _plane(columns: int) -> Pixels:
+    """Give all pieces of the plane that are as long as a row, shape (pieces, columns)."""
+    length = max(_PLANE, 8 * columns)
+    numbers = np.random.default_rng(0).standard_normal(length, dtype=np.float32)
+    numbers -= numbers.mean(dtype=np.float64)
+    numbers /= numbers.std(dtype=np.float64)
+    return np.lib.stride_tricks.sliding_window_view(numbers, columns)

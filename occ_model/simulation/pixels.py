@@ -1,0 +1,210 @@
+"""A picture whose rows are not alike: pixels exposed, read out and written, some rows at a time."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, Pixels
+from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.optics import Optics, Panel, picture_rows
+from occ_model.camera.photometry import WHITE
+from occ_model.camera.projection import panel_corners
+from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
+from occ_model.effects.paper_view import sight_of
+from occ_model.effects.registry import planned
+from occ_model.results import Plan
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import NoiseSource, Observable
+from occ_model.simulation.columns import Columns
+from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise
+from occ_model.simulation.stage_timer import StageClock
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ExposedRows:
+    """Some rows of pixels, before they are rounded.
+
+    Parameters
+    ----------
+    place
+        Which rows of the picture.
+    values : ndarray of float32, shape (rows, columns)
+        Pixel values from 0 to 255.
+    panel
+        Where the panel is.
+    """
+
+    place: slice
+    values: Pixels
+    panel: Panel
+
+    def to_bytes(self, out: ByteArray) -> None:
+        """Round them."""
+        cv2.convertScaleAbs(self.values, dst=out)
+
+
+class PixelExposure:
+    """The pixels of a picture.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    plan
+        Its effects are simulated.
+    columns
+        What each column shows.
+    clock
+        Is told of each stage.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        plan: Plan,
+        columns: Columns,
+        clock: StageClock,
+    ) -> None:
+        self._scene = scene
+        self._clock = clock
+        self._columns = columns
+        self._limits = planned(plan, PixelEffect)
+        self._noises = planned(plan, NoiseEffect)
+        self._files = planned(plan, FileEffect)
+        self._optics = Optics(panel_corners(scene))
+        for effect in planned(plan, OpticsEffect):
+            self._optics = effect.apply(scene, self._optics)
+            clock.done(effect.name)
+
+    def rows(self, seed: int, source: NoiseSource) -> Iterator[ExposedRows]:
+        """Expose the rows from first to last."""
+        make = ExactNoise if source == "exact" else ReusedNoise
+        noise: Noise | None = None
+        if self._noises:
+            noise = make(self._noises, self._scene, seed, self._clock.done)
+        light = (self._columns.panel, self._columns.surroundings)
+        for rows in picture_rows(self._scene, self._optics, *light, self._clock.done):
+            mean = self._saturated(rows.values)
+            height = rows.last - rows.first
+            if noise is None:
+                values = np.ascontiguousarray(np.broadcast_to(mean, (height, mean.shape[1])))
+            else:
+                values = noise.deviation(rows.values, height)
+                values += mean
+                np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
+            yield ExposedRows(rows.place, values, rows.panel)
+
+    def _saturated(self, mean: Pixels) -> Pixels:
+        """Limit mean values to what a pixel can hold."""
+        for limit in self._limits:
+            mean = limit.apply(self._scene, mean)
+            self._clock.done(limit.name)
+        return np.minimum(mean, np.float32(WHITE))
+
+    def picture(
+        self, enhancement: Enhancement, seed: int, source: NoiseSource
+    ) -> tuple[ByteArray, FloatArray]:
+        """Make the picture.
+
+        Returns
+        -------
+        image : ndarray of uint8, shape (rows, columns)
+            Enhanced within the panel.
+        profile : ndarray of float64, shape (columns,)
+            Mean of the panel's pixels in each column before that; the column's value where the
+            picture does not show the panel.
+        """
+        camera = self._scene.camera
+        image = np.empty((camera.rows, camera.columns), dtype=np.uint8)
+        tally = _ColumnTally(camera.columns)
+        panels: list[tuple[slice, Panel]] = []
+        for exposed in self.rows(seed, source):
+            if self._files:
+                exposed.to_bytes(out=image[exposed.place])
+                panels.append((exposed.place, exposed.panel))
+            else:
+                _enhance(exposed, enhancement, image[exposed.place])
+                tally.add(exposed.panel, exposed.values)
+            self._clock.done("image")
+        if self._files:
+            image = self._through_files(image)
+            for rows, panel in panels:
+                tally.add(panel, image[rows].astype(np.float32))
+                _enhance_bytes(image[rows], enhancement, panel)
+            self._clock.done("image")
+        return image, tally.means(self._columns.profile)
+
+    def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
+        """Give what the tolerance is of: pixel values before enhancement and rounding.
+
+        Returns
+        -------
+        ndarray of float32
+            ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it; ``"profile"``:
+            the means of its columns.
+        """
+        region = sight_of(self._scene).region
+        camera = self._scene.camera
+        image = np.empty((camera.rows, camera.columns), dtype=np.float32)
+        for exposed in self.rows(seed, source):
+            image[exposed.place] = exposed.values
+        if self._files:
+            image = self._through_files(to_bytes(image)).astype(np.float32)
+        seen = image[region.first_row : region.last_row, region.first_column : region.last_column]
+        if observable == "image":
+            return seen
+        return np.asarray(seen.mean(axis=0, dtype=np.float64), dtype=np.float32)
+
+    def _through_files(self, image: ByteArray) -> ByteArray:
+        for file in self._files:
+            image = file.apply(self._scene, image)
+            self._clock.done(file.name)
+        return image
+
+
+def _enhance(exposed: ExposedRows, enhancement: Enhancement, out: ByteArray) -> None:
+    """Round pixel values, enhanced within the panel."""
+    exposed.to_bytes(out=out)
+    if not enhancement.needs_fractions:
+        _enhance_bytes(out, enhancement, exposed.panel)
+    elif isinstance(exposed.panel, slice):
+        out[:, exposed.panel] = enhancement(exposed.values[:, exposed.panel])
+    else:
+        np.copyto(out, enhancement(exposed.values), where=exposed.panel)
+
+
+def _enhance_bytes(image: ByteArray, enhancement: Enhancement, panel: Panel) -> None:
+    """Enhance rounded grey levels within the panel, in place."""
+    if not isinstance(panel, slice):
+        np.copyto(image, enhancement.of_bytes(image), where=panel)
+    elif panel.stop > panel.start:  # OpenCV has no pictures without columns
+        image[:, panel] = enhancement.of_bytes(image[:, panel])
+
+
+class _ColumnTally:
+    """The mean of the panel's pixels in each column."""
+
+    def __init__(self, columns: int) -> None:
+        self._sums = np.zeros(columns)
+        self._counts = np.zeros(columns, dtype=np.int64)
+
+    def add(self, panel: Panel, values: Pixels) -> None:
+        """Count some rows in."""
+        if not isinstance(panel, slice):
+            self._sums += _column_sums(np.where(panel, values, np.float32(0.0)))
+            self._counts += np.count_nonzero(panel, axis=0)
+        elif panel.stop > panel.start:
+            self._sums[panel] += _column_sums(values[:, panel])
+            self._counts[panel] += len(values)
+
+    def means(self, otherwise: FloatArray) -> FloatArray:
+        """Give the means, and ``otherwise`` in columns without pixels."""
+        means = self._sums / np.maximum(self._counts, 1)
+        return np.asarray(np.where(self._counts > 0, means, otherwise))
+
+
+def _column_sums(values: Pixels) -> FloatArray:
+    sums = cv2.reduce(values, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
+    return np.asarray(sums[0], dtype=np.float64)

@@ -1,0 +1,1 @@
+"""Success rates over many parameters, in several processes, written as they come."""

@@ -1,0 +1,131 @@
+"""What is asked of a sweep, checked before any work starts."""
+
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+
+from occ_model.errors import ParameterError, shown
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results import RateSettings, SweepRequest
+from occ_model.results.sweep_request import JOBS_A_CORE, MOST_AXES, MOST_JOBS, MOST_POINTS
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.parameter_kinds import Choice, ParameterValue
+from occ_model.scene.parameters import parameter_named
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.study.success_rate import check_rate
+
+
+def checked_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
+    """Make the request for a sweep.
+
+    Parameters
+    ----------
+    scene
+        Where the axes start from.
+    axes
+        Values by the parameters' names.
+    settings
+        How each rate is measured.
+
+    Raises
+    ------
+    ParameterError
+        An axis names no parameter, has no values, one that is out of range, or one twice; or the
+        settings cannot be.
+    """
+    check_scene(scene)
+    check_rate(scene, settings)
+    if not isinstance(axes, Mapping) or not axes:
+        raise ParameterError(
+            f"axes is {shown(axes)}; allowed: one parameter or more by name, a list of values each."
+        )
+    if len(axes) > MOST_AXES:
+        raise ParameterError(f"{len(axes)} parameters are varied; allowed: at most {MOST_AXES}.")
+    checked: dict[str, tuple[ParameterValue, ...]] = {}
+    for name, values in axes.items():
+        checked[str(name)] = _axis(name, values)
+        check_points(checked)
+    return SweepRequest(scene, checked, settings)
+
+
+def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
+    """Refuse axes that have too many points between them.
+
+    Raises
+    ------
+    ParameterError
+        There are more than a sweep may have.
+    """
+    sizes = [len(values) for values in axes.values()]
+    points = math.prod(sizes)
+    if points > MOST_POINTS:
+        counts = " x ".join(f"{size:,}" for size in sizes)
+        raise ParameterError(
+            f"The sweep has {counts} = {points:,} points; allowed: at most {MOST_POINTS:,}."
+            if len(sizes) > 1
+            else f"The sweep has {points:,} points; allowed: at most {MOST_POINTS:,}."
+        )
+
+
+def processes_for(jobs: int, points: int) -> int:
+    """Give how many processes are started where some number is asked for.
+
+    Parameters
+    ----------
+    jobs
+        What is asked for.
+    points
+        What is to be measured: no process is idle from the start.
+
+    Raises
+    ------
+    ParameterError
+        It is no whole number from 1, or too large.
+    """
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    return max(1, min(jobs, points, JOBS_A_CORE * (os.cpu_count() or 1)))
+
+
+def decoders_of(decoder: object) -> tuple[str, ...]:
+    """Give the decoders that are asked for, by one name or several.
+
+    Raises
+    ------
+    ParameterError
+        There are none, or one is there twice.
+    """
+    known = ", ".join(DECODERS)
+    if isinstance(decoder, str):
+        return (decoder,)
+    if not isinstance(decoder, Sequence) or not decoder:
+        raise ParameterError(f"decoder is {shown(decoder)}; allowed: one of {known}, or several.")
+    for name in decoder:
+        if list(decoder).count(name) > 1:
+            raise ParameterError(
+                f"decoder {shown(name)} is there twice; allowed: each of {known} once."
+            )
+    return tuple(decoder)
+
+
+def _axis(name: str, values: object) -> tuple[ParameterValue, ...]:
+    parameter = parameter_named(name)
+    if name == "pattern":
+        raise ParameterError("pattern cannot be varied: a raw pattern holds no code to be read.")
+    if isinstance(values, str | bytes) or not isinstance(values, Iterable):
+        raise parameter.refuse(
+            f"varies over {shown(values)}", f"a list of values, {parameter.allowed}"
+        )
+    checked: dict[ParameterValue, None] = {}
+    for value in values:
+        own = parameter.check(value)
+        if isinstance(parameter, Choice):
+            own = str(own)  # an array's strings are no plain ones
+        if own in checked:
+            text = parameter.format(own)  # type: ignore[arg-type]
+            raise parameter.refuse(f"is {text} twice", "values that differ")
+        checked[own] = None
+        if len(checked) > MOST_POINTS:  # such as values that never end
+            raise parameter.refuse("has too many values", f"at most {MOST_POINTS:,}")
+    if not checked:
+        raise parameter.refuse("has no values to vary over", f"one or more, {parameter.allowed}")
+    return tuple(checked)

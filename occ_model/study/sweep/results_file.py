@@ -1,0 +1,207 @@
+"""The file that a sweep's results are appended to, and found in again.
+
+Points are written as they come, each in one go, and kept whatever happens to the program. A file is
+only ever continued by the very sweep that it belongs to: its comment lines hold all that decides
+over the numbers, and are compared with what that sweep would write.
+"""
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from time import monotonic
+from types import TracebackType
+from typing import BinaryIO, Self
+
+from occ_model.errors import OutputError, one_line, shown
+from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.results import SweepPoint, SweepRequest, SweepTable
+from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_text
+from occ_model.study.sweep.file_lock import is_locked_by_us
+
+_SYNC_SECONDS = 2.0
+"""How much work a power cut may cost."""
+
+Intervals = Callable[[SweepPoint], list[tuple[float, float]]]
+
+
+class ResultsFile:
+    """A CSV file of one sweep, open and locked from entering its context to leaving it.
+
+    Parameters
+    ----------
+    path
+        The file; it is made where there is none.
+    request
+        The sweep.
+    intervals
+        Gives the interval of each rate of a point, percent.
+
+    Raises
+    ------
+    OutputError
+        On entering: the path is no regular file or cannot be written, another sweep is using it, or
+        it holds something that is no part of this sweep. It is left as it is then.
+    """
+
+    def __init__(self, path: Path, request: SweepRequest, intervals: Intervals) -> None:
+        self._path = path
+        self._name = one_line(str(path))
+        self._request = request
+        self._intervals = intervals
+        self._header = header_text(request).encode("utf-8")
+        self._in_order = True
+        self._last = -1
+        self._synced = monotonic()
+
+    def __enter__(self) -> Self:
+        self._file = self._opened()
+        try:
+            self._check_header()
+        except BaseException:
+            self._file.close()
+            raise
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._file.close()
+
+    def _opened(self) -> BinaryIO:
+        """Open the file and lock it; where it was replaced in between, open the new one."""
+        while True:
+            check_replaceable(self._path)
+            try:
+                descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT | _BINARY, 0o666)
+                file = os.fdopen(descriptor, "r+b", buffering=0)
+            except OSError as error:
+                raise self._unwritable(error) from None
+            if not is_locked_by_us(file):
+                file.close()
+                raise OutputError(
+                    f"{self._name} is being written by another sweep; wait for it, or name another "
+                    "file."
+                )
+            with suppress(FileNotFoundError):
+                if os.path.samestat(os.fstat(file.fileno()), self._path.stat()):
+                    return file
+            file.close()
+
+    def _check_header(self) -> None:
+        """Refuse the file of anything else; begin one that is new, or was only just begun."""
+        there = self._file.read(len(self._header))
+        if there == self._header:
+            return
+        if self._header.startswith(there):
+            self._file.seek(0)
+            self._write(self._header, keep=0)
+            return
+        if not there.startswith(TITLE.encode("utf-8")):
+            raise OutputError(f"{self._name} holds no results of a sweep; name another file.")
+        wanted = self._header.decode("utf-8").splitlines()
+        found = there.decode("utf-8", errors="replace").splitlines()
+        last = len(found) - 1  # which was not read whole, where lines before it are longer
+        for place, (mine, other) in enumerate(zip(wanted, found, strict=False)):
+            if mine != other and not (place == last and mine.startswith(other)):
+                raise OutputError(
+                    f"{self._name} holds the results of another sweep: it says "
+                    f"{shown(_short(other))} where this one has {shown(_short(mine))}; name "
+                    "another file."
+                )
+        raise OutputError(f"{self._name} was changed by another program; name another file.")
+
+    def points_there(self) -> Iterator[SweepPoint]:
+        """Read the points that the file holds already; what was torn at its end is cut off.
+
+        To be read to its end before anything is appended.
+
+        Raises
+        ------
+        OutputError
+            There are lines that this sweep has not written; the file is left as it is.
+        """
+        reader = PointReader(self._request)
+        height = len(self._request.settings.decoders)
+        seen = bytearray(self._request.points)
+        whole, line_number = len(self._header), self._header.count(b"\n")
+        with open(self._file.fileno(), "rb", closefd=False) as buffered:
+            buffered.seek(whole)
+            while True:
+                lines = [line for line in (buffered.readline() for _ in range(height)) if line]
+                text = b"".join(lines)
+                if len(lines) < height or not text.endswith(b"\n"):
+                    break
+                point = reader.read(text.decode("utf-8", errors="replace").splitlines())
+                if point is None or seen[point.index] or self._text(point) != text:
+                    raise OutputError(
+                        f"{self._name} holds something else in line {line_number + 1}: it is no "
+                        "new row of this sweep; mend or remove it, or name another file."
+                    )
+                seen[point.index] = 1
+                whole, line_number = whole + len(text), line_number + height
+                self._note_order(point)
+                yield point
+        try:
+            self._file.truncate(whole)
+        except OSError as error:
+            raise self._unwritable(error) from None
+        self._file.seek(whole)
+
+    def append(self, point: SweepPoint) -> None:
+        """Write a point.
+
+        Raises
+        ------
+        OutputError
+            It cannot be written; what was written before stays.
+        """
+        self._note_order(point)
+        self._write(self._text(point), keep=self._file.tell())
+
+    def finish(self, table: SweepTable) -> None:
+        """Put the rows of the complete table in the order of the axes, where they are not."""
+        try:
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            raise self._unwritable(error) from None
+        if not self._in_order:
+            # Without room for a second file, say, the first stays: it is as complete.
+            with suppress(OutputError):
+                write_whole(self._path, "".join(table.csv()).encode("utf-8"))
+
+    def _text(self, point: SweepPoint) -> bytes:
+        return point_text(self._request, point, self._intervals(point)).encode("utf-8")
+
+    def _note_order(self, point: SweepPoint) -> None:
+        self._in_order &= point.index > self._last
+        self._last = point.index
+
+    def _write(self, text: bytes, keep: int) -> None:
+        """Write at the end; where that fails, keep what was there before and nothing half."""
+        try:
+            left = memoryview(text)
+            while left:
+                left = left[os.write(self._file.fileno(), left) :]
+            if monotonic() - self._synced > _SYNC_SECONDS:
+                os.fsync(self._file.fileno())
+                self._synced = monotonic()
+        except OSError as error:
+            # Where this fails too, the torn line is cut off when the sweep is continued.
+            with suppress(OSError):
+                self._file.truncate(keep)
+            raise self._unwritable(error) from None
+
+    def _unwritable(self, error: OSError) -> OutputError:
+        return OutputError(f"{self._name} cannot be written: {error.strerror or error}.")
+
+
+_BINARY = getattr(os, "O_BINARY", 0)
+
+
+def _short(line: str) -> str:
+    text = line.lstrip("# ")
+    return text if len(text) <= 60 else f"{text[:57]}..."

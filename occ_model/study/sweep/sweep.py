@@ -1,0 +1,260 @@
+"""Success rates over any parameters, at as many points as it takes."""
+
+import math
+import warnings
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import ExitStack, closing
+from functools import lru_cache
+from pathlib import Path
+from time import perf_counter
+from typing import TypeAlias
+
+import numpy as np
+
+from occ_model.errors import one_line
+from occ_model.receiver.decoders import PAPERS
+from occ_model.results import RateSettings, SweepPoint, SweepRequest, SweepTable, Way
+from occ_model.results.sweep_request import MOST_JOBS
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study.confidence import wilson_interval
+from occ_model.study.sweep.points import Pulse, measure_here
+from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
+from occ_model.study.sweep.results_file import ResultsFile
+from occ_model.study.sweep.workers import GivenWorkers, measure_by
+
+Progress: TypeAlias = Callable[[int, int, float], object]
+"""Is told how many points are done, of how many, and how many seconds are left."""
+
+_BEAT = 0.2
+"""Seconds between two signs of life while a point takes long."""
+
+
+def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
+    scene: Scene,
+    axes: Mapping[str, Iterable[ParameterValue]],
+    images: int = 5,
+    decoder: str | Sequence[str] = PAPERS,
+    seed: int = 1,
+    *,
+    executor: Executor | None = None,
+    jobs: int = 1,
+    progress: Progress | None = None,
+    results: str | Path | None = None,
+    path: Way = "auto",
+    tolerance: float = TOLERANCE.default,
+    force: Mapping[str, bool] | None = None,
+) -> SweepTable:
+    """Measure the success rate at all combinations of some parameters' values.
+
+    Every point can be had again by itself: its rate is exactly
+    ``success_rate(scene.replace(**point), images, decoder, seed)``. All points have the same seed,
+    and so start times at the same shares of a packet, whichever other points there are.
+
+    Parameters
+    ----------
+    scene
+        What is not varied.
+    axes
+        The values of each parameter that is, by name and in SI units.
+    images
+        Images a point.
+    decoder
+        A decoder's name, or several: they read the same images.
+    seed
+        Of start times and noise.
+    executor
+        Any executor of ``concurrent.futures`` whose workers can import this package, such as
+        ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
+        process finishes the sweep, with a ``RuntimeWarning`` that says so. None: ``jobs``.
+    jobs
+        How many processes of its own the sweep starts, and starts again where they die; 1: none, it
+        runs in this process, which it does with a ``RuntimeWarning`` also where the system has no
+        processes to give. No more are started than there are points to measure, and a few for
+        each core. As with all processes of Python, the module that starts them must not
+        do so when it is imported (``if __name__ == "__main__":``).
+    progress
+        Called after each point, and several times a second while a point takes longer, with the
+        number of points done, of all, and of seconds left (not a number before the first). Whatever
+        it raises, ``KeyboardInterrupt`` or an exception of its own, ends the sweep and is passed
+        on; what is done is kept in the file ``results``.
+    results
+        A CSV file that each point is appended to as it comes. Where it holds a part of this same
+        sweep, also one that was killed, only the rest is measured; complete, it is in the order of
+        the axes. See :class:`occ_model.study.sweep.results_file.ResultsFile`.
+    path, tolerance, force
+        As for :func:`occ_model.success_rate`.
+
+    Returns
+    -------
+    SweepTable
+        In the order of the axes. A point whose scene the model refuses has no rate but a note.
+
+    Raises
+    ------
+    ParameterError
+        An axis names no parameter, has no values, one out of range or one twice; or another
+        argument cannot be. Nothing has been measured or written then.
+    OutputError
+        The file cannot be written, is in use by another sweep, or holds something else.
+    """
+    settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
+    request = checked_request(scene, axes, settings)
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    ledger = _Ledger(request)
+    clock = _Clock(request.points, progress)
+    with ExitStack() as stack:
+        file = None
+        if results is not None:
+            file = stack.enter_context(ResultsFile(Path(results), request, rate_intervals))
+            for point in file.points_there():
+                ledger.enter(point)
+            clock.start(ledger.entered)
+        rest = (index for index in request.in_order_of_work() if not ledger.has(index))
+        jobs = processes_for(jobs, request.points - ledger.entered)
+        points = measure(request, rest, executor=executor, jobs=jobs, pulse=clock.pulse)
+        # Closed at once, and not when nobody remembers what ended it: workers wait for that.
+        for point in stack.enter_context(closing(points)):
+            if file is not None:
+                file.append(point)
+            ledger.enter(point)
+            clock.count()
+        table = ledger.table()
+        if file is not None:
+            file.finish(table)
+    return table
+
+
+def measure(
+    request: SweepRequest,
+    indices: Iterable[int] | None = None,
+    *,
+    executor: Executor | None = None,
+    jobs: int = 1,
+    pulse: Pulse = lambda: None,
+) -> Generator[SweepPoint, None, None]:
+    """Measure points of a sweep, each given as soon as it is ready and then forgotten.
+
+    Points are made as they are needed and a bounded number is in flight, so that the memory that
+    this takes does not grow with their number.
+
+    Parameters
+    ----------
+    request
+        A request as :func:`occ_model.study.sweep.request_check.checked_request` makes it.
+    indices
+        Which points, by default all, in the order in which they take the least time.
+    executor, jobs
+        As for :func:`sweep`.
+    pulse
+        Called several times a second; what it raises ends the work.
+    """
+    todo = request.in_order_of_work() if indices is None else iter(indices)
+    if executor is not None:
+        return measure_by(GivenWorkers(executor), request, todo, pulse)
+    if jobs > 1:
+        # Only who wants processes pays for importing what starts them.
+        from occ_model.parallel.processes import NO_PROCESSES
+        from occ_model.study.sweep.pool import OwnWorkers
+
+        try:
+            return measure_by(OwnWorkers(jobs), request, todo, pulse)
+        except NO_PROCESSES as error:
+            warnings.warn(
+                f"No processes can be started ({one_line(str(error))}); this one does the sweep "
+                "alone.",
+                RuntimeWarning,
+                stacklevel=2,
+            )
+    return measure_here(request, todo, pulse)
+
+
+def rate_intervals(point: SweepPoint) -> list[tuple[float, float]]:
+    """Give the 95 % interval of each decoder's rate in percent, not a number without a rate."""
+    return [_interval(right, point.sent) for right in point.right]
+
+
+@lru_cache(maxsize=4096)
+def _interval(right: int, sent: int) -> tuple[float, float]:
+    if not sent:
+        return math.nan, math.nan
+    low, high = wilson_interval(right, sent)
+    return 100.0 * low, 100.0 * high
+
+
+class _Ledger:
+    """What was counted so far, a few bytes a point."""
+
+    def __init__(self, request: SweepRequest) -> None:
+        self._request = request
+        decoders = len(request.settings.decoders)
+        self._there = np.zeros(request.points, dtype=np.bool_)
+        self._sent = np.zeros(request.points, dtype=np.int64)
+        self._right = np.zeros((request.points, decoders), dtype=np.int64)
+        self._ends = np.zeros((request.points, decoders, 2))
+        self._notes: dict[int, str] = {}
+        self.entered = 0
+
+    def has(self, index: int) -> bool:
+        """Say whether a point is there."""
+        return bool(self._there[index])
+
+    def enter(self, point: SweepPoint) -> None:
+        """Enter a point."""
+        self._there[point.index] = True
+        self._sent[point.index] = point.sent
+        self._right[point.index] = point.right
+        self._ends[point.index] = rate_intervals(point)
+        if point.note:
+            self._notes[point.index] = point.note
+        self.entered += 1
+
+    def table(self) -> SweepTable:
+        """Give all of it in the order of the axes."""
+        shape = self._request.shape
+        return SweepTable(
+            self._request,
+            self._sent.reshape(shape),
+            self._right.reshape(*shape, -1),
+            self._ends[..., 0].reshape(*shape, -1),
+            self._ends[..., 1].reshape(*shape, -1),
+            dict(sorted(self._notes.items())),
+        )
+
+
+class _Clock:
+    """Tells how far a sweep is."""
+
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self._progress = progress
+        self._total = total
+        self._done = self._found = 0
+        self._started = self._told = perf_counter()
+
+    def start(self, found: int) -> None:
+        """Begin with some points that were there already."""
+        self._done = self._found = found
+        self._started = self._told = perf_counter()
+        if found:
+            self._tell()
+
+    def count(self) -> None:
+        """Count a point."""
+        self._done += 1
+        self._tell()
+
+    def pulse(self) -> None:
+        """Give a sign of life, if the last one was long ago."""
+        if perf_counter() - self._told >= _BEAT:
+            self._tell()
+
+    def _tell(self) -> None:
+        self._told = perf_counter()
+        if self._progress is None:
+            return
+        measured = self._done - self._found
+        each = (self._told - self._started) / measured if measured else math.nan
+        self._progress(self._done, self._total, each * (self._total - self._done))

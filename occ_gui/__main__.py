@@ -12,7 +12,7 @@ def main() -> int:
 
 def _command() -> Callable[[], int]:
     # Only here, where Ctrl-C is answered: it imports much of the model.
-    from occ_gui.app import read_command_line
+    from occ_gui.app.command_line import read_command_line
 
     return read_command_line(None)
 

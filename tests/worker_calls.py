@@ -4,7 +4,7 @@ import os
 import time
 from typing import Any
 
-from occ_gui.tasks.parcel import Pulse
+from occ_gui.background.parcel import Pulse
 
 
 def echo(value: Any, pulse: Pulse) -> Any:

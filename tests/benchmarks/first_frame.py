@@ -6,7 +6,7 @@ import sys
 from PySide6.QtCore import QEventLoop
 
 import occ_model as occ
-from occ_gui.app import start
+from occ_gui.app.command_line import start
 
 
 def main() -> None:

@@ -13,8 +13,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from occ_gui.application import Application
-    from occ_gui.state.rate_map import RateMap
+    from occ_gui.app.application import Application
+    from occ_gui.detection_map.rate_map import RateMap
 
 # Qt not at the top, either: worker processes import this file, too, and need no window.
 
@@ -99,7 +99,7 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
     import occ_model as occ
-    from occ_gui.app import start, wait_until_shown
+    from occ_gui.app.command_line import start, wait_until_shown
 
     _, application = start(occ.load_preset(options.preset), ["live_map"])
     application.window.show()

@@ -16,7 +16,7 @@ from PySide6.QtCore import QEventLoop, QObject
 from PySide6.QtWidgets import QApplication
 
 import occ_model as occ
-from occ_gui.application import Application
+from occ_gui.app.application import Application
 from occ_model.scene.simulation_settings import SimulationSettings
 
 _MOVES = 150

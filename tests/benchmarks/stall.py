@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from live_map import Beat
 
 if TYPE_CHECKING:
-    from occ_gui.application import Application
+    from occ_gui.app.application import Application
 
 # Qt not at the top, either: worker processes import this file, too, and need no window.
 
@@ -52,7 +52,7 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
     import occ_model as occ
-    from occ_gui.app import start, wait_until_shown
+    from occ_gui.app.command_line import start, wait_until_shown
 
     _, application = start(occ.load_preset(options.preset), ["stall"])
     application.window.resize(1600, 1000)

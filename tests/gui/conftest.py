@@ -16,12 +16,12 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.controllers import reach_desk
-from occ_gui.controllers.simulation import simulate
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.tasks.parcel import Outcome, Task
-from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
+from occ_gui.app.application import Application
+from occ_gui.background.parcel import Outcome, Task
+from occ_gui.detection_map import wiring
+from occ_gui.scene.parameter_rows import CountRow, QuantityRow
+from occ_gui.simulation.controller import simulate
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -87,7 +87,7 @@ def garbage_is_collected_on_this_thread() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def lazy_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Measure nothing beside the window, where a test does not ask for it."""
-    monkeypatch.setattr(reach_desk, "new_workers", LazyWorkers)
+    monkeypatch.setattr(wiring, "new_workers", LazyWorkers)
 
 
 @pytest.fixture

@@ -12,13 +12,13 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.controllers.files import sample_photos
-from occ_gui.desktop_menus import THEMES
-from occ_gui.state.gesture import NO_GESTURE, new_gesture
-from occ_gui.state.settings_store import FIRST_SETTINGS
-from occ_gui.views.exploration_view import ExplorationView
-from occ_gui.views.photo_overlay import MODES
+from occ_gui.app.application import Application
+from occ_gui.explorations.exploration_view import ExplorationView
+from occ_gui.files.file_controller import sample_photos
+from occ_gui.picture.photo_overlay import MODES
+from occ_gui.scene.gesture import NO_GESTURE, new_gesture
+from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.window.desktop_menus import THEMES
 from occ_model.effects.registry import NAMES
 from occ_model.results.teaching import Exploration
 from occ_model.scene.parameter_kinds import Choice, Quantity

@@ -8,12 +8,12 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.controllers import accuracy as module
-from occ_gui.controllers.accuracy import AccuracyController, measure
-from occ_gui.controllers.simulation import SimulationController
-from occ_gui.state.request import SimulationRequest
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.accuracy import controller as module
+from occ_gui.accuracy.controller import AccuracyController, measure
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.request import SimulationRequest
 from occ_model.results import AccuracyPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

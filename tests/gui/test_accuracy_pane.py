@@ -8,9 +8,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers import accuracy
-from occ_gui.views.effect_table import DECISION, EffectRow
+from occ_gui.accuracy import controller
+from occ_gui.accuracy.effect_table import DECISION, EffectRow
+from occ_gui.app.application import Application
 
 User = Any  # the fixture of that name
 
@@ -18,7 +18,7 @@ User = Any  # the fixture of that name
 @pytest.fixture
 def in_front(application: Application, monkeypatch: pytest.MonkeyPatch) -> Application:
     """Bring the pane to the front, and let no study begin."""
-    monkeypatch.setattr(accuracy, "REST_MS", 3_600_000)
+    monkeypatch.setattr(controller, "REST_MS", 3_600_000)
     application.window.docks["accuracy"].raise_()
     return application
 
@@ -131,7 +131,7 @@ def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Applicatio
 def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(accuracy, "REST_MS", 1)
+    monkeypatch.setattr(controller, "REST_MS", 1)
     title = application.accuracy.plot.title
     application.window.docks["accuracy"].raise_()
     qtbot.waitUntil(lambda: " of " in title.toolTip())
@@ -145,7 +145,7 @@ def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
 def test_behind_another_pane_no_study_is_made(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(accuracy, "REST_MS", 1)
+    monkeypatch.setattr(controller, "REST_MS", 1)
     application.window.docks["accuracy"].raise_()
     qtbot.waitUntil(lambda: application.study.runner.is_running)
     application.window.docks["profile"].raise_()

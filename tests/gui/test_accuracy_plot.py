@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.views.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
-from occ_gui.views.axes import LogAxis
+from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
+from occ_gui.widgets.axes import LogAxis
 from occ_model.results import ACCURACY_PARTS, LEAST_ERROR, AccuracyPoint
 
 POINTS = (

@@ -6,12 +6,12 @@ import pytest
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers import advisor as module
-from occ_gui.controllers import map_work, reach_desk
-from occ_gui.state.advice import Advice, TheoryNumbers
-from occ_gui.views.advice_view import AdviceView
-from occ_gui.views.advice_words import AdviceWords
+from occ_gui.app.application import Application
+from occ_gui.detection_map import advice_controller as module
+from occ_gui.detection_map import wiring, worker
+from occ_gui.detection_map.advice import Advice, TheoryNumbers
+from occ_gui.detection_map.advice_sentences import AdviceWords
+from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Edge, Limits, Reach, Trial
 from occ_model.scene.scene import Scene
@@ -46,8 +46,8 @@ def advised(
     inline_workers: Any,
 ) -> Application:
     """Ask for advice, and wait for it."""
-    monkeypatch.setattr(reach_desk, "new_workers", lambda: inline_workers)
-    monkeypatch.setattr(map_work, "limits", found)
+    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
+    monkeypatch.setattr(worker, "limits", found)
     application.window.docks["map"].raise_()
     application.reach.map.set_seen(False)  # it is not what is looked at here
     application.detection.advise.click()
@@ -137,7 +137,7 @@ def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
         def close(self) -> None:
             pass
 
-    monkeypatch.setattr(reach_desk, "new_workers", Never)
+    monkeypatch.setattr(wiring, "new_workers", Never)
     monkeypatch.setattr(module, "_LOOK_MS", 5)
     application.detection.advise.click()
     advice = application.detection.advice

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from occ_gui.app import OVERLAYS, main
-from occ_gui.views.photo_overlay import MODES
+from occ_gui.app.command_line import OVERLAYS, main
+from occ_gui.picture.photo_overlay import MODES
 
 PROJECT = Path(__file__).resolve().parents[2]
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
@@ -24,8 +24,8 @@ NOISE = (0xCC, 0x79, 0xA7)
 
 COLD_START = """
 import sys
-from occ_gui.app import OVERLAYS, main
-from occ_gui.views.photo_overlay import MODES
+from occ_gui.app.command_line import OVERLAYS, main
+from occ_gui.picture.photo_overlay import MODES
 code = main(["--screenshot", sys.argv[1]])
 heavy = {"matplotlib", "scipy", "skimage"} & set(sys.modules)
 sys.exit(f"imported at start: {heavy}" if heavy else code)

@@ -14,9 +14,9 @@ from PySide6.QtWidgets import QApplication, QLabel, QMessageBox, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.state import gesture
-from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_gui.app.application import Application
+from occ_gui.scene import gesture
+from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.scene import Scene
 
 Picture = Callable[[QWidget], NDArray[np.uint8]]

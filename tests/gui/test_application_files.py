@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import occ_model as occ
-from occ_gui.application import Application
+from occ_gui.app.application import Application
 
 User = Any  # the fixture of that name
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PySide6.QtWidgets import QWidget
 
 import occ_model as occ
-from occ_gui.application import Application
+from occ_gui.app.application import Application
 from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name

@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.controllers import files as files_room
-from occ_gui.controllers import photo as photo_room
-from occ_gui.state.placement import Placement
+from occ_gui.app.application import Application
+from occ_gui.files import file_controller as files_room
+from occ_gui.photo import photo_controller as photo_room
+from occ_gui.picture.placement import Placement
 from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name

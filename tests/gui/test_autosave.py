@@ -9,13 +9,13 @@ import pytest
 from PySide6.QtCore import QSettings, QTimer
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers import autosave as autosave_room
-from occ_gui.controllers.autosave import Autosave
-from occ_gui.controllers.session_keeper import SessionKeeper
-from occ_gui.state.memory import Memory
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.session import Session
+from occ_gui.app.application import Application
+from occ_gui.files import autosave as autosave_room
+from occ_gui.files.autosave import Autosave
+from occ_gui.files.preferences import Memory
+from occ_gui.files.session import Session
+from occ_gui.files.session_keeper import SessionKeeper
+from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 from pytestqt.qtbot import QtBot
 
-from occ_gui.views import averaged_image
-from occ_gui.views.averaged_image import AveragedImage
+from occ_gui.picture import averaged_image
+from occ_gui.picture.averaged_image import AveragedImage
 
 Grey = NDArray[np.uint8]
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.bit_strip import BitStrip
+from occ_gui.decoding.bit_strip import BitStrip
 
 Picture = Callable[[Sequence[int], Sequence[int]], NDArray[np.uint8]]
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.tasks.cancellable import Cancellable, Progress
+from occ_gui.background.cancellable import Cancellable, Progress
 from occ_model.errors import MatchError
 
 PATIENCE_S = 10.0

@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.widgets.code_entry import CodeEntry
+from occ_gui.scene.code_entry import CodeEntry
+from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
 

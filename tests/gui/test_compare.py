@@ -9,12 +9,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QTableWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.pins import PinController
-from occ_gui.state.pinned import Pinned
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.compare_view import CompareView
+from occ_gui.app.application import Application
+from occ_gui.pins.compare_view import CompareView
+from occ_gui.pins.pin_controller import PinController
+from occ_gui.pins.pinned import Pinned
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
 SnapshotOf = Callable[..., Snapshot]

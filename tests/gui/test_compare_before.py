@@ -11,13 +11,13 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.before import BeforeController
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.before_wipe import BeforeWipe
-from occ_gui.views.picture_pane import PicturePane
-from occ_gui.views.profile_view import ProfileView
+from occ_gui.app.application import Application
+from occ_gui.picture.before_controller import BeforeController
+from occ_gui.picture.before_wipe import BeforeWipe
+from occ_gui.picture.picture_pane import PicturePane
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
 Grey = NDArray[np.uint8]

@@ -12,11 +12,11 @@ from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.controllers import comparison as comparison_room
-from occ_gui.controllers.comparison import ComparisonController
-from occ_gui.state.photo_profile import PhotoProfile
-from occ_gui.state.placement import Placement, PlacementStore
-from occ_gui.state.snapshot import Snapshot
+from occ_gui.photo import comparison_controller as comparison_room
+from occ_gui.photo.comparison_controller import ComparisonController
+from occ_gui.picture.placement import Placement, PlacementStore
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
 from occ_model.photo.reading.load import Photo

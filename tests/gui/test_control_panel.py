@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.control_panel import MAIN, ControlPanel
-from occ_gui.widgets.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
+from occ_gui.scene.control_panel import MAIN, ControlPanel
+from occ_gui.scene.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 

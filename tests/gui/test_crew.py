@@ -12,9 +12,9 @@ import pytest
 from pytestqt.qtbot import QtBot
 from worker_calls import count_for_ever, echo, fail, process_id
 
-from occ_gui.tasks.crew import Crew, Lane
-from occ_gui.tasks.parcel import Outcome, Parcel, Stage, Stages, Task
-from occ_gui.tasks.worker_processes import WorkerProcesses
+from occ_gui.background.crew import Crew, Lane
+from occ_gui.background.parcel import Outcome, Parcel, Stage, Stages, Task
+from occ_gui.background.worker_processes import WorkerProcesses
 
 PATIENCE_S = 10.0
 PRELOAD = "worker_calls"

@@ -11,13 +11,13 @@ from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.autosave import Autosave
-from occ_gui.controllers.explorations import ExplorationController
-from occ_gui.state.kept_file import LARGEST
-from occ_gui.state.memory import Memory
-from occ_gui.state.session import Session, keep_session, recall_session
-from occ_gui.views.exploration_view import ExplorationView
+from occ_gui.app.application import Application
+from occ_gui.explorations.exploration_controller import ExplorationController
+from occ_gui.explorations.exploration_view import ExplorationView
+from occ_gui.files.autosave import Autosave
+from occ_gui.files.kept_file import LARGEST
+from occ_gui.files.preferences import Memory
+from occ_gui.files.session import Session, keep_session, recall_session
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -98,7 +98,7 @@ def test_a_damaged_scene_of_a_crash_is_kept_aside(tmp_path: Path, qtbot: QtBot, 
 LOOK = """
 import sys
 from PySide6.QtCore import QTimer
-import occ_gui.app as app
+import occ_gui.app.command_line as app
 
 begin = app.start
 def start(*arguments):
@@ -163,7 +163,7 @@ def test_explorations_that_cannot_be_read_are_told_of(
     def fail() -> None:
         raise error
 
-    monkeypatch.setattr("occ_gui.controllers.explorations.explorations", fail)
+    monkeypatch.setattr("occ_gui.explorations.exploration_controller.explorations", fail)
     view = ExplorationView()
     qtbot.addWidget(view)
     ExplorationController(application.store, application.photos, view).set_seen(True)

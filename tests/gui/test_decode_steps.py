@@ -8,9 +8,9 @@ import pytest
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views import decode_steps
-from occ_gui.views.decode_steps import RunLengthPlot, SignalPlot
+from occ_gui.decoding import decode_steps
+from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import DecodeResult, RunHistogram
 
 SnapshotOf = Callable[..., Snapshot]

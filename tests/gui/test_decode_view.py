@@ -8,8 +8,8 @@ import pytest
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.decode_view import DecodeView
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import DecodeResult, Region
 
 SnapshotOf = Callable[..., Snapshot]

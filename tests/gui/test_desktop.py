@@ -9,14 +9,14 @@ from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.commands import commands_of, sheet_of
-from occ_gui.controllers.hold_brightness import HoldBrightness
-from occ_gui.state.gesture import new_gesture
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.views.command_palette import Command, CommandPalette
-from occ_gui.views.plots import Plot
-from occ_gui.views.shortcut_sheet import ShortcutSheet
+from occ_gui.app.application import Application
+from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.hold_brightness import HoldBrightness
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.widgets.plot import Plot
+from occ_gui.window.command_palette import Command, CommandPalette
+from occ_gui.window.commands import commands_of, sheet_of
+from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name

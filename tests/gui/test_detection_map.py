@@ -8,15 +8,15 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.controllers import detection_map as module
-from occ_gui.controllers import lattice_stages
-from occ_gui.controllers.detection_map import DetectionMapController
-from occ_gui.controllers.map_work import IMAGE_EFFECTS
-from occ_gui.state.rate_map import PointFacts, RateMap
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.settings_store import SettingsStore
-from occ_gui.tasks.crew import Crew
-from occ_gui.tasks.parcel import Outcome, Task
+from occ_gui.background.crew import Crew
+from occ_gui.background.parcel import Outcome, Task
+from occ_gui.detection_map import map_controller as module
+from occ_gui.detection_map import map_schedule
+from occ_gui.detection_map.map_controller import DetectionMapController
+from occ_gui.detection_map.rate_map import PointFacts, RateMap
+from occ_gui.detection_map.worker import IMAGE_EFFECTS
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 
@@ -87,7 +87,7 @@ def bench_of(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, inline_workers: Any
 ) -> Iterator[Callable[..., Bench]]:
     benches: list[Bench] = []
-    for place in (lattice_stages, module):
+    for place in (map_schedule, module):
         monkeypatch.setattr(place, "SHAPE", SHAPE)
         monkeypatch.setattr(place, "IMAGES", IMAGES)
 

@@ -10,15 +10,15 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers import reach_desk
-from occ_gui.controllers.map_work import PRELOAD
-from occ_gui.state.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice
-from occ_gui.tasks.worker_processes import WorkerProcesses
-from occ_gui.views.contours import zero_lines
-from occ_gui.views.map_colours import DIFFERENCES, RATES, painted
-from occ_gui.views.map_ticks import axis_title, ticks
-from occ_gui.views.map_view import MapView
+from occ_gui.app.application import Application
+from occ_gui.background.worker_processes import WorkerProcesses
+from occ_gui.detection_map import wiring
+from occ_gui.detection_map.axis_ticks import axis_title, ticks
+from occ_gui.detection_map.contours import zero_lines
+from occ_gui.detection_map.map_colours import DIFFERENCES, RATES, painted
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice
+from occ_gui.detection_map.worker import PRELOAD
 from occ_model.results import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -200,7 +200,7 @@ def test_closing_the_window_ends_its_processes(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     workers = WorkerProcesses(2, PRELOAD)
-    monkeypatch.setattr(reach_desk, "new_workers", lambda: workers)
+    monkeypatch.setattr(wiring, "new_workers", lambda: workers)
     application = Application(small_scene)
     application.window.show()
     application.window.docks["map"].raise_()

@@ -9,8 +9,8 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QComboBox
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.effect_table import BOUND, DECISION, EFFECT, REASON, TIME, EffectTable
+from occ_gui.accuracy.effect_table import BOUND, DECISION, EFFECT, REASON, TIME, EffectTable
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import Frame
 
 ROLE = Qt.ItemDataRole

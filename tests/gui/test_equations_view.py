@@ -9,11 +9,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.equations import EquationController
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.views import equation_text
-from occ_gui.views.equation_text import EquationText
+from occ_gui.app.application import Application
+from occ_gui.explanation import equation_text
+from occ_gui.explanation.equation_controller import EquationController
+from occ_gui.explanation.equation_text import EquationText
+from occ_gui.scene.scene_store import SceneStore
 from occ_model.results.teaching import Equation
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations

@@ -28,9 +28,9 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
-from occ_gui.application import Application
-from occ_gui.controllers.commands import entries, plain
-from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_gui.app.application import Application
+from occ_gui.scene.parameter_rows import QuantityRow
+from occ_gui.window.commands import entries, plain
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 

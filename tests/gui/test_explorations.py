@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app import PANES
-from occ_gui.application import Application
-from occ_gui.controllers import explorations as explorations_room
-from occ_gui.views.exploration_view import ExplorationView
+from occ_gui.app.application import Application
+from occ_gui.app.command_line import PANES
+from occ_gui.explorations import exploration_controller as explorations_room
+from occ_gui.explorations.exploration_view import ExplorationView
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations

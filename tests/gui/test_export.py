@@ -11,11 +11,11 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.controllers import export_work
-from occ_gui.controllers.detection_map import MapRequest
-from occ_gui.controllers.lattice_stages import SHAPE
-from occ_gui.state.rate_map import RateMap, lattice
+from occ_gui.app.application import Application
+from occ_gui.detection_map.map_controller import MapRequest
+from occ_gui.detection_map.map_schedule import SHAPE
+from occ_gui.detection_map.rate_map import RateMap, lattice
+from occ_gui.export import jobs
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.scene_inside import ENDINGS, scene_inside
 
@@ -217,7 +217,7 @@ def test_a_mistake_of_ours_while_drawing_is_a_sentence_and_the_next_export_works
         raise ZeroDivisionError("a mistake")
 
     with monkeypatch.context() as patched:
-        patched.setattr("occ_gui.controllers.export.export", broken)
+        patched.setattr("occ_gui.export.export_controller.export", broken)
         said = export(application, user, "profile", tmp_path / "a.png")
     assert said == "The export failed: ZeroDivisionError: a mistake."
     assert export(application, user, "profile", tmp_path / "a.png") == "Exported a.png"
@@ -261,13 +261,13 @@ def test_the_drawing_is_done_off_the_windows_thread(
     from PySide6.QtCore import QThread
 
     threads: list[bool] = []
-    work = export_work.export
+    work = jobs.export
 
-    def note(job: export_work.ExportJob) -> export_work.Exported:
+    def note(job: jobs.ExportJob) -> jobs.Exported:
         threads.append(QThread.currentThread() is application.thread())
         return work(job)
 
-    monkeypatch.setattr("occ_gui.controllers.export.export", note)
+    monkeypatch.setattr("occ_gui.export.export_controller.export", note)
     export(application, user, "profile", tmp_path / "a.csv")
     assert threads == [False]
     assert "matplotlib" in sys.modules

@@ -4,15 +4,15 @@ import subprocess
 import sys
 from pathlib import Path
 
-from occ_gui.controllers.export_folder import folder_aside, remove_left_behind
-from occ_gui.controllers.export_work import ExportJob, export
+from occ_gui.export.export_folder import folder_aside, remove_left_behind
+from occ_gui.export.jobs import ExportJob, export
 
 PROJECT = Path(__file__).resolve().parents[2]
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from occ_gui.controllers.export_folder import folder_aside
+from occ_gui.export.export_folder import folder_aside
 
 with folder_aside(Path(sys.argv[1])) as aside:
     (aside / "profile.png").write_bytes(b"half")

@@ -10,11 +10,11 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.exposure_column import ExposureController
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.column_picker import ColumnPicker
-from occ_gui.views.exposure_plot import ExposurePlot
+from occ_gui.app.application import Application
+from occ_gui.explanation.column_picker import ColumnPicker
+from occ_gui.explanation.exposure_controller import ExposureController
+from occ_gui.explanation.exposure_plot import ExposurePlot
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.scene import Scene
 from occ_model.teaching.exposure_window import exposure_window

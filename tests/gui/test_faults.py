@@ -14,10 +14,10 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.faults import Faults
-from occ_gui.views.averaged_image import AveragedImage
-from occ_gui.widgets.bit_strip import BitStrip
+from occ_gui.app.application import Application
+from occ_gui.app.error_reports import Faults
+from occ_gui.decoding.bit_strip import BitStrip
+from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.guarded_paint import guarded
 
 User = Any  # the fixture of that name
@@ -85,7 +85,7 @@ def test_an_exception_in_the_simulation_is_a_sentence_and_the_last_picture_stays
 ) -> None:
     shown = application.image.simulation.level_at(10, 10)
     with monkeypatch.context() as patched:
-        patched.setattr("occ_gui.controllers.simulation.simulate", broken)
+        patched.setattr("occ_gui.simulation.controller.simulate", broken)
         application.store.change(iso=333.0)
         user.rest()
         assert user.message == "The simulation failed: ZeroDivisionError: a mistake."

@@ -9,11 +9,11 @@ import pytest
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from occ_gui.controllers.files import FileController
-from occ_gui.controllers.photo import PhotoController
-from occ_gui.state.memory import Memory
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.snapshot import Snapshot
+from occ_gui.files.file_controller import FileController
+from occ_gui.files.preferences import Memory
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.files.writing import PICTURE_ENDINGS
 from occ_model.scene.scene import Scene
 

@@ -7,7 +7,7 @@ from typing import ClassVar
 from PySide6.QtCore import QObject
 from pytestqt.qtbot import QtBot
 
-from occ_gui.garbage import GarbageCollector
+from occ_gui.app.garbage_collection import GarbageCollector
 
 
 class Cycle:

@@ -3,8 +3,8 @@
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state import gesture
-from occ_gui.state.gesture import Gestures, new_gesture
+from occ_gui.scene import gesture
+from occ_gui.scene.gesture import Gestures, new_gesture
 
 
 def test_changes_without_a_pause_are_one_gesture_and_no_others() -> None:

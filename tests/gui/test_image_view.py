@@ -10,12 +10,12 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.placement import Placement
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views.averaged_image import AveragedImage
-from occ_gui.views.image_view import ImageView
-from occ_gui.views.photo_overlay import MODES
-from occ_gui.views.picture_pane import PicturePane
+from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.picture.image_view import ImageView
+from occ_gui.picture.photo_overlay import MODES
+from occ_gui.picture.picture_pane import PicturePane
+from occ_gui.picture.placement import Placement
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo
 from occ_model.results import DecodeResult, Region
 

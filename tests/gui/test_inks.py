@@ -6,9 +6,9 @@ from PySide6.QtGui import QColor, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QCheckBox
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.theme import ThemeController, palette_of
-from occ_gui.widgets.inks import contrast, pen_on, seen_on
+from occ_gui.app.application import Application
+from occ_gui.widgets.contrast import contrast, pen_on, seen_on
+from occ_gui.window.theme import ThemeController, palette_of
 from occ_model import colours
 
 CURVES = [getattr(colours, name) for name in dir(colours) if name.isupper()]

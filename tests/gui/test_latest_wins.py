@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.tasks.latest_wins import LatestWins
+from occ_gui.background.latest_wins import LatestWins
 
 PATIENCE_S = 10.0
 

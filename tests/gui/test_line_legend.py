@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.line_legend import LineLegend, Sample
+from occ_gui.widgets.legend import LineLegend, Sample
 
 
 @pytest.fixture

@@ -47,7 +47,7 @@ START = """
 import ctypes
 import locale
 from PySide6.QtCore import QTimer
-import occ_gui.app as app
+import occ_gui.app.command_line as app
 
 begin = app.start
 

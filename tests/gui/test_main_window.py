@@ -21,9 +21,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.app import PANES
-from occ_gui.application import Application
-from occ_gui.views.photo_overlay import MODES
+from occ_gui.app.application import Application
+from occ_gui.app.command_line import PANES
+from occ_gui.picture.photo_overlay import MODES
 
 ON_DEMAND = ("explorations",)
 """Docks that are not shown until they are asked for."""

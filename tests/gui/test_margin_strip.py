@@ -11,16 +11,16 @@ from PySide6.QtWidgets import QApplication, QSlider, QStyle, QStyleOptionSlider
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.controllers import margins as module
-from occ_gui.controllers.margins import MarginController
-from occ_gui.state.memory import Memory
-from occ_gui.state.rate_map import lattice
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.settings_store import SettingsStore
-from occ_gui.tasks.crew import Crew
-from occ_gui.widgets.control_panel import MAIN
-from occ_gui.widgets.margin_strip import MarginStrip
+from occ_gui.app.application import Application
+from occ_gui.background.crew import Crew
+from occ_gui.detection_map import slider_strip_controller as module
+from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.slider_strip import MarginStrip
+from occ_gui.detection_map.slider_strip_controller import MarginController
+from occ_gui.files.preferences import Memory
+from occ_gui.scene.control_panel import MAIN
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
 from occ_model.scene.scene import Scene
 
 POSITIONS = 9

@@ -12,10 +12,10 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.controllers import matching as matching_room
-from occ_gui.controllers.matching import SQUARE_WAVE, MatchController
-from occ_gui.state.match_choice import MatchChoice
-from occ_gui.state.scene_store import SceneStore
+from occ_gui.photo import match_controller as matching_room
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.match_controller import SQUARE_WAVE, MatchController
+from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, Region, Stripes

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QSettings
 
-from occ_gui.state.memory import MOST_RECENT, Memory
+from occ_gui.files.preferences import MOST_RECENT, Memory
 
 
 @pytest.fixture

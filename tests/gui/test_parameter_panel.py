@@ -5,8 +5,8 @@ from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.parameter_panel import ParameterPanel
-from occ_gui.widgets.parameter_rows import CountRow, QuantityRow
+from occ_gui.scene.parameter_panel import ParameterPanel
+from occ_gui.scene.parameter_rows import CountRow, QuantityRow
 from occ_model.scene.scene import Scene
 
 NAMES = ("distance", "bits", "readout_time")

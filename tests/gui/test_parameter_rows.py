@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.parameter_rows import (
+from occ_gui.scene.parameter_rows import (
     ChoiceRow,
     CountRow,
     PatternRow,

@@ -11,8 +11,8 @@ from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.controllers import photo as photo_room
-from occ_gui.controllers.photo import PhotoController, PhotoReading
+from occ_gui.photo import photo_controller as photo_room
+from occ_gui.photo.photo_controller import PhotoController, PhotoReading
 from occ_model.photo.reading.load import Photo
 
 Grey = NDArray[np.uint8]

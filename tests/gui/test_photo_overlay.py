@@ -11,9 +11,9 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.placement import Placement
-from occ_gui.views.averaged_image import AveragedImage
-from occ_gui.views.photo_overlay import PhotoOverlay, rect_of
+from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.picture.photo_overlay import PhotoOverlay, rect_of
+from occ_gui.picture.placement import Placement
 
 Grey = NDArray[np.uint8]
 SIDE = 200

@@ -10,11 +10,11 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.state.match_choice import MatchChoice
-from occ_gui.state.placement import Placement
-from occ_gui.views.match_form import SQUARE_FREQUENCY
-from occ_gui.views.match_result import with_uncertainty
-from occ_gui.views.photo_view import PhotoView
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.match_form import SQUARE_FREQUENCY
+from occ_gui.photo.match_result import with_uncertainty
+from occ_gui.photo.photo_view import PhotoView
+from occ_gui.picture.placement import Placement
 from occ_model.photo.match import ESTIMATES, SENT
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 from occ_model.results import Match, Region, Stripes

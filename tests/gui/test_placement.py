@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_gui.state.placement import LARGEST_SCALE, LEAST_SCALE, Placement, PlacementStore
+from occ_gui.picture.placement import LARGEST_SCALE, LEAST_SCALE, Placement, PlacementStore
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtGui import QPalette
 from pytestqt.qtbot import QtBot
 
-from occ_gui.views.plots import Plot, new_plot
+from occ_gui.widgets.plot import Plot, new_plot
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 import occ_model as occ
-from occ_gui.application import Application
+from occ_gui.app.application import Application
 from occ_model.scene.presets import (
     USER_FOLDER,
     delete_preset,

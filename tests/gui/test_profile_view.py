@@ -11,10 +11,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.photo_profile import PhotoProfile
-from occ_gui.state.snapshot import Snapshot
-from occ_gui.views import profile_view
-from occ_gui.views.profile_view import ProfileView
+from occ_gui.profile import profile_view
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, DecodeResult
 

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.tasks.progressive import Progressive
+from occ_gui.background.progressive import Progressive
 
 PATIENCE_S = 10.0
 

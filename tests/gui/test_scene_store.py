@@ -3,8 +3,8 @@
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.state.gesture import NO_GESTURE, new_gesture
-from occ_gui.state.scene_store import SceneStore
+from occ_gui.scene.gesture import NO_GESTURE, new_gesture
+from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
 

@@ -16,10 +16,10 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.application import Application
-from occ_gui.controllers.autosave import Autosave
-from occ_gui.state.memory import Memory
-from occ_gui.state.session import Session, recall_session
+from occ_gui.app.application import Application
+from occ_gui.files.autosave import Autosave
+from occ_gui.files.preferences import Memory
+from occ_gui.files.session import Session, recall_session
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -205,7 +205,7 @@ def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Start, tmp_path: Pa
 RUN = """
 import sys
 from PySide6.QtCore import QTimer
-import occ_gui.app as app
+import occ_gui.app.command_line as app
 
 begin = app.start
 def start(*arguments):
@@ -219,7 +219,7 @@ sys.exit(app.main(["--set", "rows=100"]))
 LOOK = """
 import sys
 from PySide6.QtCore import QTimer
-import occ_gui.app as app
+import occ_gui.app.command_line as app
 
 begin = app.start
 def start(*arguments):

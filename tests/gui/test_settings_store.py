@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_gui.state.settings_store import SettingsStore
+from occ_gui.scene.settings_store import SettingsStore
 from occ_model.scene.simulation_settings import SimulationSettings
 
 

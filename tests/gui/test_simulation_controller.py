@@ -10,11 +10,11 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.controllers import simulation
-from occ_gui.controllers.simulation import SimulationController, simulate
-from occ_gui.state.scene_store import SceneStore
-from occ_gui.state.settings_store import SettingsStore
-from occ_gui.state.snapshot import Snapshot
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.simulation import controller
+from occ_gui.simulation.controller import SimulationController, simulate
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 
@@ -151,7 +151,7 @@ def test_simulating_and_reading_are_timed_apart_and_nothing_else_with_them(
     small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # A clock that goes on by one at every look: what lies between two looks is one.
-    monkeypatch.setattr(simulation, "perf_counter", count().__next__)
+    monkeypatch.setattr(controller, "perf_counter", count().__next__)
     timings = {"transmitter": 2.0, "camera": 3.0}
     frame = replace(occ.render(small_scene), timings=timings)
     monkeypatch.setattr(occ, "render", lambda scene, **settings: frame)

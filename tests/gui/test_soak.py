@@ -17,9 +17,9 @@ from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_explorations
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers import explorations as explorations_room
-from occ_gui.garbage import GarbageCollector
+from occ_gui.app.application import Application
+from occ_gui.app.garbage_collection import GarbageCollector
+from occ_gui.explorations import exploration_controller as explorations_room
 
 ACTIONS = int(os.environ.get("OCC_SOAK", "300"))
 _LONG = 5_000

@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_gui.state.spoken import spoken
+from occ_gui.app.wording import spoken
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import PARAMETERS, quantity
 

@@ -14,13 +14,13 @@ from PySide6.QtGui import QTextDocument
 from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.commands import plain
-from occ_gui.controllers.document import Document
-from occ_gui.controllers.explorations import ExplorationController
-from occ_gui.views.exploration_view import ExplorationView
+from occ_gui.app.application import Application
+from occ_gui.explorations.exploration_controller import ExplorationController
+from occ_gui.explorations.exploration_view import ExplorationView
+from occ_gui.files.document import Document
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip
+from occ_gui.window.commands import plain
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
@@ -119,7 +119,7 @@ def test_an_explorations_title_is_text(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hostile = tuple(replace(each, title=f"{TAG} & co") for each in explorations())
-    monkeypatch.setattr("occ_gui.controllers.explorations.explorations", lambda: hostile)
+    monkeypatch.setattr("occ_gui.explorations.exploration_controller.explorations", lambda: hostile)
     view = ExplorationView()
     qtbot.addWidget(view)
     controller = ExplorationController(application.store, application.photos, view)

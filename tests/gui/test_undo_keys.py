@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.widgets.parameter_rows import QuantityRow
+from occ_gui.app.application import Application
+from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.scene import Scene
 
 User = Any  # the fixture of that name

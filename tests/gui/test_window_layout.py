@@ -24,8 +24,8 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.views.photo_overlay import MODES
+from occ_gui.app.application import Application
+from occ_gui.picture.photo_overlay import MODES
 
 User = Any  # the fixture of that name
 

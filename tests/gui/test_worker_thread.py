@@ -11,9 +11,9 @@ import pytest
 from pytestqt.qtbot import QtBot
 from worker_calls import count_for_ever, echo, process_id
 
-from occ_gui.tasks.crew import Crew, Lane
-from occ_gui.tasks.parcel import Parcel, Stage, Stages
-from occ_gui.tasks.worker_processes import WorkerProcesses
+from occ_gui.background.crew import Crew, Lane
+from occ_gui.background.parcel import Parcel, Stage, Stages
+from occ_gui.background.worker_processes import WorkerProcesses
 
 START = "No processes can be started ("
 END = "): the window does their work itself, and answers more slowly meanwhile."

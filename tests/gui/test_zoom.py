@@ -11,10 +11,10 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.application import Application
-from occ_gui.controllers.files import sample_photos
-from occ_gui.views.axes import LogAxis
-from occ_gui.views.plots import new_plot
+from occ_gui.app.application import Application
+from occ_gui.files.file_controller import sample_photos
+from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.plot import new_plot
 
 NOTCHES = 200
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
-from occ_gui.app import read_command_line as read_window_command_line
+from occ_gui.app.command_line import read_command_line as read_window_command_line
 from occ_model.cli import main
 from occ_model.commands import files, read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file

@@ -1,0 +1,1 @@
+"""Effects, their costs, and accuracy against time."""

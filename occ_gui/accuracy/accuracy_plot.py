@@ -1,0 +1,256 @@
+"""Error over time, point by point, as a study measures them."""
+
+import math
+from collections.abc import Sequence
+
+import pyqtgraph as pg
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QColor, QPalette, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+
+from occ_gui.accuracy.point_numbers import PointNumbers
+from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.plot import BAND, NOISE, PHOTO, SIMULATION, marker, new_plot, thin
+from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
+
+SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "d"), strict=True))
+COLOURS: dict[str, QColor] = dict(
+    zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, NOISE), strict=True)
+)
+
+_FLOOR = round(math.log10(LEAST_ERROR))
+"""The power of ten that smaller errors are drawn at."""
+
+_LEAST_HEIGHT = 56
+"""Pixels: in a low window all panes have to share them."""
+
+_LABEL_GAP = 14
+"""Pixels between an axis, its numbers and its label."""
+
+_LADDER = "effects"
+"""The part whose points are numbered."""
+
+_FAINT = 0.3
+"""Opacity of what is not of the scene as it is."""
+
+_KEY_FROM = 640
+"""Width in pixels from which the names of the numbered points stand beside the plot."""
+
+_SAMPLE = QSize(14, 14)
+
+_MARGIN = 0.35
+"""Powers of ten round the points, at least."""
+
+_RING = 10.0
+"""Pixels that a ring needs on each side."""
+
+_FARTHEST_POWER = 12.0
+"""The power of ten of milliseconds or levels, or of one over it, that can be brought into view."""
+
+_LEAST_POWERS = 0.01
+"""Powers of ten across which the plot can be zoomed in."""
+
+
+class AccuracyPlot(QWidget):
+    """What each way of simulating costs in time, and how wrong it is.
+
+    Until new points come, the last complete ones stay, faint.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._points: list[AccuracyPoint] = []
+        self._shown: Sequence[AccuracyPoint] = ()
+        self._complete: tuple[AccuracyPoint, ...] = ()
+        self._measuring = False
+        self._outdated = False
+        self._follows = True
+        self.title = ElidedLabel(self.tr("Error over time"))
+        self.plot = new_plot(
+            self.tr("Error over time"),
+            self.tr("time (ms)"),
+            self.tr("levels"),
+            self.palette(),
+            left=LogAxis("left", _FLOOR),
+            bottom=LogAxis("bottom"),
+        )
+        for side in ("left", "bottom"):
+            self.plot.limit(side, _FARTHEST_POWER, _LEAST_POWERS)
+        box = self.plot.getViewBox()
+        box.sigRangeChangedManually.connect(self._stop_following)
+        box.sigResized.connect(self._fit)
+        self.plot.setMinimumHeight(_LEAST_HEIGHT)
+        # As wide as its widest number and the label, which pyqtgraph would find out too late.
+        widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
+        self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
+        self._make_items()
+        self._numbers = PointNumbers(self.plot)
+        self._make_legend()
+        self._lay_out()
+        self._fit()
+
+    def _make_items(self) -> None:
+        self.lines = {part: pg.PlotCurveItem(pen=thin(COLOURS[part])) for part in CHAINED_PARTS}
+        self.scatters = {
+            part: pg.ScatterPlotItem(
+                symbol=SYMBOLS[part], size=8, brush=COLOURS[part], pen=None,
+                hoverable=True, tip=lambda data, **_: _describe(data),
+            )
+            for part in ACCURACY_PARTS
+        }  # fmt: skip
+        self.rings = pg.ScatterPlotItem(symbol="o", size=15, brush=None)
+        self._floor = pg.InfiniteLine(_FLOOR, angle=0)
+        for item in (self._floor, *self.lines.values(), *self.scatters.values(), self.rings):
+            self.plot.addItem(item, ignoreBounds=True)
+
+    def _make_legend(self) -> None:
+        self.legend = LineLegend()
+        words = {
+            "integration": self.tr("exposure"),
+            "effects": self.tr("effects"),
+            "path": self.tr("path"),
+            "noise": self.tr("noise"),
+        }
+        for part, meaning in ACCURACY_PARTS.items():
+            sample = marker(SYMBOLS[part], 8, COLOURS[part])
+            self.legend.add_sample(part, sample, _SAMPLE, words[part], meaning)
+        self.legend.add_sample(
+            "current", marker("o", 12, None), _SAMPLE, self.tr("now"),
+            self.tr("The settings at hand."),
+        )  # fmt: skip
+        self.plot.dress_with(self._dress)
+
+    def _dress(self, palette: QPalette) -> None:
+        ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5)
+        self.rings.setPen(ring)
+        for part, scatter in self.scatters.items():
+            scatter.setBrush(seen_on(palette, COLOURS[part]))
+        for part, line in self.lines.items():
+            line.setPen(thin(seen_on(palette, COLOURS[part])))
+        self._numbers.set_colour(seen_on(palette, COLOURS[_LADDER]))
+        grey = palette.color(QPalette.ColorRole.Mid)
+        self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
+
+    def _lay_out(self) -> None:
+        self._fit_button = QToolButton()
+        self._fit_button.setText(self.tr("Fit"))
+        self._fit_button.setAutoRaise(True)
+        self._fit_button.setToolTip(self.tr("Show all points."))
+        self._fit_button.clicked.connect(self._follow)
+        self.key = QLabel()
+        self.key.setTextFormat(Qt.TextFormat.PlainText)
+        self.key.setAccessibleName(self.tr("Numbered points"))
+        self.key.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.key.hide()
+        head = QHBoxLayout()
+        head.addWidget(self.title, 1)
+        head.addWidget(self._fit_button)
+        body = QHBoxLayout()
+        body.addWidget(self.plot, 1)
+        body.addWidget(self.key)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(2)
+        layout.addLayout(head)
+        layout.addLayout(body, 1)
+        layout.addWidget(self.legend, 0, Qt.AlignmentFlag.AlignLeft)
+
+    @property
+    def measured(self) -> tuple[AccuracyPoint, ...]:
+        """All points of the scene as it is; none while they are not complete."""
+        return () if self._measuring or self._outdated else self._complete
+
+    def show_study_begun(self) -> None:
+        """Tell that points of the scene as it is are on their way."""
+        self._measuring, self._outdated, self._points = True, False, []
+        self._say(self.tr("measuring…"))
+
+    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
+        """Show one more point, which is so much of so many."""
+        self._points.append(point)
+        self._draw(self._points, 1.0)
+        self._say(self.tr("measuring… {number} of {total}").format(number=number, total=total))
+
+    def show_study_finished(self) -> None:
+        """Tell that there are no more points."""
+        self._measuring, self._complete = False, tuple(self._points)
+        self._draw(self._points, 1.0)
+        self._say(self.tr("measured"))
+
+    def show_study_outdated(self) -> None:
+        """Tell that what is shown is not of the scene as it is, and that nothing more comes."""
+        if self._outdated:  # at every move of a slider
+            return
+        stopped, self._measuring, self._outdated = self._measuring, False, True
+        self._draw(self._complete or self._points, _FAINT)
+        if stopped:
+            self._say(self.tr("stopped"))
+        elif self._complete:
+            self._say(self.tr("of the scene before"))
+
+    def show_study_failed(self, sentence: str) -> None:
+        """Tell why no more points come."""
+        self.show_study_outdated()
+        self._say(sentence)
+
+    def _say(self, state: str) -> None:
+        self.title.set_full_text(self.tr("Error over time: {state}").format(state=state))
+
+    def _draw(self, points: Sequence[AccuracyPoint], opacity: float) -> None:
+        self._shown = points
+        for part in ACCURACY_PARTS:
+            of_part = [point for point in points if point.part == part]
+            self.scatters[part].setData(*_places(of_part), data=of_part)
+            self.scatters[part].setOpacity(opacity)
+        for part, line in self.lines.items():
+            line.setData(*_places([p for p in points if p.part == part and not p.current]))
+            line.setOpacity(opacity)
+        self.rings.setData(*_places([point for point in points if point.current]))
+        self.rings.setOpacity(opacity)
+        ladder = [point for point in points if point.part == _LADDER]
+        others = [point for point in points if point.part != _LADDER]
+        self._numbers.show(*_places(ladder), zip(*_places(others), strict=True))
+        self._numbers.set_opacity(opacity)
+        self.key.setText("\n".join(f"{n}  {point.name}" for n, point in enumerate(ladder)))
+        self._show_key()
+        self._fit()
+
+    def _follow(self) -> None:
+        self._follows = True
+        self._fit()
+
+    def _stop_following(self) -> None:
+        self._follows = False
+
+    def _fit(self) -> None:
+        """Show all points; while more come, those before as well, so that nothing jumps."""
+        if not self._follows:
+            return
+        before = self._complete if self._measuring else ()
+        xs, ys = _places((*self._shown, *before))
+        box = self.plot.getViewBox()
+        box.setXRange(min(xs, default=-2.0) - _MARGIN, max(xs, default=3.0) + _MARGIN, padding=0)
+        top = max(ys, default=2.0)
+        margin = max(_MARGIN, _RING * (top - _FLOOR) / max(box.height() - 2 * _RING, _RING))
+        box.setYRange(_FLOOR - margin, top + margin, padding=0)
+
+    def _show_key(self) -> None:
+        self.key.setVisible(self.width() >= _KEY_FROM and bool(self.key.text()))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Show the names of the numbered points where there is room."""
+        super().resizeEvent(event)
+        self._show_key()
+
+
+def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
+    """Give the logarithms of times in milliseconds and of errors in levels."""
+    times = [math.log10(max(1e3 * point.seconds, 1e-6)) for point in points]
+    return times, [math.log10(max(point.error, LEAST_ERROR)) for point in points]
+
+
+def _describe(point: AccuracyPoint) -> str:
+    return f"{point.name}: {1e3 * point.seconds:.3g} ms, {point.error:.3g} levels"

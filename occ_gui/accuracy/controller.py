@@ -1,0 +1,155 @@
+"""Measure what accuracy costs in time, while the scene is at rest and somebody looks."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from PySide6.QtCore import QObject, QTimer
+
+from occ_gui.background.progressive import Progressive
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.request import SimulationRequest
+from occ_model.results import AccuracyPoint
+from occ_model.study.accuracy import accuracy, point_count
+
+REST_MS = 700
+"""How long the scene must not have moved."""
+
+
+class AccuracyPane(Protocol):
+    """A pane that shows the points of a study as they come."""
+
+    def show_study_begun(self) -> None:
+        """Tell that points of the scene as it is are on their way."""
+
+    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
+        """Show one more point, which is so much of so many."""
+
+    def show_study_finished(self) -> None:
+        """Tell that there are no more points."""
+
+    def show_study_outdated(self) -> None:
+        """Tell that what is shown is not of the scene as it is, and that nothing more comes."""
+
+    def show_study_failed(self, sentence: str) -> None:
+        """Tell why no more points come."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """One point of a study, and how many there will be."""
+
+    point: AccuracyPoint
+    total: int
+
+
+def measure(request: SimulationRequest) -> Iterator[Measured]:
+    """Measure point by point.
+
+    Raises
+    ------
+    ProjectionError
+        The scene has no picture.
+    """
+    total = point_count(request.scene, request.settings)
+    for point in accuracy(request.scene, request.settings):
+        yield Measured(point, total)
+
+
+class AccuracyController(QObject):
+    """Starts the study when nothing has moved for a while, and ends it when something does.
+
+    It never runs beside the simulation of a picture: both would be slower, and its times wrong.
+
+    Parameters
+    ----------
+    scenes, settings
+        What is measured.
+    simulation
+        Goes first.
+    pane
+        Shows the points; nothing is measured until it is said to be seen.
+    """
+
+    def __init__(
+        self,
+        scenes: SceneStore,
+        settings: SettingsStore,
+        simulation: SimulationController,
+        pane: AccuracyPane,
+    ) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self._settings = settings
+        self._simulation = simulation
+        self._pane = pane
+        self._seen = False
+        self._done: SimulationRequest | None = None
+        self._count = 0
+        self._rest = QTimer(self, singleShot=True)
+        self._rest.timeout.connect(self._start)
+        self.runner: Progressive[SimulationRequest, Measured] = Progressive(
+            measure, "accuracy study"
+        )
+        self.runner.item.connect(self._show)
+        self.runner.finished.connect(self._finish)
+        self.runner.failed.connect(self._fail)
+        for store in (scenes, settings):
+            store.changed.connect(self._move_on)
+        simulation.runner.idle.connect(self._wait_for_rest)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being measured or about to be."""
+        return not (self._rest.isActive() or self.runner.is_running)
+
+    def _request(self) -> SimulationRequest:
+        return SimulationRequest(self._scenes.scene, self._settings.settings)
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the points."""
+        self._seen = seen
+        if seen:
+            self._wait_for_rest()
+            return
+        self._rest.stop()
+        if self.runner.is_running:
+            self.runner.cancel()
+            self._pane.show_study_outdated()
+
+    def _move_on(self) -> None:
+        self._rest.stop()
+        self.runner.cancel()
+        self._done = None
+        self._pane.show_study_outdated()
+        self._wait_for_rest()
+
+    def _wait_for_rest(self) -> None:
+        if self._seen and not self.runner.is_running and self._done is None:
+            self._rest.start(REST_MS)
+
+    def _start(self) -> None:
+        if not self._simulation.runner.is_idle:
+            return  # once it is, there is another wait
+        self._count = 0
+        self.runner.start(self._request())
+        self._pane.show_study_begun()
+
+    def _show(self, measured: Measured) -> None:
+        self._count += 1
+        self._pane.show_point(measured.point, self._count, measured.total)
+
+    def _finish(self) -> None:
+        self._done = self._request()
+        self._pane.show_study_finished()
+
+    def _fail(self, sentence: str) -> None:
+        self._done = self._request()  # it would fail again
+        self._pane.show_study_failed(sentence)
+
+    def stop(self) -> None:
+        """Measure no more."""
+        self._rest.stop()
+        self.runner.stop()

@@ -1,0 +1,299 @@
+"""The one place where parts are put together."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QSettings
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMessageBox
+
+import occ_model as occ
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.app.desktop import Desktop
+from occ_gui.app.teaching_desk import TeachingDesk
+from occ_gui.app.wording import spoken
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.slider_strips import MarginStrips
+from occ_gui.detection_map.wiring import ReachDesk
+from occ_gui.files.file_controller import FileController, sample_photos
+from occ_gui.files.preferences import Memory
+from occ_gui.files.preset_controller import PresetController
+from occ_gui.photo.photo_view import PhotoView
+from occ_gui.photo.wiring import PhotoDesk
+from occ_gui.picture.image_view import ImageView
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.window.main_window import MainWindow
+from occ_model.effects.registry import EFFECTS
+from occ_model.photo.reading.load import Photo
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results import Match
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+# What a sentence in the status line can be shown until.
+_CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
+
+
+class Application(QObject):
+    """Store, controllers, views and window, connected.
+
+    Parameters
+    ----------
+    scene
+        The scene to begin with.
+    settings
+        How it is simulated at first.
+    memory
+        What is remembered from one start to the next; by default nothing.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        settings: SimulationSettings = FIRST_SETTINGS,
+        memory: QSettings | None = None,
+    ) -> None:
+        super().__init__()
+        self.store, self.settings = SceneStore(scene), SettingsStore(settings)
+        self.memory = Memory(memory)
+        # The first picture is simulated while the panes that show it are made.
+        self.simulation = SimulationController(self.store, self.settings)
+        effects = [name for effect in EFFECTS for name in effect.parameters]
+        self.controls = ControlPanel([], effects)
+        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
+        self.accuracy, self.photo = AccuracyView(), PhotoView()
+        self.detection = MapView(tuple(DECODERS))
+        self.margins = MarginStrips(self.controls.main_rows())
+        self.window = MainWindow(
+            self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
+            self.detection, undo_stack=self.store.undo_stack,
+        )  # fmt: skip
+        self.desk = PhotoDesk(self.store, self.image, self.profile, self.photo)
+        self.photos = self.desk.photos
+        self.presets = PresetController(self.window, self.store, self.desk.matching)
+        self.files = FileController(self.window, self.store, self.photos, self.memory)
+        self.teaching = TeachingDesk(self.window, self.store, self.photos, self.image, self.profile)
+        # What was before, and the comparison, go before the profile, which is drawn with them.
+        first = (self.image, self.teaching, self.desk.comparison)
+        views = (*first, self.profile, self.decode, self.accuracy)
+        self.simulation.show_in([*views, self.files], [self.image])
+        self.study = AccuracyController(
+            self.store, self.settings, self.simulation, self.accuracy.plot
+        )
+        self.reach = ReachDesk(self.store, self.settings, self.detection, self.margins)
+        self.desktop = Desktop(self)
+        self._photo_path: Path | None = None
+        self._match_next, self._front_next = False, True
+        self._connect_scene()
+        self._connect_settings()
+        self._connect_photo()
+        self._connect_menus()
+        self._connect_margins()
+        self._list_presets()
+        self._list_recent()
+        self.window.menus.show_samples(sample_photos(), self.files.open_sample)
+        self._show_scene(scene)
+        self._show_settings(settings)
+
+    def _connect_scene(self) -> None:
+        self.controls.edited.connect(self._edit)
+        self.controls.preset_chosen.connect(self.presets.load)
+        self.presets.changed.connect(self._list_presets)
+        self.presets.said.connect(self.window.say)
+        self.store.changed.connect(self._show_scene)
+        self.store.refused.connect(self._refuse)
+        self.controls.refused.connect(self._say_refusal)
+        self.simulation.shown.connect(self._on_shown)
+        self.simulation.failed.connect(self._say_failure)
+        self.files.said.connect(self.window.say)
+        self.teaching.said.connect(self._say_refusal)
+        self.window.closing.connect(self.stop)
+
+    def _connect_settings(self) -> None:
+        self.accuracy.tolerance_edited.connect(self._edit_tolerance)
+        self.accuracy.observable_chosen.connect(self.settings.set_observable)
+        self.accuracy.noise_chosen.connect(self.settings.set_noise)
+        self.accuracy.effect_switched.connect(self.settings.force)
+        self.accuracy.refused.connect(self._say_refusal)
+        self.accuracy.shown.connect(self.study.set_seen)
+        self.accuracy.plan_changed.connect(self.window.show_plan_change)
+        self.settings.changed.connect(self._show_settings)
+        self.settings.refused.connect(self._refuse_setting)
+
+    def _connect_photo(self) -> None:
+        self.photos.failed.connect(self._say_photo_failure)
+        self.photos.opened.connect(self._on_photo)
+        self.photos.begun.connect(self.window.reading.begin)
+        self.photos.progressed.connect(self.window.reading.show_progress)
+        self.photos.ended.connect(self.window.reading.end)
+        self.window.reading.cancelled.connect(self._cancel_photo)
+        self.photo.open_asked.connect(self.files.ask_for_photo)
+        self.photo.form.refused.connect(self._say_refusal)
+        self.photo.form.edited.connect(self._edit)
+        self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
+        self.desk.matching.matched.connect(self._on_match)
+        self.desk.matching.failed.connect(self._say_match_failure)
+        self.memory.changed.connect(self._list_recent)
+        self.window.dropped.connect(self.files.open_dropped)
+
+    def _connect_menus(self) -> None:
+        for name, slot in {
+            "open_photo": self.files.ask_for_photo,
+            "close_photo": self.photos.close,
+            "open_scene": self.files.ask_for_scene,
+            "save_picture": self.files.ask_to_save_picture,
+            "delete_preset": self.presets.ask_to_delete,
+            "match": self._match,
+            "apply_match": self.desk.matching.apply,
+            "save_match": self.presets.ask_to_save_match,
+            "use_settings": self.desk.matching.use_notes,
+            "fit": self.image.fit,
+            "about": self._tell_about,
+        }.items():
+            self.window.actions_by_name[name].triggered.connect(slot)
+        menus = self.window.menus
+        menus.scan_axes.triggered.connect(lambda action: self.photos.scan_along(action.data()))
+        self.photos.reading_changed.connect(
+            lambda reading: menus.show_choice(menus.scan_axes, reading.scan_axis)
+        )
+        menus.modes.triggered.connect(self._show_mode)
+        self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
+
+    def _connect_margins(self) -> None:
+        shown = self.window.actions_by_name["margins"]
+        shown.toggled.connect(self.margins.set_shown)
+        shown.triggered.connect(self.memory.keep_margins)
+        self.margins.set_shown(self.memory.margins)
+        shown.setChecked(self.memory.margins)
+        self.decode.decoder_chosen.connect(self.reach.margins.choose_decoder)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that was asked for is shown."""
+        return self.simulation.runner.is_idle and self.desk.is_idle and self.desktop.is_idle
+
+    def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
+        """Open a photo.
+
+        Parameters
+        ----------
+        path
+            The file.
+        match
+            Whether to match it and to put what is found into the scene.
+        front
+            Whether to bring its pane to the front.
+        """
+        self._match_next, self._front_next = match, front
+        self.photos.open(path)
+
+    def show_mode(self, mode: str) -> None:
+        """Show the photo beside the simulated picture or on it."""
+        self.image.set_mode(mode)
+        self.window.menus.show_choice(self.window.menus.modes, mode)
+
+    def _show_mode(self, action: QAction) -> None:
+        self.image.set_mode(action.data())
+
+    def _match(self) -> None:
+        self.window.bring_to_front("photo")
+        self.desk.match()
+
+    def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
+        self.window.happened(_CHANGE)  # also where the value that holds is entered again
+        self.desktop.brightness.change(gesture, name, value)
+
+    def _show_scene(self, scene: Scene) -> None:
+        self.window.happened(_CHANGE)
+        self.controls.show_scene(scene)
+        self.controls.show_preset(self.presets.name_of(scene))
+
+    def _list_presets(self) -> None:
+        self.controls.list_presets(self.presets.titles, self.presets.unreadable)
+        self.controls.show_preset(self.presets.name_of(self.store.scene))
+
+    def _list_recent(self) -> None:
+        memory, menus = self.memory, self.window.menus
+        menus.show_recent(memory.files, self.files.open_recent, memory.clear)
+
+    def _edit_tolerance(self, tolerance: float) -> None:
+        self.window.happened(_CHANGE)  # also where the value that holds is entered again
+        self.settings.set_tolerance(tolerance)
+
+    def _show_settings(self, settings: SimulationSettings) -> None:
+        self.window.happened(_CHANGE)
+        self.accuracy.show_settings(settings)
+
+    def _refuse_setting(self, sentence: str) -> None:
+        self.accuracy.show_settings(self.settings.settings)
+        self._say_refusal(sentence)
+
+    def _refuse(self, sentence: str) -> None:
+        # The control that asked shows what was asked for: let it show again what holds.
+        self.controls.show_scene(self.store.scene)
+        self._say_refusal(sentence)
+
+    def _say_failure(self, sentence: str) -> None:
+        self.window.say(sentence, until=_PICTURE)
+
+    def _cancel_photo(self) -> None:
+        self._match_next = False
+        self.photos.cancel()
+
+    def _say_photo_failure(self, sentence: str) -> None:
+        self._match_next = False
+        self.window.say(sentence, until=_PHOTO)
+
+    def _say_match_failure(self, sentence: str) -> None:
+        self.window.say(sentence, until=_MATCH)
+
+    def _say_refusal(self, sentence: str) -> None:
+        self.window.say(spoken(sentence), until=_CHANGE)
+
+    def _on_shown(self, snapshot: Snapshot) -> None:
+        self.window.happened(_PICTURE)
+        self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
+
+    def _on_photo(self, photo: Photo | None) -> None:
+        self.window.happened(_PHOTO)
+        self.window.happened(_MATCH)
+        self.window.show_photo_name(None if photo is None else photo.path.name)
+        self.window.menus.show_match_there(False)
+        path = None if photo is None else photo.path
+        if path not in (None, self._photo_path) and self._front_next:
+            self.window.bring_to_front("photo")
+        self._photo_path, self._front_next = path, True
+        if self._match_next:
+            self.desk.match()
+
+    def _on_match(self, _match: Match) -> None:
+        self.window.happened(_MATCH)
+        self.window.menus.show_match_there(True)
+        if self._match_next:
+            self._match_next = False
+            self.desk.matching.apply()
+
+    def _tell_about(self) -> None:
+        QMessageBox.about(
+            self.window,
+            self.tr("About"),
+            self.tr(
+                "Optical Camera Communication {version}\n\nSimulates the pictures that a rolling-"
+                "shutter camera takes of a blinking LED panel, and reads the code from them."
+            ).format(version=occ.__version__),
+        )
+
+    def stop(self) -> None:
+        """Let the work in the background end."""
+        self.simulation.stop()
+        self.study.stop()
+        self.desk.stop()
+        self.reach.stop()
+        self.desktop.stop()

@@ -1,0 +1,209 @@
+"""What makes the window a desktop program: export, session, theme, palette, shortcuts."""
+
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QAction
+
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.app.error_reports import Faults
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.detection_map.wiring import ReachDesk
+from occ_gui.export.export_desk import ExportDesk
+from occ_gui.export.figures import Figures
+from occ_gui.files.autosave import Autosave
+from occ_gui.files.document import Document
+from occ_gui.files.file_controller import FileController
+from occ_gui.files.preferences import Memory
+from occ_gui.files.session import Session
+from occ_gui.files.session_keeper import SessionKeeper
+from occ_gui.photo.wiring import PhotoDesk
+from occ_gui.picture.image_view import ImageView
+from occ_gui.picture.photo_overlay import MODES
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.hold_brightness import HoldBrightness
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.window.command_palette import CommandPalette
+from occ_gui.window.commands import commands_of, sheet_of
+from occ_gui.window.cursor_readout import Pointer
+from occ_gui.window.desktop_menus import DesktopMenus
+from occ_gui.window.dock_layout import Layout
+from occ_gui.window.main_window import MainWindow
+from occ_gui.window.shortcut_sheet import ShortcutSheet
+from occ_gui.window.theme import ThemeController
+from occ_model.photo.reading.load import Photo
+from occ_model.receiver.decoders import DECODERS
+from occ_model.scene.from_text import DEFAULT_PRESET
+from occ_model.scene.presets import load_preset
+
+_THEME, _OVERLAY = "view/theme", "view/overlay"
+_HOLD, _YES = "edit/hold_brightness", "yes"
+
+
+class Parts(Protocol):
+    """What of the application is put to use."""
+
+    window: MainWindow
+    store: SceneStore
+    settings: SettingsStore
+    memory: Memory
+    files: FileController
+    desk: PhotoDesk
+    reach: ReachDesk
+    simulation: SimulationController
+    controls: ControlPanel
+    image: ImageView
+    profile: ProfileView
+    decode: DecodeView
+    accuracy: AccuracyView
+
+    def show_mode(self, mode: str) -> None:
+        """Show the photo beside the simulated picture or on it."""
+
+
+class Desktop(QObject):
+    """The controllers of a desktop program, connected with the menu.
+
+    Parameters
+    ----------
+    parts
+        The application's parts.
+    """
+
+    def __init__(self, parts: Parts) -> None:
+        super().__init__(parts.window)
+        self._parts = parts
+        self._photo: Path | None = None
+        window, memory = parts.window, parts.memory
+        self.figures = Figures(
+            parts.settings, parts.desk.comparison.comparison, parts.profile, parts.accuracy.plot,
+            tuple(DECODERS),
+        )  # fmt: skip
+        self.figures.add_map(lambda: parts.reach.map.full)
+        self.menus = DesktopMenus(window.menus, self.figures.titles)
+        self.export = ExportDesk(
+            window, window.docks, self.figures, self.menus, parts.decode, memory
+        )
+        self.document = Document(window, parts.store, parts.files)
+        self.brightness = HoldBrightness(parts.store)
+        self.theme = ThemeController()
+        self.layout = Layout(window, window.docks, memory)
+        self.session = SessionKeeper(
+            parts.store, parts.settings, self.document, memory, lambda: self._photo
+        )
+        self.faults = Faults()
+        self.pointer = Pointer(
+            parts.profile,
+            {
+                self.tr("Simulation"): parts.image.simulation,
+                self.tr("Photo"): parts.image.photo,
+            },
+        )
+        self._connect()
+
+    def _connect(self) -> None:
+        parts, window = self._parts, self._parts.window
+        parts.simulation.shown.connect(self.figures.show_snapshot)
+        parts.desk.photos.opened.connect(self._on_photo)
+        for teller in (self.export.controller, self.brightness, self.session):
+            teller.said.connect(window.say)
+        self.faults.happened.connect(window.say)
+        self.pointer.moved.connect(window.pointed.setText)
+        window.arranged.connect(self.layout.note_first)
+        window.closing.connect(self.end)
+        self.theme.chosen.connect(self._on_theme)
+        actions = window.actions_by_name
+        self.brightness.switched.connect(self._on_hold)
+        self.menus.themes.triggered.connect(self._choose_theme)
+        for name, slot in {
+            "save_scene": self.document.save,
+            "save_scene_as": parts.files.ask_to_save_scene,
+            "export_all": self.export.controller.ask_for_folder,
+            "copy_figure": self.export.copy_front,
+            "reset_scene": self._reset_scene,
+            "reset_layout": self.layout.reset,
+            "shortcuts": self.show_shortcuts,
+            "palette": self.show_palette,
+        }.items():
+            actions[name].triggered.connect(slot)
+        actions["hold_brightness"].triggered.connect(self.brightness.switch)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all figures that were asked for are written."""
+        return self.export.controller.is_idle
+
+    def resume(self, autosave: Autosave, session: Session, scene_wins: bool, fresh: bool) -> None:
+        """Take up the last session before the window is shown, and keep this one.
+
+        Parameters
+        ----------
+        autosave
+            Keeps the scene, and knows what a crash has left behind.
+        session
+            The last session; its scene and settings are in the stores already.
+        scene_wins
+            Whether the store's scene was asked for on the command line.
+        fresh
+            Whether the window comes as at its very first start.
+        """
+        memory = self._parts.memory
+        if not fresh:
+            self.layout.restore()
+            self.theme.choose(memory.recall(_THEME))
+            if (mode := memory.recall(_OVERLAY)) in MODES:
+                self._parts.show_mode(mode)
+            self.brightness.switch(memory.recall(_HOLD) == _YES)
+        self.session.resume(autosave, session, scene_wins)
+
+    def _on_photo(self, photo: Photo | None) -> None:
+        self._photo = None if photo is None else photo.path
+        self.figures.show_photo(photo)
+        self.document.show_photo(None if photo is None else photo.path.name)
+        self.session.note()
+
+    def _choose_theme(self, action: QAction) -> None:
+        self.theme.choose(action.data())
+
+    def _on_theme(self, theme: str) -> None:
+        self._parts.memory.keep(_THEME, theme)
+        self._parts.window.menus.show_choice(self.menus.themes, theme)
+
+    def _on_hold(self, on: bool) -> None:
+        self._parts.memory.keep(_HOLD, _YES if on else "")
+        self._parts.window.actions_by_name["hold_brightness"].setChecked(on)
+
+    def _reset_scene(self) -> None:
+        self._parts.store.put(load_preset(DEFAULT_PRESET), self.tr("reset of the scene"))
+
+    def show_shortcuts(self) -> None:
+        """Show all keys on one sheet."""
+        sheet = ShortcutSheet(sheet_of(self._parts.window.menuBar()), self._parts.window)
+        sheet.exec()
+        sheet.deleteLater()
+
+    def show_palette(self) -> None:
+        """Let the user find a command or a parameter by a few letters, and do it."""
+        window = self._parts.window
+        found = commands_of(window.menuBar(), self._parts.controls, window.bring_to_front)
+        palette = CommandPalette(found, window)
+        chosen = palette.chosen if palette.exec() else None
+        palette.deleteLater()
+        if chosen is not None:
+            chosen.run()
+
+    def end(self) -> None:
+        """Keep what is to be there at the next start."""
+        if self.session.is_kept:
+            self.layout.keep()
+            self._parts.memory.keep(_OVERLAY, self._parts.image.mode.key())
+        self.session.end()
+
+    def stop(self) -> None:
+        """Let the work in the background end."""
+        self.export.stop()
+        self.faults.remove()

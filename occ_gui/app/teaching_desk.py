@@ -1,0 +1,161 @@
+"""All that shows what changed and why, put together: before, pins, equations, explorations."""
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QDockWidget, QWidget
+
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.picture.before_controller import BeforeController
+from occ_gui.picture.image_view import ImageView
+from occ_gui.pins.pin_controller import PinController
+from occ_gui.pins.pinned import Pinned
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.lazy_pane import Furnishing, LatePane
+
+if TYPE_CHECKING:
+    from occ_gui.app.guide_desk import GuideDesk
+    from occ_gui.explanation.wiring import ExplanationDesk
+    from occ_gui.pins.compare_view import CompareView
+
+
+class DockWindow(Protocol):
+    """A window that takes docks."""
+
+    @property
+    def actions_by_name(self) -> Mapping[str, QAction]:
+        """The entries of its menus."""
+
+    def add_pane(
+        self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
+    ) -> QDockWidget:
+        """Add a pane before the window is shown."""
+
+    def bring_to_front(self, name: str) -> None:
+        """Show a pane before those that share its place."""
+
+
+class TeachingDesk(QObject):
+    """The panes that explain and compare, with their controllers, as docks of a window.
+
+    Each pane is made when it is first seen.
+
+    Parameters
+    ----------
+    window
+        Gets the docks.
+    scenes
+        The scene.
+    photos
+        Opens the photos of explorations.
+    image, profile
+        The panes that show what was before, and where a column is pointed at.
+    """
+
+    said = Signal(str)
+    """What was done, or why it was not; until the scene changes."""
+
+    def __init__(
+        self,
+        window: DockWindow,
+        scenes: SceneStore,
+        photos: PhotoController,
+        image: ImageView,
+        profile: ProfileView,
+    ) -> None:
+        super().__init__()
+        self._window = window
+        self._scenes, self._photos = scenes, photos
+        self._profile = profile
+        self._snapshot: Snapshot | None = None
+        self.before = BeforeController(scenes, [profile, image.before])
+        self.pins = PinController(scenes, self)
+        self._add_docks()
+        self._connect_menus()
+
+    @cached_property
+    def explanation(self) -> "ExplanationDesk":
+        """The equations and the exposure of a column."""
+        from occ_gui.explanation.wiring import ExplanationDesk
+
+        desk = ExplanationDesk(self._scenes, self._profile.plot)
+        if self._snapshot is not None:
+            desk.show_snapshot(self._snapshot)
+        return desk
+
+    @cached_property
+    def compare(self) -> "CompareView":
+        """What differs between A and B."""
+        from occ_gui.pins.compare_view import CompareView
+
+        view = CompareView()
+        view.pin_asked.connect(self.pins.pin)
+        view.go_asked.connect(self.pins.go_to)
+        view.clear_asked.connect(self.pins.clear)
+        view.show_pinned(self.pins.pinned)
+        return view
+
+    @cached_property
+    def guide(self) -> "GuideDesk":
+        """The explorations."""
+        from occ_gui.app.guide_desk import GuideDesk
+
+        desk = GuideDesk(self._scenes, self._photos)
+        desk.explorations.said.connect(self.said)
+        desk.explorations.pane_wanted.connect(self._window.bring_to_front)
+        return desk
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Hand these results to all that make use of them."""
+        self._snapshot = snapshot
+        self.before.show_snapshot(snapshot)
+        self.pins.show_snapshot(snapshot)
+        if "explanation" in vars(self):
+            self.explanation.show_snapshot(snapshot)
+
+    def show_pinned(self, pinned: Pinned) -> None:
+        """Show these two states where they are compared, if anybody has looked there yet."""
+        if "compare" in vars(self):
+            self.compare.show_pinned(pinned)
+
+    def _add_docks(self) -> None:
+        add = self._add_dock
+        add("equations", self.tr("Equations"), self._explain, behind="decode")
+        add("compare", self.tr("Compare"), self._compare, behind="profile")
+        add("explorations", self.tr("Explorations"), self._guide, below="controls")
+
+    def _add_dock(
+        self, name: str, title: str, make: Callable[[], Furnishing], **place: str
+    ) -> None:
+        pane = LatePane(make)
+        dock = self._window.add_pane(name, title, pane, **place)
+        dock.visibilityChanged.connect(pane.set_seen)
+
+    def _explain(self) -> Furnishing:
+        return self.explanation.pane, self.explanation.set_seen
+
+    def _compare(self) -> Furnishing:
+        return self.compare, self.compare.set_seen
+
+    def _guide(self) -> Furnishing:
+        return self.guide.pane, self.guide.explorations.set_seen
+
+    def _connect_menus(self) -> None:
+        actions = self._window.actions_by_name
+        for name, shown in (("a", "A"), ("b", "B")):
+            actions[f"pin_{name}"].triggered.connect(
+                lambda _=False, shown=shown: self.pins.pin(shown)
+            )
+            actions[f"go_to_{name}"].triggered.connect(
+                lambda _=False, shown=shown: self.pins.go_to(shown)
+            )
+        actions["clear_pins"].triggered.connect(self.pins.clear)
+        actions["explorations"].triggered.connect(
+            lambda: self._window.bring_to_front("explorations")
+        )
+        self.pins.said.connect(self.said)

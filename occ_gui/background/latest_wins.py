@@ -1,0 +1,122 @@
+"""Work off the window's thread: the newest request wins, and every finished result is shown."""
+
+from collections.abc import Callable
+from typing import Any, Generic, TypeVar
+
+from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
+
+from occ_gui.background.failure import sentence_of
+
+Request = TypeVar("Request")
+Result = TypeVar("Result")
+
+
+class LatestWins(QObject, Generic[Request, Result]):
+    """Runs one function on a thread of its own, for one request at a time.
+
+    A request that comes while another is at work waits; a newer one takes its place. The running
+    one is never cut short: cancelling it at every move of a slider would show nothing until the
+    slider stops.
+
+    Parameters
+    ----------
+    work
+        The function: a request in, a result out. It must not touch a widget.
+    name
+        What it is, for the thread's name and the log.
+    """
+
+    early = Signal(object)
+    """A part of a result, handed over before the rest of it is ready."""
+
+    finished = Signal(object)
+    """A result."""
+
+    failed = Signal(str)
+    """A sentence that says why there is none."""
+
+    idle = Signal()
+    """Nothing is at work or waiting."""
+
+    _ask = Signal(object)
+
+    def __init__(self, work: Callable[[Request], Result], name: str) -> None:
+        super().__init__()
+        self._busy = False
+        self._stopped = False
+        self._waiting: tuple[Request] | None = None
+        self._worker = _Worker(work, name)
+        self._thread = QThread()
+        self._thread.setObjectName(name)
+        self._worker.moveToThread(self._thread)
+        self._ask.connect(self._worker.run, Qt.ConnectionType.QueuedConnection)
+        self._worker.early.connect(self._on_early, Qt.ConnectionType.QueuedConnection)
+        self._worker.done.connect(self._on_done, Qt.ConnectionType.QueuedConnection)
+        self._thread.start()
+
+    def hand_over(self, part: object) -> None:
+        """Hand over a part of the result that is being worked on: for the work itself to call."""
+        self._worker.early.emit(part)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is at work or waiting."""
+        return not self._busy
+
+    def submit(self, request: Request) -> None:
+        """Ask for a result; a request still waiting is forgotten."""
+        if self._busy:
+            self._waiting = (request,)
+            return
+        self._busy = True
+        self._ask.emit(request)
+
+    def stop(self) -> None:
+        """Let the running work end and stop the thread; nothing arrives any more."""
+        self._waiting = None
+        self._stopped = True
+        self._thread.quit()
+        self._thread.wait()
+
+    @Slot(object)
+    def _on_early(self, part: Any) -> None:
+        if not self._stopped:
+            self.early.emit(part)
+
+    @Slot(object, str)
+    def _on_done(self, result: Any, failure: str) -> None:
+        if self._stopped:  # whoever would show it is going away
+            return
+        self._busy = False
+        # The next request goes to work before this result is drawn: both cores are then busy.
+        if self._waiting is not None:
+            (request,) = self._waiting
+            self._waiting = None
+            self.submit(request)
+        if failure:
+            self.failed.emit(failure)
+        else:
+            self.finished.emit(result)
+        if not self._busy:
+            self.idle.emit()
+
+
+class _Worker(QObject):
+    """The part that lives on the other thread."""
+
+    early = Signal(object)
+    done = Signal(object, str)
+
+    def __init__(self, work: Callable[[Any], Any], name: str) -> None:
+        super().__init__()
+        self._work = work
+        self._name = name
+
+    @Slot(object)
+    def run(self, request: Any) -> None:
+        result, failure = None, ""
+        try:
+            result = self._work(request)
+        except Exception as error:  # noqa: BLE001 - the window must outlive a mistake of ours
+            failure = sentence_of(error, self._name, request)
+        self.done.emit(result, failure)

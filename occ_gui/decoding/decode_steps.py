@@ -1,0 +1,179 @@
+"""The steps of a decoder, drawn: the signal with its chips, and the run lengths."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from occ_gui.widgets.axes import Axis
+from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, SIMULATION, THRESHOLD, new_plot, thin
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.results import DecodeResult
+
+_CHIP_BAND = 0.16
+"""Height of the chips' strip below the signal, as a share of the signal's range."""
+
+
+_COLOURS = (BAND, SIMULATION)
+"""Of the run lengths of zeros, and of ones."""
+
+
+class _LevelAxis(Axis):
+    """An axis without numbers below zero, where no level lies but only the chips' strip."""
+
+    def tickStrings(  # noqa: N802 - pyqtgraph's name
+        self, values: list[float], scale: float, spacing: float
+    ) -> list[str]:
+        texts: list[str] = super().tickStrings(values, scale, spacing)
+        return [text if value >= 0 else "" for value, text in zip(values, texts, strict=True)]
+
+
+class SignalPlot(QWidget):
+    """The signal with its threshold and the chips read under it; or the signal folded.
+
+    The folded signal is that of a decoder which compares it with the forward model of a code.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plot = new_plot(
+            self.tr("Signal and chips"),
+            self.tr("column of the region"),
+            self.tr("level"),
+            self.palette(),
+            _LevelAxis("left"),
+        )
+        self.legend = LineLegend()
+        dash = Qt.PenStyle.DashLine
+        self.legend.add_line("signal", thin(SIMULATION), self.tr("signal"))
+        self.legend.add_line("threshold", thin(THRESHOLD, dash), self.tr("threshold"))
+        self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), self.tr("chips: lit"))
+        self.legend.add_line("model", thin(BAND, dash), self.tr("model of the code"))
+        self.signal = self.plot.add_curve(thin(SIMULATION))
+        self.model = self.plot.add_curve(thin(BAND, dash))
+        self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
+        self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[])
+        self.plot.dress_with(lambda palette: self.chips.setOpts(brush=seen_on(palette, SIMULATION)))
+        for item in (self.threshold, self.chips):
+            self.plot.addItem(item, ignoreBounds=True)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.legend, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addWidget(self.plot, 1)
+
+    def show_result(self, result: DecodeResult, packet_columns: float) -> None:
+        """Show the steps of this result; ``packet_columns`` says how much of them at first."""
+        folded = result.folded is not None
+        if result.folded is not None and result.model is not None:
+            self._show_folded(result.folded, result.model)
+        else:
+            self._show_signal(result, packet_columns)
+        self.threshold.setVisible(result.threshold is not None)
+        self.chips.setVisible(not folded and bool(result.chips.size))
+        self.legend.show_line("threshold", result.threshold is not None)
+        self.legend.show_line("model", folded)
+        self.legend.show_line("chips", self.chips.isVisible())
+        self.setVisible(result.signal is not None)
+
+    def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
+        self.plot.setLabel("bottom", self.tr("bin of a packet"))
+        self.plot.setLabel("left", self.tr("lit share"))
+        _draw(self.signal, folded)
+        _draw(self.model, model)
+        self.plot.setXRange(0, len(folded) - 1, padding=0.02)
+        self.plot.setYRange(0.0, 1.0, padding=0.05)
+
+    def _show_signal(self, result: DecodeResult, packet_columns: float) -> None:
+        signal = result.signal if result.signal is not None else np.zeros(1)
+        self.plot.setLabel("bottom", self.tr("column of the region"))
+        self.plot.setLabel("left", self.tr("level"))
+        _draw(self.signal, signal)
+        self.model.setData([], [])
+        low, high = float(signal.min()), float(signal.max())
+        strip = max(high - low, 1.0) * _CHIP_BAND
+        if result.threshold is not None:
+            self.threshold.setValue(result.threshold)
+        if result.chip_starts is not None:
+            edges = np.append(result.chip_starts, float(len(signal)))
+            self._show_chips(result.chips, edges, low, strip)
+        shown = min(float(len(signal) - 1), PACKETS_IN_VIEW * packet_columns)
+        self.plot.setXRange(0, max(shown, 1.0), padding=0.02)
+        self.plot.setYRange(low - 2 * strip, high, padding=0.04)
+
+    def _show_chips(self, chips: ByteArray, edges: FloatArray, low: float, strip: float) -> None:
+        starts, widths = edges[:-1], np.diff(edges)
+        lit = chips == 1
+        self.chips.setOpts(
+            x0=starts[lit] + 0.05 * widths[lit],
+            width=0.9 * widths[lit],
+            y0=np.full(int(lit.sum()), low - 1.6 * strip),
+            height=np.full(int(lit.sum()), strip),
+        )
+
+
+class _CountAxis(Axis):
+    """An axis on which bars that hang down count as those that stand."""
+
+    def tickStrings(  # noqa: N802 - pyqtgraph's name
+        self, values: list[float], _scale: float, _spacing: float
+    ) -> list[str]:
+        return [f"{abs(value):g}" for value in values]
+
+
+class RunLengthPlot(QWidget):
+    """How often each run length occurs, of ones and of zeros, and where Otsu's threshold splits."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plot = new_plot(
+            self.tr("Run lengths"),
+            self.tr("run length (columns)"),
+            self.tr("runs"),
+            self.palette(),
+            _CountAxis("left"),
+        )
+        title = QLabel(self.tr("Run lengths: ones up, zeros down, splits dashed"))
+        self.bars, self.splits = [], []
+        for colour in _COLOURS:
+            bars = pg.BarGraphItem(x=[], height=[], width=0.8)
+            split = self.plot.add_curve(thin(colour, Qt.PenStyle.DashLine))
+            self.plot.addItem(bars)
+            self.bars.append(bars)
+            self.splits.append(split)
+        self.plot.dress_with(self._dress)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(title)
+        layout.addWidget(self.plot, 1)
+
+    def _dress(self, palette: QPalette) -> None:
+        for bars, colour in zip(self.bars, _COLOURS, strict=True):
+            bars.setOpts(brush=seen_on(palette, colour), pen=seen_on(palette, colour))
+
+    def show_result(self, result: DecodeResult) -> None:
+        """Show the histograms of this result, if it has any."""
+        self.setVisible(result.histograms is not None)
+        if result.histograms is None:
+            return
+        most = max(int(h.counts.max()) for h in result.histograms)
+        longest = max(len(h.counts) for h in result.histograms)
+        for histogram, sign, bars, split in zip(
+            result.histograms, (-1, 1), self.bars, self.splits, strict=True
+        ):
+            lengths = np.flatnonzero(histogram.counts)
+            bars.setOpts(x=lengths, height=sign * histogram.counts[lengths])
+            at = [] if histogram.split is None else [histogram.split + 0.5] * 2
+            split.setData(at, [0, sign * most][: len(at)])
+        self.plot.setXRange(0, longest, padding=0.02)
+        self.plot.setYRange(-most, most, padding=0.05)
+
+
+def _draw(curve: pg.PlotDataItem, values: FloatArray) -> None:
+    curve.setData(np.arange(len(values), dtype=np.float64), values)

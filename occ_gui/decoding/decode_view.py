@@ -1,0 +1,155 @@
+"""What the receiver read: the verdict, the bits, and the steps behind them."""
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
+
+from occ_gui.decoding.bit_strip import BitStrip
+from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results import DecodeResult, Location
+
+_STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "confidence")
+
+
+class DecodeView(QWidget):
+    """The decode result in words, sent and received bits, and what was measured on the way."""
+
+    decoder_chosen = Signal(str)
+    """The decoder whose result is shown."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._snapshot: Snapshot | None = None
+        self.decoders = QTabBar()
+        self.decoders.setDrawBase(False)
+        self.decoders.setAccessibleName(self.tr("Decoder"))
+        self.decoders.setToolTip(self.tr("Whose result and steps are shown."))
+        self.decoders.currentChanged.connect(self._choose)
+        self.verdict = QLabel()
+        self.verdict.setWordWrap(True)
+        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
+        font = self.verdict.font()
+        font.setBold(True)
+        self.verdict.setFont(font)
+        self.strip = BitStrip()
+        self.reason = QLabel()
+        self.reason.setWordWrap(True)
+        self.reason.setTextFormat(Qt.TextFormat.PlainText)
+        self.reason.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self._steps = {name: QLabel() for name in _STEPS}
+        self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(4)
+        for widget in (self.decoders, self.verdict, self.strip, self.reason):
+            layout.addWidget(widget)
+        layout.addLayout(self._make_form())
+        layout.addWidget(self.signal, 1)
+        layout.addWidget(self.run_lengths, 1)
+        layout.addStretch()
+        # Before the first result there is nothing to show, and nothing that needs room.
+        for part in (self.strip, self.reason, self.signal, self.run_lengths):
+            part.hide()
+        for step in self._steps.values():
+            self._form.setRowVisible(step, False)
+
+    def _make_form(self) -> QFormLayout:
+        self._form = form = QFormLayout()
+        form.setVerticalSpacing(2)
+        titles = {
+            "bright": self.tr("Bright from"),
+            "region": self.tr("Region"),
+            "threshold": self.tr("Threshold"),
+            "chip": self.tr("Chip length"),
+            "chips": self.tr("Chips read"),
+            "correlation": self.tr("Correlation"),
+            "confidence": self.tr("Confidence"),
+        }
+        for name, title in titles.items():
+            self._steps[name].setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            form.addRow(title, self._steps[name])
+        return form
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Show these results in place of the last ones."""
+        self._snapshot = snapshot
+        results = (snapshot.decoded, *snapshot.others)
+        with QSignalBlocker(self.decoders):
+            while self.decoders.count() < len(results):
+                self.decoders.addTab("")
+            while self.decoders.count() > len(results):
+                self.decoders.removeTab(self.decoders.count() - 1)
+            for place, result in enumerate(results):
+                mark = "✓" if self._is_right(result) else "✗"
+                self.decoders.setTabText(place, f"{result.decoder} {mark}")
+        self.strip.setVisible(bool(snapshot.sent))
+        self._show_chosen()
+
+    def _chosen(self, snapshot: Snapshot) -> DecodeResult:
+        return (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
+
+    def decoder(self) -> str:
+        """Give the name of the decoder whose result is shown; empty before the first one."""
+        return "" if self._snapshot is None else self._chosen(self._snapshot).decoder
+
+    def _choose(self) -> None:
+        self._show_chosen()
+        if self._snapshot is not None:
+            self.decoder_chosen.emit(self._chosen(self._snapshot).decoder)
+
+    def _show_chosen(self) -> None:
+        snapshot = self._snapshot
+        if snapshot is None:
+            return
+        decoded = self._chosen(snapshot)
+        self.strip.show_bits(snapshot.sent, decoded.bits.tolist())
+        self.verdict.setText(self._verdict(decoded))
+        self.reason.setText(decoded.failure or "")
+        self.reason.setVisible(decoded.failure is not None)
+        for name, text in self._measured(decoded).items():
+            self._steps[name].setText(text)
+            self._form.setRowVisible(self._steps[name], bool(text))
+        self.signal.show_result(decoded, snapshot.packet_columns)
+        self.run_lengths.show_result(decoded)
+
+    def _is_right(self, decoded: DecodeResult) -> bool:
+        sent = self._snapshot.sent if self._snapshot is not None else ()
+        return decoded.code is not None and tuple(decoded.bits.tolist()) == sent
+
+    def _verdict(self, decoded: DecodeResult) -> str:
+        sent = self._snapshot.sent if self._snapshot is not None else ()
+        if not sent:
+            return self.tr("No code is sent")
+        if decoded.code is None:
+            return self.tr("✗ No code read")
+        wrong = len(self.strip.wrong_places())
+        if wrong:
+            return self.tr("✗ Code {code} read, {wrong} of {bits} bits wrong").format(
+                code=decoded.code, wrong=wrong, bits=len(sent)
+            )
+        return self.tr("✓ Code {code} read, all bits right").format(code=decoded.code)
+
+    def _bright(self, location: Location) -> str:
+        return self.tr("{level}; contours: {contours}, grown by {growth} px").format(
+            level=location.bright_level, contours=location.contours, growth=location.growth
+        )
+
+    def _measured(self, decoded: DecodeResult) -> dict[str, str]:
+        """Say what was measured on the way; nothing for a step that was not taken."""
+        region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
+        found: dict[str, str | None] = {
+            "bright": None if decoded.location is None else self._bright(decoded.location),
+            "region": None
+            if region is None
+            else self.tr("{columns} x {rows} px").format(columns=region.columns, rows=region.rows),
+            "threshold": _number(self.tr("{:.1f} grey levels"), level),
+            "chip": _number(self.tr("{:.2f} columns"), chip),
+            "chips": str(decoded.chips.size) if decoded.chips.size else None,
+            "correlation": _number("{:.4f}", decoded.correlation),
+            "confidence": _number("{:.3f}", decoded.confidence),
+        }
+        return {name: text or "" for name, text in found.items()}
+
+
+def _number(text: str, value: float | None) -> str | None:
+    return None if value is None else text.format(value)

@@ -1,0 +1,1 @@
+"""The detection map, the strips under the sliders, and the advisor."""

@@ -1,0 +1,144 @@
+"""How far the decoders reach, in sentences, each with the way there."""
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.detection_map.advice import Advice
+from occ_gui.detection_map.advice_sentences import AdviceLine, AdviceWords
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.scroll_pane import ScrollPane
+
+_LEAST = QSize(200, 60)
+
+
+class AdviceView(QWidget):
+    """Sentences on the highest frequency and the workable exposures of each decoder."""
+
+    asked = Signal()
+    """Advice is wanted on the scene as it is."""
+
+    cancelled = Signal()
+    """It is not wanted any more."""
+
+    back_asked = Signal()
+    """The map is wanted again."""
+
+    way_asked = Signal(str, float)
+    """The parameter to be changed, and its value in SI units."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._words = AdviceWords(self)
+        self._lines: list[QWidget] = []
+        self.ways: list[QPushButton] = []
+        self.back = self._button(self.tr("Back to the map"), self.tr("Show the map again."))
+        self.back.clicked.connect(self.back_asked)
+        self.again = self._button(
+            self.tr("Ask again"), self.tr("Search for the limits of the scene as it is now.")
+        )
+        self.again.clicked.connect(self.asked)
+        self.cancel = self._button(self.tr("Cancel"), self.tr("Search no more."))
+        self.cancel.clicked.connect(self.cancelled)
+        self.progress = QProgressBar()
+        self.progress.setAccessibleName(self.tr("How much of the search is done"))
+        self.progress.setToolTip(self.tr("How much of the search is done."))
+        self.state = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.state.setAccessibleName(self.tr("State of the search"))
+        self._lay_out()
+        self._show_running(False)
+
+    def _button(self, text: str, meaning: str) -> QPushButton:
+        button = QPushButton(text)
+        button.setToolTip(meaning)
+        button.setAccessibleName(text)
+        return button
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        for widget in (self.back, self.again, self.cancel):
+            head.addWidget(widget)
+        head.addWidget(self.progress, 1)
+        head.addWidget(self.state, 1)
+        self._content = QWidget()
+        self._column = QVBoxLayout(self._content)
+        self._column.setContentsMargins(0, 0, 4, 0)
+        self._column.addStretch(1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(4, 2, 4, 2)
+        layout.addLayout(head)
+        layout.addWidget(ScrollPane(self._content, _LEAST), 1)
+
+    def _show_running(self, running: bool) -> None:
+        self.progress.setVisible(running)
+        self.cancel.setVisible(running)
+        self.again.setVisible(not running)
+        self.state.setVisible(not running)
+
+    def show_advice_begun(self) -> None:
+        """Tell that advice is on its way; what there was goes."""
+        for line in self._lines:
+            self._column.removeWidget(line)
+            line.deleteLater()
+        self._lines, self.ways = [], []
+        self.progress.setValue(0)
+        self._show_running(True)
+
+    def show_advice_progress(self, share: float) -> None:
+        """Tell how much of the search is done, from 0 to 1."""
+        self.progress.setValue(round(100 * share))
+
+    def show_advice(self, advice: Advice) -> None:
+        """Show how far one decoder reaches."""
+        for line in self._words.lines(advice):
+            self._add(line)
+
+    def show_advice_ended(self, sentence: str) -> None:
+        """Tell that no more comes, and why, unless all has come."""
+        self.state.set_full_text(sentence)
+        self._show_running(False)
+
+    def show_advice_outdated(self) -> None:
+        """Tell that the scene is another one now."""
+        if self._lines:
+            self.state.set_full_text(self.tr("This is of the scene as it was."))
+
+    def sentences(self) -> list[str]:
+        """Give what is said, for those who do not see it."""
+        return [label.text() for line in self._lines for label in line.findChildren(QLabel)]
+
+    def _add(self, line: AdviceLine) -> None:
+        row = QWidget()
+        layout = QHBoxLayout(row)
+        layout.setContentsMargins(0, 0, 0, 0)
+        label = QLabel(line.text)
+        label.setWordWrap(True)
+        label.setTextFormat(Qt.TextFormat.PlainText)
+        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
+        font = label.font()
+        font.setBold(line.is_title)
+        label.setFont(font)
+        layout.addWidget(label, 1)
+        if line.way is not None:
+            layout.addWidget(self._way(line), 0, Qt.AlignmentFlag.AlignTop)
+        self._column.insertWidget(self._column.count() - 1, row)
+        self._lines.append(row)
+
+    def _way(self, line: AdviceLine) -> QPushButton:
+        assert line.way is not None  # noqa: S101 - such a line leads somewhere
+        name, value, where = line.way
+        button = self._button(
+            self.tr("Take me there"), self.tr("Change the scene to {where}.").format(where=where)
+        )
+        button.setAccessibleName(self.tr("Take me there: {where}").format(where=where))
+        button.clicked.connect(lambda: self.way_asked.emit(name, value))
+        self.ways.append(button)
+        return button

@@ -1,0 +1,263 @@
+"""Measure success rates over two parameters while somebody looks."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Protocol
+
+from PySide6.QtCore import QObject
+
+from occ_gui.background.crew import Lane
+from occ_gui.background.parcel import Stage
+from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
+from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
+from occ_gui.detection_map.worker import Points, leaves_out
+from occ_gui.scene.gesture import NO_GESTURE
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_model.errors import OccError
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results import SweepPoint
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.sweep.sweep import rate_intervals
+
+FIRST_AXES = ("switching_frequency", "distance")
+
+UNSEEN: dict[str, ParameterValue] = {
+    "start_time": 0.0,
+    "flicker_phase": 0.0,
+    "band_reading": "literal",
+}
+"""Parameters that no rate depends on: it is over all start times."""
+
+
+class MapPane(Protocol):
+    """A pane that shows a map as it comes."""
+
+    def show_axes(self, x: str, y: str) -> None:
+        """Show which parameters the map is over."""
+
+    def show_map(self, rates: RateMap) -> None:
+        """Show what is known by now."""
+
+    def show_scene(self, scene: Scene) -> None:
+        """Mark the current setting."""
+
+    def show_progress(self, known: int, total: int, images: int) -> None:
+        """Tell how many points are known, and that every one rests on so many images."""
+
+    def show_failure(self, sentence: str) -> None:
+        """Tell why the map is not of the scene as it is, or what happened on the way."""
+
+    def show_left_out(self, effects: tuple[str, ...]) -> None:
+        """Tell which of the scene's image effects the map leaves out."""
+
+    def show_facts(self, facts: PointFacts | None) -> None:
+        """Show what is known of the point under the mouse."""
+
+
+@dataclass(frozen=True, slots=True)
+class MapRequest:
+    """All that a map depends on.
+
+    Parameters
+    ----------
+    scene
+        The scene, with everything that the map does not depend on at its default.
+    x, y
+        The parameters that it is over.
+    settings
+        How the window simulates.
+    with_image_effects
+        Whether whole images are made where the scene calls for them.
+    """
+
+    scene: Scene
+    x: str
+    y: str
+    settings: SimulationSettings
+    with_image_effects: bool
+
+    def stages(self, images: Any, with_theory: bool) -> Iterator[Stage]:
+        """Give the stages of the work that is left."""
+        requests = tuple(
+            map_request(
+                self.scene, self.x, self.y, self.settings, tuple(DECODERS),
+                images=number, with_image_effects=self.with_image_effects,
+            )
+            for number in IMAGES
+        )  # fmt: skip
+        return map_stages(requests, images, with_theory, self.with_image_effects)
+
+
+class DetectionMapController(QObject):
+    """Connects the stores, the processes and the pane.
+
+    Parameters
+    ----------
+    scenes, settings
+        What is measured, and what a click changes.
+    lane
+        Does the work.
+    pane
+        Shows the map; nothing is measured until it is said to be seen.
+    """
+
+    def __init__(
+        self, scenes: SceneStore, settings: SettingsStore, lane: Lane, pane: MapPane
+    ) -> None:
+        super().__init__()
+        self._scenes, self._settings = scenes, settings
+        self._lane, self._pane = lane, pane
+        self._axes = FIRST_AXES
+        self._with_image_effects = False
+        self._seen = False
+        self._asked: MapRequest | None = None
+        self._shown: MapRequest | None = None
+        self.map: RateMap | None = None
+        lane.came.connect(self._take)
+        lane.finished.connect(self._finish)
+        lane.failed.connect(self._fail)
+        lane.said.connect(pane.show_failure)
+        for store in (scenes, settings):
+            store.changed.connect(self._move_on)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that was asked for is shown."""
+        return self._lane.is_idle
+
+    @property
+    def is_current(self) -> bool:
+        """Whether what is shown is of the scene as it is."""
+        return self.map is not None and self._shown == self._request()
+
+    @property
+    def is_full(self) -> bool:
+        """Whether every point of the scene as it is is known."""
+        return self.is_current and self.map is not None and self.map.least_images > 0
+
+    @property
+    def full(self) -> "tuple[RateMap, MapRequest] | None":
+        """The map and what it was measured for, None while a point of it is not known."""
+        if not self.is_full or self.map is None or self._shown is None:
+            return None
+        return self.map, self._shown
+
+    def _request(self) -> MapRequest:
+        x, y = self._axes
+        given = {name: quantity(name).default for name in self._axes}
+        scene = self._scenes.scene.replace(**{**UNSEEN, **given})
+        return MapRequest(scene, x, y, self._settings.settings, self._with_image_effects)
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the map."""
+        self._seen = seen
+        if seen:
+            self._move_on()
+        else:
+            self._stop()
+
+    def choose_axes(self, x: str, y: str) -> None:
+        """Map other parameters; where one is chosen twice the other takes its place."""
+        before = self._axes
+        if x == y:
+            x, y = (x, before[0]) if x == before[1] else (before[1], y)
+        self._axes = (x, y)
+        self._pane.show_axes(x, y)
+        self._move_on()
+
+    def use_image_effects(self, wanted: bool) -> None:
+        """Make whole images where the scene calls for them, or leave out what needs them."""
+        self._with_image_effects = wanted
+        self._move_on()
+
+    def _move_on(self) -> None:
+        if not self._seen:
+            return
+        self._pane.show_scene(self._scenes.scene)
+        self._tell_left_out()
+        request = self._request()
+        if request == self._asked:
+            return
+        self._asked = request
+        self._pane.show_failure("")
+        held = self.map if request == self._shown else None
+        known = self._empty(request) if held is None else held
+        stages = partial(request.stages, known.images.copy(), known.theory is None)
+        self._lane.put(request, stages)
+
+    def _empty(self, request: MapRequest) -> RateMap:
+        x, y = request.x, request.y
+        return RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), tuple(DECODERS))
+
+    def _tell_left_out(self) -> None:
+        effects: tuple[str, ...] = ()
+        if not self._with_image_effects:
+            try:
+                effects = leaves_out(self._scenes.scene, self._settings.settings)
+            except OccError:  # there is no picture, which others tell
+                effects = ()
+        self._pane.show_left_out(effects)
+
+    def _take(self, request: MapRequest, results: list[Points | TheoryFields]) -> None:
+        if request != self._shown or self.map is None:
+            self.map, self._shown = self._empty(request), request
+        for result in results:
+            if isinstance(result, TheoryFields):
+                self.map.theory = result
+            else:
+                self.map.enter(list(result.points), result.images)
+        self._pane.show_map(self.map)
+        self._tell_progress()
+
+    def _tell_progress(self) -> None:
+        assert self.map is not None  # noqa: S101 - there is something to tell of
+        total = self.map.images.size
+        self._pane.show_progress(self.map.known, total, self.map.least_images)
+
+    def _finish(self, request: MapRequest) -> None:
+        if request == self._shown:
+            self._tell_progress()
+
+    def _fail(self, sentence: str) -> None:
+        self._pane.show_failure(sentence)
+
+    def _stop(self) -> None:
+        self._lane.cancel()
+        self._asked = None
+
+    def point_at(self, place: tuple[int, int] | None) -> None:
+        """Tell the pane what is known of a point, given by its places along both axes."""
+        shown = self.map
+        if place is None or shown is None:
+            self._pane.show_facts(None)
+            return
+        x, y = (int(owner[place]) for owner in shown.owners())
+        if x < 0:
+            self._pane.show_facts(None)
+            return
+        index, sent = x * shown.shape[1] + y, int(shown.sent[x, y])
+        right = tuple(int(count) for count in shown.right[x, y])
+        ends = rate_intervals(SweepPoint(index, sent, right))
+        counts = tuple(
+            (name, count, low, high)
+            for name, count, (low, high) in zip(shown.decoders, right, ends, strict=True)
+        )
+        self._pane.show_facts(
+            PointFacts(
+                shown.x_values[x], shown.y_values[y], counts, sent,
+                int(shown.images[x, y]), shown.notes.get(index, ""),
+            )
+        )  # fmt: skip
+
+    def go_to(self, place: tuple[int, int]) -> None:
+        """Take the scene to a point, given by its places along both axes, in one step."""
+        shown = self.map
+        if shown is not None:
+            x, y = place
+            changes = {shown.x: shown.x_values[x], shown.y: shown.y_values[y]}
+            self._scenes.change(NO_GESTURE, **changes)

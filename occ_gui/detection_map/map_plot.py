@@ -1,0 +1,282 @@
+"""A picture over two parameters, with axes, lines and a mark; a click chooses a point."""
+
+from collections.abc import Mapping, Sequence
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QBrush,
+    QColor,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QPen,
+    QPolygonF,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.detection_map.axis_ticks import axis_title, ticks
+from occ_gui.detection_map.contours import Point
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.arrays import IndexArray
+from occ_model.scene.parameter_kinds import Quantity
+
+STYLES: dict[str, Qt.PenStyle] = {
+    "band": Qt.PenStyle.SolidLine,
+    "null": Qt.PenStyle.DashLine,
+    "packets": Qt.PenStyle.DotLine,
+    "saturation": Qt.PenStyle.DashDotLine,
+}
+"""How each limit is drawn: by its dashes, which show on any colour and to any eye."""
+
+_INK, _PAPER = QColor("black"), QColor("white")
+_CASING = QColor(255, 255, 255, 210)
+_TICK = 4
+_GAP = 3
+_STEPS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Down: (0, -1),
+    Qt.Key.Key_Up: (0, 1),
+}
+
+
+class MapPlot(QWidget):
+    """Draws one map; what is unknown is blank, what the model refuses is hatched."""
+
+    picked = Signal(int, int)
+    """The point that was clicked on, by its places along both axes."""
+
+    pointed = Signal(object)
+    """The point under the mouse or the keys, None where there is none."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.title = ""
+        self.lines: dict[str, list[list[Point]]] = {}
+        self.labels: Mapping[str, str] = {}
+        self.setting: Point | None = None
+        self._axes: tuple[Quantity, Quantity] | None = None
+        self._shape = (1, 1)
+        self._image = QImage()
+        self._refused: Sequence[tuple[int, int]] = ()
+        self._cursor: tuple[int, int] | None = None
+        self._labelled: list[QRectF] = []
+        self._area = QRectF()
+        self._area_of: tuple[QSize, bool] | None = None
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setCursor(Qt.CursorShape.CrossCursor)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Take what there is."""
+        return QSize(320, 200)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Leave room for the axes and a few cells."""
+        return QSize(150, 90)
+
+    def show_axes(self, x: Quantity, y: Quantity) -> None:
+        """Show which parameters the map is over; nothing of the last one stays."""
+        self._axes = (x, y)
+        self._image, self._refused, self.lines = QImage(), (), {}
+        self._cursor = None
+        self.update()
+
+    def show_picture(self, image: QImage, shape: tuple[int, int], refused: IndexArray) -> None:
+        """Show the rates' colours, and where the model refuses (not 0)."""
+        self._image, self._shape = image, shape
+        self._refused = [(int(x), int(y)) for x, y in zip(*refused.nonzero(), strict=True)]
+        self.update()
+
+    def area(self) -> QRectF:
+        """Give the rectangle that the map fills, in pixels."""
+        known = (self.size(), bool(self.title))
+        if self._area_of != known:
+            self._area_of, self._area = known, self._find_area()
+        return self._area
+
+    def _find_area(self) -> QRectF:
+        metrics = self.fontMetrics()
+        left = metrics.height() + metrics.horizontalAdvance("0.05") + _TICK + 2 * _GAP
+        bottom = 2 * metrics.height() + _TICK + _GAP
+        top = metrics.height() + _GAP if self.title else _GAP + metrics.height() / 2
+        right = metrics.horizontalAdvance("100") / 2  # of which half stands beyond the map
+        return QRectF(self.rect()).adjusted(left, top, -right, -bottom)
+
+    def place_of(self, point: Point) -> QPointF:
+        """Give the pixel of a point given by its positions along both sliders, from 0 to 1."""
+        area = self.area()
+        (x, y), (across, up) = point, self._shape
+        return QPointF(
+            area.left() + (x * (across - 1) + 0.5) / across * area.width(),
+            area.bottom() - (y * (up - 1) + 0.5) / up * area.height(),
+        )
+
+    def cell_at(self, pixel: QPointF) -> tuple[int, int] | None:
+        """Give the point whose cell a pixel is in, None outside the map."""
+        area = self.area()
+        if self._image.isNull() or not area.contains(pixel):
+            return None
+        across = (pixel.x() - area.left()) / area.width() * self._shape[0]
+        up = (area.bottom() - pixel.y()) / area.height() * self._shape[1]
+        return min(int(across), self._shape[0] - 1), min(int(up), self._shape[1] - 1)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the map."""
+        painter = QPainter(self)
+        area = self.area()
+        self._labelled = []
+        painter.fillRect(area, self.palette().color(QPalette.ColorRole.Base))
+        painter.drawImage(area, self._image)
+        hatch = QBrush(self.palette().color(QPalette.ColorRole.Mid), Qt.BrushStyle.BDiagPattern)
+        for cell in self._refused:
+            painter.fillRect(self._cell(*cell), hatch)
+        painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
+        painter.drawRect(area)
+        self._draw_axes(painter, area)
+        painter.setClipRect(area)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for key, lines in self.lines.items():
+            self._draw_lines(painter, key, lines)
+        self._draw_marks(painter, area)
+        for key, lines in self.lines.items():  # over all that they stand beside
+            if lines and self.labels.get(key):
+                self._draw_label(painter, self.labels[key], max(lines, key=len))
+
+    def _cell(self, x: int, y: int) -> QRectF:
+        area = self.area()
+        width, height = area.width() / self._shape[0], area.height() / self._shape[1]
+        return QRectF(area.left() + x * width, area.bottom() - (y + 1) * height, width, height)
+
+    def _draw_axes(self, painter: QPainter, area: QRectF) -> None:
+        if self._axes is None:
+            return
+        line = self.fontMetrics().height()
+        text = self.palette().color(QPalette.ColorRole.WindowText)
+        painter.setPen(text)
+        centre = Qt.AlignmentFlag.AlignCenter
+        x, y = self._axes
+        for tick in ticks(x, int(area.width() / 38)):
+            at = self.place_of((tick.place, 0.0)).x()
+            painter.drawLine(QPointF(at, area.bottom()), QPointF(at, area.bottom() + _TICK))
+            painter.drawText(QRectF(at - 30, area.bottom() + _TICK, 60, line), centre, tick.text)
+        for tick in ticks(y, int(area.height() / (1.3 * line))):
+            at = self.place_of((0.0, tick.place)).y()
+            painter.drawLine(QPointF(area.left() - _TICK, at), QPointF(area.left(), at))
+            spot = QRectF(0, at - line / 2, area.left() - _TICK - _GAP, line)
+            painter.drawText(
+                spot, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, tick.text
+            )
+        below = QRectF(area.left(), self.height() - line, area.width(), line)
+        painter.drawText(below, centre, self._title_within(x, area.width()))
+        painter.drawText(QRectF(area.left(), 0, area.width(), line), centre, self.title)
+        painter.save()
+        painter.translate(0, area.bottom())
+        painter.rotate(-90)
+        painter.drawText(
+            QRectF(0, 0, area.height(), line), centre, self._title_within(y, area.height())
+        )
+        painter.restore()
+
+    def _title_within(self, quantity: Quantity, room: float) -> str:
+        """Name an axis by as much as there is room for."""
+        metrics = self.fontMetrics()
+        whole = axis_title(quantity)
+        if metrics.horizontalAdvance(whole) <= room:
+            return whole
+        short = axis_title(quantity, short=True)
+        return metrics.elidedText(short, Qt.TextElideMode.ElideRight, int(room))
+
+    def _draw_lines(self, painter: QPainter, key: str, lines: list[list[Point]]) -> None:
+        pen = QPen(_INK, 1.6, STYLES[key])
+        casing = QPen(_CASING, 3.6)
+        for line in lines:
+            path = QPolygonF([self.place_of(point) for point in line])
+            for each in (casing, pen):
+                painter.setPen(each)
+                painter.drawPolyline(path)
+
+    def _draw_label(self, painter: QPainter, text: str, line: list[Point]) -> None:
+        """Write beside a line what it is: at its upper end, or wherever there is room."""
+        size = self.fontMetrics().boundingRect(text).adjusted(-2, -1, 3, 1).size()
+        points = sorted((self.place_of(point) for point in line), key=QPointF.y)
+        spots = [self._beside(points[place], size) for place in (0, -1, len(points) // 2)]
+        free = (s for s in spots if not any(s.intersects(other) for other in self._labelled))
+        spot = next(free, None)
+        if spot is None:  # its dashes are in the legend, too
+            return
+        self._labelled.append(spot)
+        painter.fillRect(spot, _CASING)
+        painter.setPen(_INK)
+        painter.drawText(spot, Qt.AlignmentFlag.AlignCenter, text)
+
+    def _beside(self, point: QPointF, size: QSize) -> QRectF:
+        """Give a rectangle to the right of a point, or to its left, within the map."""
+        area = self.area()
+        left = point.x() + 5
+        if left + size.width() > area.right() - 2:
+            left = point.x() - 5 - size.width()
+        lowest = area.bottom() - size.height() - 2
+        top = min(max(point.y() + 2, area.top() + 2), lowest)
+        return QRectF(max(left, area.left() + 2), top, size.width(), size.height())
+
+    def _draw_marks(self, painter: QPainter, area: QRectF) -> None:
+        if self._cursor is not None:
+            painter.setPen(QPen(_PAPER, 1.5))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(self._cell(*self._cursor))
+        if self.setting is None:
+            return
+        at = self.place_of(self.setting)
+        for pen in (QPen(QColor(0, 0, 0, 160), 3.0), QPen(_PAPER, 1.0)):
+            painter.setPen(pen)
+            painter.drawLine(QPointF(at.x(), area.top()), QPointF(at.x(), area.bottom()))
+            painter.drawLine(QPointF(area.left(), at.y()), QPointF(area.right(), at.y()))
+        painter.setPen(QPen(_INK, 1.5))
+        painter.setBrush(_PAPER)
+        painter.drawEllipse(at, 4.0, 4.0)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell which point the mouse is at."""
+        self._point_at(self.cell_at(event.position()))
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell that the mouse is at no point."""
+        super().leaveEvent(event)
+        self._point_at(None)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Choose the point that was clicked on."""
+        cell = self.cell_at(event.position())
+        if cell is not None and event.button() == Qt.MouseButton.LeftButton:
+            self.picked.emit(*cell)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Move from point to point by the arrows, and choose one by Enter."""
+        key = Qt.Key(event.key())
+        if key in _STEPS and not self._image.isNull():
+            self._step(*_STEPS[key])
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self._cursor is not None:
+            self.picked.emit(*self._cursor)
+        else:
+            super().keyPressEvent(event)
+
+    def _step(self, across: int, up: int) -> None:
+        start = self._cursor
+        if start is None:
+            x, y = self.setting or (0.5, 0.5)
+            start = (round(x * (self._shape[0] - 1)), round(y * (self._shape[1] - 1)))
+        moved = zip(start, (across, up), self._shape, strict=True)
+        x, y = (min(max(place + step, 0), count - 1) for place, step, count in moved)
+        self._point_at((int(x), int(y)))
+
+    def _point_at(self, cell: tuple[int, int] | None) -> None:
+        if cell != self._cursor:
+            self._cursor = cell
+            self.pointed.emit(cell)
+            self.update()

@@ -1,0 +1,180 @@
+"""One map or several, side by side, with the bar of their colours."""
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from occ_gui.detection_map.colour_bar import ColourBar
+from occ_gui.detection_map.contours import Point, zero_lines
+from occ_gui.detection_map.map_colours import DIFFERENCES, RATES, colour_table, image_of, painted
+from occ_gui.detection_map.map_plot import MapPlot
+from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
+from occ_model.arrays import FloatArray
+from occ_model.scene.parameters import quantity
+
+_SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
+"""What both ends of a colour map stand for, in percent."""
+
+
+class MapPlots(QWidget):
+    """The maps of the decoders, or of their difference.
+
+    Parameters
+    ----------
+    decoders
+        The decoders' names.
+    parent
+        The parent widget.
+    """
+
+    picked = Signal(object)
+    """The point that was clicked on, by its places along both axes."""
+
+    pointed = Signal(object)
+    """The point under the mouse, None where there is none."""
+
+    def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._decoders = tuple(decoders)
+        self._what = "both"
+        self._rates: RateMap | None = None
+        self._theory: TheoryFields | None = None
+        self._lines: dict[str, list[list[Point]]] = {}
+        self._hidden: set[str] = set()
+        self._bar_drawn = ""
+        self._labels = {
+            "band": "t = t_LED",
+            "null": "f = 2/t",
+            "packets": self.tr("two packets"),
+            "saturation": self.tr("white"),
+        }
+        self.plots = tuple(self._new_plot() for _ in decoders)
+        self.bar = ColourBar()
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        for plot in self.plots:
+            layout.addWidget(plot, 1)
+        layout.addWidget(self.bar)
+        self._name_plots()
+
+    def _new_plot(self) -> MapPlot:
+        plot = MapPlot()
+        plot.labels = self._labels
+        plot.setToolTip(self.tr("Click to take the scene to a point; the arrow keys move, too."))
+        plot.picked.connect(lambda x, y: self.picked.emit((x, y)))
+        plot.pointed.connect(self.pointed)
+        return plot
+
+    def _names(self) -> tuple[str, ...]:
+        """Name the maps that are shown."""
+        if self._what == "both":
+            return self._decoders
+        return (self._what,)
+
+    def _name_plots(self) -> None:
+        names = self._names()
+        for plot, name in zip(self.plots, names, strict=False):
+            plot.title = self._title(name)
+            plot.setAccessibleName(self.tr("Detection map: {name}").format(name=plot.title))
+        for place, plot in enumerate(self.plots):
+            plot.setVisible(place < len(names))
+        self._bar_drawn = ""
+
+    def _title(self, name: str) -> str:
+        if name == "difference":
+            return self.tr("{one} less {other}").format(
+                one=self._decoders[1], other=self._decoders[0]
+            )
+        return name
+
+    def show_what(self, what: str) -> None:
+        """Show all decoders (``"both"``), one, or the ``"difference"`` of two."""
+        self._what = what
+        self._name_plots()
+        self._redraw()
+
+    def show_limit(self, limit: str, shown: bool) -> None:
+        """Show or hide the line of a limit."""
+        if shown:
+            self._hidden.discard(limit)
+        else:
+            self._hidden.add(limit)
+        self._show_lines()
+
+    def limits(self) -> Collection[str]:
+        """Name the limits whose lines cross the map."""
+        return [key for key in LINES if self._lines.get(key)]
+
+    def show_axes(self, x: str, y: str) -> None:
+        """Show which parameters the maps are over; nothing of the last ones stays."""
+        self._rates = self._theory = None
+        self._lines = {}
+        for plot in self.plots:
+            plot.show_axes(quantity(x), quantity(y))
+
+    def show_setting(self, place: Point) -> None:
+        """Mark the current setting, by its positions along both sliders."""
+        for plot in self.plots:
+            plot.setting = place
+            plot.update()
+
+    def show_map(self, rates: RateMap) -> None:
+        """Show what is known by now."""
+        self._rates = rates
+        if rates.theory is not None and rates.theory is not self._theory:
+            self._theory = rates.theory
+            self._lines = {
+                key: zero_lines(rates.theory.places, sides)
+                for key, sides in rates.theory.sides.items()
+            }
+        self._redraw()
+
+    def _redraw(self) -> None:
+        scheme = DIFFERENCES if self._what == "difference" else RATES
+        low, high = _SCALES[scheme]
+        if self._bar_drawn != scheme:
+            self._draw_bar(scheme)
+        rates = self._rates
+        if rates is None:
+            return
+        owners = rates.owners()
+        unknown = owners[0] < 0
+        refused = np.where(unknown, 0, rates.refused()[owners])
+        for plot, name in zip(self.plots, self._names(), strict=False):
+            values = np.where(unknown, np.nan, self._values(rates, name)[owners])
+            plot.show_picture(image_of(painted(values, low, high, scheme)), rates.shape, refused)
+        self._show_lines()
+
+    def _values(self, rates: RateMap, name: str) -> FloatArray:
+        if name == "difference":
+            return rates.rates(self._decoders[1]) - rates.rates(self._decoders[0])
+        return rates.rates(name)
+
+    def _show_lines(self) -> None:
+        lines = {key: found for key, found in self._lines.items() if key not in self._hidden}
+        for plot in self.plots:
+            plot.lines = lines
+            plot.update()
+
+    def _draw_bar(self, scheme: str) -> None:
+        table = colour_table(scheme)
+        low, high = _SCALES[scheme]
+        opaque = np.full((len(table), 1), 255, dtype=np.uint8)
+        image: QImage = image_of(np.hstack([table, opaque])[None])
+        numbers = tuple(
+            (share, _signed(low + share * (high - low)) if low else f"{100 * share:.0f} %")
+            for share in (0.0, 0.25, 0.5, 0.75, 1.0)
+        )
+        name = self.tr("Share of the bits that are read rightly, in percent")
+        if scheme == DIFFERENCES:
+            name = self.tr("Difference of the shares of bits that are read rightly, in percent")
+        self.bar.show_colours(image, numbers, name)
+        self._bar_drawn = scheme
+
+
+def _signed(percent: float) -> str:
+    return f"{percent:+.0f} %" if percent else "0 %"

@@ -1,0 +1,121 @@
+"""In which order the points of a map are measured."""
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby, islice
+
+import numpy as np
+
+from occ_gui.background.parcel import Parcel, Stage
+from occ_gui.detection_map.rate_map import STRIDES, lattice
+from occ_gui.detection_map.worker import measure_points, rate_settings, theory_fields
+from occ_model.arrays import IndexArray
+from occ_model.results import SweepRequest
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+SHAPE = (25, 13)
+"""Points along both axes: of two processes the first stage takes some 40 ms, all of them under a
+second."""
+
+IMAGES = (1, 2, 5)
+"""Images a point, one after the other."""
+
+COARSE, FINE, SURE = 0, 2, 4
+"""Ranks: the first answer, all points, and more images of each. Strips go in between."""
+
+_THEORY_SHAPES = ((7, 5), (17, 9))
+"""Points that the limits of theory are known at, at first and then."""
+
+
+def map_request(
+    scene: Scene,
+    x: str,
+    y: str,
+    settings: SimulationSettings,
+    decoders: tuple[str, ...],
+    *,
+    images: int = IMAGES[0],
+    with_image_effects: bool = False,
+) -> SweepRequest:
+    """Say what a map measures.
+
+    Parameters
+    ----------
+    scene
+        The scene; what its map does not depend on may be as it is.
+    x, y
+        The parameters that the map is over.
+    settings
+        How the window simulates.
+    decoders
+        Who reads.
+    images
+        Images a point.
+    with_image_effects
+        Whether whole images are made where the scene calls for them.
+    """
+    axes = {x: lattice(x, SHAPE[0]), y: lattice(y, SHAPE[1])}
+    measured = rate_settings(settings, images, decoders, with_image_effects)
+    return SweepRequest(scene, axes, measured)
+
+
+def map_stages(
+    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, whole_images: bool
+) -> Iterator[Stage]:
+    """Give the stages of a map: some points first, then those between, then more images of each.
+
+    Parameters
+    ----------
+    requests
+        The same map with more and more images a point.
+    images : ndarray of int64, shape (points along x, points along y)
+        Images that each point has been read at already.
+    with_theory
+        Whether the limits that theory gives are wanted, too.
+    whole_images
+        Whether points may take long.
+    """
+    first, *others = requests
+    order = list(first.in_order_of_work())
+    done = images.ravel()
+    for stride in STRIDES:
+        on = _on_lattice(first.shape, stride)
+        new = [i for i in order if on[i] and done[i] < first.settings.images]
+        done = np.where(on, np.maximum(done, first.settings.images), done)
+        parcels = _parcels(first, new, whole_images)
+        coarse = stride == STRIDES[0]
+        if with_theory and stride != STRIDES[-1]:
+            # Last, so that it fills the gap that one process leaves at the end.
+            parcels = (*parcels, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
+        # A whole image takes too long to be waited for.
+        yield Stage(COARSE if coarse else FINE, parcels, stays=coarse and not whole_images)
+    for request in others:
+        new = [i for i in order if done[i] < request.settings.images]
+        yield Stage(SURE, _parcels(request, new, whole_images))
+
+
+def _theory(request: SweepRequest, shape: tuple[int, int]) -> Parcel:
+    x, y = request.axes
+    return Parcel(theory_fields, (request.scene, x, y, shape))
+
+
+def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
+    """Say which points are on a coarser lattice, by their index."""
+    along = [np.arange(n) % stride == 0 for n in shape]
+    return np.asarray(np.logical_and.outer(*along).ravel())
+
+
+def _parcels(request: SweepRequest, indices: list[int], whole_images: bool) -> tuple[Parcel, ...]:
+    """Make a parcel of each line of points: along it decoders need not prepare themselves anew."""
+    if whole_images:
+        return tuple(_parcel(request, (index,)) for index in indices)
+    along_y = request.shape[1]
+    first, second = islice(request.in_order_of_work(), 2)
+    by_x = first // along_y == second // along_y
+    lines = groupby(indices, lambda i: i // along_y if by_x else i % along_y)
+    return tuple(_parcel(request, line) for _, line in lines)
+
+
+def _parcel(request: SweepRequest, indices: Iterable[int]) -> Parcel:
+    points = tuple((index, request.values(index)) for index in indices)
+    return Parcel(measure_points, (request.scene, request.settings, points))

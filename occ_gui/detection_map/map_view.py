@@ -1,0 +1,211 @@
+"""Where decoding works: success rates over two parameters, and how far it reaches."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.detection_map.advice_view import AdviceView
+from occ_gui.detection_map.map_legend import MapLegend
+from occ_gui.detection_map.map_plots import MapPlots
+from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+
+
+class MapView(QWidget):
+    """The map with its choices, and a second page with the advice.
+
+    Parameters
+    ----------
+    decoders
+        The decoders' names.
+    parent
+        The parent widget.
+    """
+
+    shown = Signal(bool)
+    """Whether it can be seen from now on."""
+
+    axes_chosen = Signal(str, str)
+    """The parameters that the map is to be over."""
+
+    image_effects_switched = Signal(bool)
+    """Whether whole images are to be made where the scene calls for them."""
+
+    picked = Signal(object)
+    """The point that was clicked on, by its places along both axes."""
+
+    pointed = Signal(object)
+    """The point under the mouse, None where there is none."""
+
+    def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._progress = self._failure = self._refusal = ""
+        self._facts: PointFacts | None = None
+        self._axes = (MAP_PARAMETERS[0], MAP_PARAMETERS[1])
+        self._make_choices(decoders)
+        self.plots, self.legend = MapPlots(decoders), MapLegend()
+        self.image_effects = QCheckBox(self.tr("with image effects (slow)"))
+        self.image_effects.setToolTip(
+            self.tr("Make whole images where the scene calls for them: 50 to 100 times slower.")
+        )
+        self.image_effects.setAccessibleName(self.tr("With image effects"))
+        self.advise = QPushButton(self.tr("How fast can I go?"))
+        self.advise.setToolTip(
+            self.tr("Search for the highest frequency and the exposures at which codes are read.")
+        )
+        self.advise.setAccessibleName(self.tr("How fast can I go?"))
+        self.status = ElidedLabel()
+        self.status.setAccessibleName(self.tr("State of the map"))
+        self.left_out = ElidedLabel()
+        self.left_out.setAccessibleName(self.tr("What the map leaves out"))
+        self.left_out.hide()
+        self.advice = AdviceView()
+        self._lay_out()
+        self._connect()
+        self.show_axes(*self._axes)
+
+    def _make_choices(self, decoders: Sequence[str]) -> None:
+        names = {name: quantity(name).label for name in MAP_PARAMETERS}
+        self.across = WordChoice(
+            self.tr("Across"), self.tr("The parameter from left to right."), names
+        )
+        self.up = WordChoice(self.tr("Up"), self.tr("The parameter from below upwards."), names)
+        words = {"both": self.tr("all decoders"), **{name: name for name in decoders}}
+        if len(decoders) > 1:
+            words["difference"] = self.tr("difference")
+        self.what = WordChoice(
+            self.tr("Decoders"), self.tr("Whose success rates are shown."), words
+        )
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.addWidget(self.across, 3)
+        head.addWidget(QLabel("×"))  # noqa: RUF001 - the sign for it
+        head.addWidget(self.up, 3)
+        head.addWidget(self.what, 2)
+        head.addWidget(self.advise)
+        foot = QHBoxLayout()
+        foot.addWidget(self.legend, 1)
+        foot.addWidget(self.image_effects)
+        page = QWidget()
+        column = QVBoxLayout(page)
+        column.setContentsMargins(4, 2, 4, 2)
+        column.setSpacing(2)
+        column.addLayout(head)
+        column.addWidget(self.plots, 1)
+        column.addLayout(foot)
+        column.addWidget(self.left_out)
+        column.addWidget(self.status)
+        self._pages = QStackedWidget()
+        self._pages.addWidget(page)
+        self._pages.addWidget(self.advice)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._pages)
+
+    def _connect(self) -> None:
+        self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))
+        self.up.chosen.connect(lambda y: self.axes_chosen.emit(self._axes[0], y))
+        self.what.chosen.connect(self.plots.show_what)
+        self.legend.toggled.connect(self.plots.show_limit)
+        self.image_effects.toggled.connect(self.image_effects_switched)
+        self.plots.picked.connect(self.picked)
+        self.plots.pointed.connect(self.pointed)
+        self.advise.clicked.connect(self._show_advice)
+        self.advice.back_asked.connect(self._show_map_page)
+
+    def _show_advice(self) -> None:
+        self._pages.setCurrentWidget(self.advice)
+        self.advice.asked.emit()
+
+    def _show_map_page(self) -> None:
+        self._pages.setCurrentIndex(0)
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the view."""
+        self.shown.emit(seen)
+
+    def show_axes(self, x: str, y: str) -> None:
+        """Show which parameters the map is over, without telling of it."""
+        self._axes = (x, y)
+        self.across.show_key(x)
+        self.up.show_key(y)
+        self.plots.show_axes(x, y)
+        self.show_facts(None)
+
+    def show_map(self, rates: RateMap) -> None:
+        """Show what is known by now."""
+        self._refusal = rates.refusal()
+        self.plots.show_map(rates)
+        self.legend.show_there(self.plots.limits())
+
+    def show_scene(self, scene: Scene) -> None:
+        """Mark the current setting."""
+        x, y = (quantity(name).fraction(float(scene.value(name))) for name in self._axes)
+        self.plots.show_setting((x, y))
+
+    def show_progress(self, known: int, total: int, images: int) -> None:
+        """Tell how many points are known, and that every one rests on so many images."""
+        if known < total:
+            text = self.tr("{known} of {total} points measured").format(known=known, total=total)
+        else:
+            text = self.tr("{total} points, images at each: {images}").format(
+                total=total, images=images
+            )
+        self._progress = text
+        self._say()
+
+    def show_failure(self, sentence: str) -> None:
+        """Tell why the map is not of the scene as it is, or what happened on the way."""
+        self._failure = sentence
+        self._say()
+
+    def show_left_out(self, effects: tuple[str, ...]) -> None:
+        """Tell which of the scene's image effects the map leaves out."""
+        self.left_out.setVisible(bool(effects))
+        self.left_out.set_full_text(
+            self.tr("The map leaves out what needs whole images: {effects}.").format(
+                effects=", ".join(effects)
+            )
+        )
+
+    def show_facts(self, facts: PointFacts | None) -> None:
+        """Show what is known of the point under the mouse."""
+        self._facts = facts
+        self._say()
+
+    def _say(self) -> None:
+        facts = self._facts
+        if facts is None:
+            self.status.set_full_text(self._failure or self._refusal or self._progress)
+        elif facts.note:
+            self.status.set_full_text(f"{self._where(facts)}: {facts.note}")
+        else:
+            self.status.set_full_text(f"{self._where(facts)}: {self._counts(facts)}")
+
+    def _where(self, facts: PointFacts) -> str:
+        x, y = (quantity(name) for name in self._axes)
+        return f"{x.format(facts.x, 4)}, {y.format(facts.y, 4)}"
+
+    def _counts(self, facts: PointFacts) -> str:
+        counts = (
+            self.tr("{decoder} {rate:.0f} %, {right} of {sent} bits ({low:.0f} to {high:.0f} %)")
+            .format(
+                decoder=decoder, rate=100 * right / facts.sent, right=right, sent=facts.sent,
+                low=low, high=high,
+            )
+            for decoder, right, low, high in facts.counts
+        )  # fmt: skip
+        return "; ".join(counts)

@@ -1,0 +1,184 @@
+"""Measure along each of the main sliders how well a decoder would read."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Protocol
+
+from PySide6.QtCore import QObject
+
+from occ_gui.background.crew import Lane
+from occ_gui.background.parcel import Parcel, Stage
+from occ_gui.detection_map.map_controller import UNSEEN
+from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.worker import Along, measure_along, rate_settings
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_model.receiver.decoders import PAPERS
+from occ_model.results import SweepPoint
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+POSITIONS = 29
+"""Positions along a slider."""
+
+STRIDES = (4, 1)
+"""Every how many of them are known, one after the other."""
+
+IMAGES = 2
+
+RANKS = (3, 3)
+"""Where there is a map in sight, the strips come once all its points are known."""
+
+
+@dataclass(frozen=True, slots=True)
+class MarginRequest:
+    """All that the strips depend on.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        How the window simulates.
+    decoder
+        Who reads.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
+    decoder: str
+
+    def along(self, name: str) -> "MarginRequest":
+        """Give what the strip of one slider depends on: not on the slider itself."""
+        given = {**UNSEEN, name: quantity(name).default}
+        return MarginRequest(self.scene.replace(**given), self.settings, self.decoder)
+
+
+class MarginPane(Protocol):
+    """Strips, one a slider."""
+
+    def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
+        """Show the share of bits read rightly at positions along a slider, None: not known."""
+
+
+def margin_stages(missing: Mapping[str, "tuple[MarginRequest, set[int]]"]) -> Iterator[Stage]:
+    """Give the stages of the work that is left.
+
+    Parameters
+    ----------
+    missing
+        For each slider what it depends on, and the positions that are not known.
+    """
+    done: set[int] = set()
+    for stride, rank in zip(STRIDES, RANKS, strict=True):
+        now = set(range(0, POSITIONS, stride)) - done
+        done |= now
+        parcels = tuple(
+            _parcel(request, name, sorted(now & places))
+            for name, (request, places) in missing.items()
+            if now & places
+        )
+        yield Stage(rank, parcels, stays=stride == STRIDES[0])
+
+
+def _parcel(request: MarginRequest, name: str, places: list[int]) -> Parcel:
+    settings = rate_settings(request.settings, IMAGES, (request.decoder,), False)
+    values = lattice(name, POSITIONS)
+    points = tuple((place, {name: values[place]}) for place in places)
+    return Parcel(measure_along, (request.scene, settings, name, points))
+
+
+class MarginController(QObject):
+    """Connects the stores, the processes and the strips.
+
+    What lies under a slider does not change while that slider is moved.
+
+    Parameters
+    ----------
+    scenes, settings
+        What is measured.
+    lane
+        Does the work.
+    pane
+        Shows the strips; nothing is measured until they are said to be seen.
+    names
+        The sliders.
+    """
+
+    def __init__(
+        self,
+        scenes: SceneStore,
+        settings: SettingsStore,
+        lane: Lane,
+        pane: MarginPane,
+        names: Iterable[str],
+    ) -> None:
+        super().__init__()
+        self._scenes, self._settings = scenes, settings
+        self._lane, self._pane = lane, pane
+        self._names = tuple(names)
+        self._decoder = PAPERS
+        self._seen = False
+        self._asked: MarginRequest | None = None
+        self._known: dict[str, tuple[MarginRequest, dict[int, float | None]]] = {}
+        lane.came.connect(self._take)
+        for store in (scenes, settings):
+            store.changed.connect(self._move_on)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that was asked for is shown."""
+        return self._lane.is_idle
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the strips."""
+        self._seen = seen
+        if seen:
+            self._move_on()
+        else:
+            self._lane.cancel()
+            self._asked = None
+
+    def choose_decoder(self, decoder: str) -> None:
+        """Let another decoder read."""
+        self._decoder = decoder
+        self._move_on()
+
+    def _move_on(self) -> None:
+        if not self._seen:
+            return
+        request = MarginRequest(self._scenes.scene, self._settings.settings, self._decoder)
+        if request == self._asked:
+            return
+        self._asked = request
+        missing: dict[str, tuple[MarginRequest, set[int]]] = {}
+        for name in self._names:
+            along = request.along(name)
+            known = self._known.get(name)
+            there = set(known[1]) if known is not None and known[0] == along else set()
+            missing[name] = (along, set(range(POSITIONS)) - there)
+        self._lane.put(request, partial(margin_stages, missing))
+
+    def _take(self, request: MarginRequest, results: list[Along]) -> None:
+        for result in results:
+            along = request.along(result.name)
+            known = self._known.get(result.name)
+            if known is None or known[0] != along:
+                known = self._known[result.name] = (along, {})
+            known[1].update({point.index: _share(point) for point in result.points})
+        for name in {result.name for result in results}:
+            shares = self._known[name][1]
+            self._pane.show_shares(name, tuple(_nearest(shares, p) for p in range(POSITIONS)))
+
+
+def _share(point: SweepPoint) -> float | None:
+    return point.right[0] / point.sent if point.sent else None
+
+
+def _nearest(shares: Mapping[int, float | None], place: int) -> float | None:
+    """Give a position's share, or that of the known one on the coarser lattice beside it."""
+    if place in shares:
+        return shares[place]
+    return shares.get(round(place / STRIDES[0]) * STRIDES[0])

@@ -1,0 +1,35 @@
+"""The detection map as the table of a sweep, which is what can be drawn and written."""
+
+import numpy as np
+
+from occ_gui.detection_map.map_controller import MapRequest
+from occ_gui.detection_map.map_schedule import map_request
+from occ_gui.detection_map.rate_map import RateMap
+from occ_model.results import SweepPoint, SweepTable
+from occ_model.study.sweep.sweep import rate_intervals
+
+
+def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:
+    """Write a map whose points are all known as a table; later points do not change it.
+
+    Parameters
+    ----------
+    rates
+        The map.
+    asked
+        What it was measured for.
+    """
+    request = map_request(
+        asked.scene, asked.x, asked.y, asked.settings, rates.decoders,
+        images=rates.least_images, with_image_effects=asked.with_image_effects,
+    )  # fmt: skip
+    sent, right = rates.sent.copy(), rates.right.copy()
+    ends = np.array(
+        [
+            rate_intervals(SweepPoint(index, int(bits), tuple(map(int, read))))
+            for index, (bits, read) in enumerate(
+                zip(sent.ravel(), right.reshape(sent.size, -1), strict=True)
+            )
+        ]
+    ).reshape(*right.shape, 2)
+    return SweepTable(request, sent, right, ends[..., 0], ends[..., 1], dict(rates.notes))

@@ -1,0 +1,182 @@
+"""What the processes beside the window do; nothing here needs Qt."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_gui.background.parcel import Pulse
+from occ_gui.detection_map.advice import Advice, TheoryNumbers
+from occ_gui.detection_map.rate_map import LINES, TheoryFields
+from occ_model.effects.plan import plan
+from occ_model.effects.registry import EFFECTS
+from occ_model.errors import OccError
+from occ_model.results import RateSettings, SweepPoint, Way
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study import theory
+from occ_model.study.limits import limits
+from occ_model.study.observation import panel_span
+from occ_model.study.sweep.points import measure_point
+
+IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
+"""Effects that need whole images, and make a point 50 to 100 times slower."""
+
+SEED = 1
+"""Of all rates: that of :func:`occ_model.sweep`, so that its table is the map's."""
+
+PRELOAD = __name__
+"""What a process needs to do the work."""
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """Points that were measured.
+
+    Parameters
+    ----------
+    points
+        The points.
+    images
+        Images that were read at each.
+    """
+
+    points: tuple[SweepPoint, ...]
+    images: int
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """What was measured along one slider.
+
+    Parameters
+    ----------
+    name
+        The slider's parameter.
+    points
+        The positions, by their number.
+    """
+
+    name: str
+    points: tuple[SweepPoint, ...]
+
+
+def rate_settings(
+    settings: SimulationSettings, images: int, decoders: tuple[str, ...], with_image_effects: bool
+) -> RateSettings:
+    """Say how rates are measured beside the window.
+
+    Parameters
+    ----------
+    settings
+        How the window simulates.
+    images
+        Images a point.
+    decoders
+        Who reads them.
+    with_image_effects
+        Whether whole images are made where the scene calls for them; otherwise what needs them is
+        left out, or refused where it cannot be.
+    """
+    force: Mapping[str, bool] = settings.force
+    way: Way = "auto"
+    if not with_image_effects:
+        force, way = {**force, **dict.fromkeys(IMAGE_EFFECTS, False)}, "profile"
+    return RateSettings(images, decoders, SEED, settings.tolerance, force, way)
+
+
+def leaves_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
+    """Name what the scene calls for and a profile cannot show.
+
+    Raises
+    ------
+    ProjectionError
+        The scene has no picture.
+    """
+    decided = plan(scene, settings.tolerance, "profile", settings.force).decisions
+    effects = tuple(d.label for d in decided if d.kind == "image" and d.included)
+    return effects if panel_span(scene) is not None else ("a panel that is not level", *effects)
+
+
+def measure_points(
+    scene: Scene,
+    settings: RateSettings,
+    points: tuple[tuple[int, dict[str, ParameterValue]], ...],
+    pulse: Pulse,
+) -> Points:
+    """Measure some points; what the model refuses becomes a note."""
+    found = (measure_point(scene, settings, index, values, pulse) for index, values in points)
+    return Points(tuple(found), settings.images)
+
+
+def measure_along(
+    scene: Scene,
+    settings: RateSettings,
+    name: str,
+    points: tuple[tuple[int, dict[str, ParameterValue]], ...],
+    pulse: Pulse,
+) -> Along:
+    """Measure positions along one slider."""
+    return Along(name, measure_points(scene, settings, points, pulse).points)
+
+
+def theory_fields(
+    scene: Scene, x: str, y: str, counts: tuple[int, int], pulse: Pulse
+) -> TheoryFields:
+    """Say on which side of each limit the points of a coarse lattice lie.
+
+    The numbers are logarithms of ratios, which on logarithmic axes are nearly planes, so that lines
+    between few points are exact enough.
+    """
+    places = (np.linspace(0.0, 1.0, counts[0]), np.linspace(0.0, 1.0, counts[1]))
+    sides = {name: np.full(counts, math.nan) for name in LINES}
+    for i, at_x in enumerate(places[0].tolist()):
+        pulse()
+        for j, at_y in enumerate(places[1].tolist()):
+            try:
+                values = {x: quantity(x).at(at_x), y: quantity(y).at(at_y)}
+                found = _sides(scene.replace(**values))
+            except OccError:
+                continue
+            for name, side in found.items():
+                sides[name][i, j] = side
+    return TheoryFields(places, sides)
+
+
+def _sides(scene: Scene) -> dict[str, float]:
+    frequency = scene.transmitter.switching_frequency
+    packets = theory.two_packets_frequency(scene)
+    white = theory.saturation_exposure(scene)
+    ratios = {
+        "band": frequency / theory.band_model_frequency(scene),
+        "null": frequency / theory.null_frequency(scene),
+        "packets": math.nan if packets is None else frequency / packets,
+        "saturation": scene.camera.exposure_time / white if math.isfinite(white) else math.nan,
+    }
+    return {name: math.log(ratio) for name, ratio in ratios.items()}
+
+
+def advise(scene: Scene, settings: RateSettings, decoder: str, rate: float, pulse: Pulse) -> Advice:
+    """Find how far a decoder reaches, with the numbers that theory gives.
+
+    Raises
+    ------
+    OccError
+        The scene has no picture, or its path is refused.
+    """
+    found = limits(
+        scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
+        tolerance=settings.tolerance, force=settings.force, path=settings.path, pulse=pulse,
+    )  # fmt: skip
+    numbers = TheoryNumbers(
+        band_frequency=theory.band_model_frequency(scene),
+        null_frequency=theory.null_frequency(scene),
+        packets_frequency=theory.two_packets_frequency(scene),
+        band_exposure=1.0 / scene.transmitter.switching_frequency,
+        null_exposure=2.0 / scene.transmitter.switching_frequency,
+        saturation_exposure=theory.saturation_exposure(scene),
+    )
+    return Advice(found, numbers)

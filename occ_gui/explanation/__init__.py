@@ -1,0 +1,1 @@
+"""The equations with their numbers, and the exposure of one column."""

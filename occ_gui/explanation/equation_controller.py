@@ -1,0 +1,56 @@
+"""Fill the equations with the numbers of the moment, and tell what has changed in them."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from PySide6.QtCore import QObject
+
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.results.teaching import Equation
+from occ_model.scene.scene import GROUPS, Scene
+from occ_model.teaching.equations import equations
+
+_NAMES = tuple(name for names in GROUPS.values() for name in names)
+
+
+class EquationPane(Protocol):
+    """A pane that shows equations."""
+
+    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
+        """Show these in place of the last ones, and which parameters have just changed."""
+
+
+class EquationController(QObject):
+    """Follows the scene while the equations can be seen.
+
+    Parameters
+    ----------
+    scenes
+        The scene.
+    pane
+        Shows the equations.
+    """
+
+    def __init__(self, scenes: SceneStore, pane: EquationPane) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self._pane = pane
+        self._seen = False
+        self._shown: Scene | None = None
+        scenes.changed.connect(self._show)
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the equations."""
+        self._seen = seen
+        if seen and self._shown != self._scenes.scene:
+            self._shown = None  # what changed meanwhile has not just changed
+            self._show(self._scenes.scene)
+
+    def _show(self, scene: Scene) -> None:
+        if not self._seen:
+            return
+        last, self._shown = self._shown, scene
+        changed = frozenset[str]()
+        if last is not None:
+            changed = frozenset(n for n in _NAMES if last.value(n) != scene.value(n))
+        self._pane.show_equations(equations(scene), changed)

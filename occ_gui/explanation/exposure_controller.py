@@ -1,0 +1,101 @@
+"""Show the exposure of the column that the user points at."""
+
+from typing import Protocol
+
+from PySide6.QtCore import QObject
+
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results.teaching import ExposureWindow
+from occ_model.teaching.exposure_window import exposure_window
+
+
+class ExposurePane(Protocol):
+    """A pane that shows a column's exposure."""
+
+    def show_column(self, column: int, columns: int, held: bool) -> None:
+        """Show which of the picture's columns is chosen, without telling of it."""
+
+    def show_window(self, window: ExposureWindow, level: float) -> None:
+        """Show a column's exposure, and the grey level that came of it."""
+
+
+class ColumnMark(Protocol):
+    """A plot that marks a column."""
+
+    def set_active(self, active: bool) -> None:
+        """Say whether columns are picked at all."""
+
+    def show_column(self, column: int, held: bool) -> None:
+        """Mark a column."""
+
+
+class ExposureController(QObject):
+    """Keeps the chosen column, held or under the mouse, and works out its exposure while seen.
+
+    Parameters
+    ----------
+    pane
+        Shows the exposure.
+    mark
+        Marks the column in the profile.
+    """
+
+    def __init__(self, pane: ExposurePane, mark: ColumnMark) -> None:
+        super().__init__()
+        self._pane = pane
+        self._mark = mark
+        self._snapshot: Snapshot | None = None
+        self._column: int | None = None
+        self._held = False
+        self._seen = False
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the exposure."""
+        self._seen = seen
+        self._mark.set_active(seen)
+        self._show()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Show columns of these results from now on."""
+        self._snapshot = snapshot
+        self._show()
+
+    def hover(self, column: int) -> None:
+        """Show the column under the mouse, unless another one is held."""
+        if not self._held:
+            self._choose(column, held=False)
+
+    def click(self, column: int) -> None:
+        """Hold a column; let go of it if it was the one held."""
+        self._choose(column, held=not (self._held and column == self._column))
+
+    def step(self, columns: int) -> None:
+        """Go on by some columns, and hold the one found there."""
+        if self._column is not None:
+            self._choose(self._column + columns, held=True)
+
+    def choose(self, column: int) -> None:
+        """Hold a column."""
+        self._choose(column, held=True)
+
+    def hold(self, held: bool) -> None:
+        """Hold the column that is shown, or let the mouse choose."""
+        self._held = held
+        self._show()
+
+    def _choose(self, column: int, held: bool) -> None:
+        self._column, self._held = column, held
+        self._show()
+
+    def _show(self) -> None:
+        snapshot = self._snapshot
+        if snapshot is None or not self._seen:
+            return
+        profile = snapshot.frame.profile
+        if self._column is None:  # one of the first packet, which the profile shows
+            self._column = int(snapshot.panel_origin[0] + snapshot.packet_columns / 2)
+        self._column = min(max(self._column, 0), len(profile) - 1)
+        self._pane.show_column(self._column, len(profile), self._held)
+        self._mark.show_column(self._column, self._held)
+        window = exposure_window(snapshot.frame.scene, self._column)
+        self._pane.show_window(window, float(profile[self._column]))

@@ -1,0 +1,143 @@
+"""One column's exposure on the LED's waveform, in time."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QBrush, QColor
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
+from occ_gui.widgets.contrast import pen_on
+from occ_gui.widgets.plot import BAND, REGION, SIMULATION, new_plot, thin
+from occ_model.results.teaching import ExposureWindow
+from occ_model.scene.units import SECOND
+
+_MICRO = 1e6
+_SHADE = 60
+_LEAST_HEIGHT = 92
+
+_LEAST_SPAN = 1e-6
+"""Share of the time that is drawn across which the plot can be zoomed in."""
+
+
+class ExposurePlot(QWidget):
+    """The chips as a step curve, the exposure shaded, what of it is lit hatched, and a sentence."""
+
+    column_chosen = Signal(int)
+    """The column that the user wants to see."""
+
+    hold_chosen = Signal(bool)
+    """Whether the column is to stay, wherever the mouse is."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.sentence = QLabel()
+        self.sentence.setWordWrap(True)
+        self.sentence.setTextFormat(Qt.TextFormat.PlainText)
+        self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self.sentence.setAccessibleName(self.tr("What the column sees"))
+        self._make_plot()
+        self._make_controls()
+        row = QHBoxLayout()
+        row.addWidget(QLabel(self.tr("Column")))
+        row.addWidget(self.column)
+        row.addWidget(self.hold)
+        row.addStretch(1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(4, 2, 4, 4)
+        layout.setSpacing(2)
+        layout.addLayout(row)
+        layout.addWidget(self.sentence)
+        layout.addWidget(self.plot, 1)
+
+    def _make_plot(self) -> None:
+        self.plot = new_plot(
+            self.tr("Exposure of a column on the LED's waveform"),
+            self.tr("time (µs)"), self.tr("LED"), self.palette(),
+        )  # fmt: skip
+        self.plot.setMinimumHeight(_LEAST_HEIGHT)
+        self.plot.setMouseEnabled(x=True, y=False)
+        self.plot.getAxis("left").setTicks([[(0.0, self.tr("off")), (1.0, self.tr("on"))]])
+        colour = QColor(REGION)
+        colour.setAlpha(_SHADE)
+        self.shade = pg.LinearRegionItem(brush=colour, pen=thin(REGION), movable=False)
+        self.shade.setZValue(-10)
+        self.lit = pg.BarGraphItem(
+            x0=[], x1=[], y0=0.0, y1=1.0, pen=thin(BAND), brush=_hatching(BAND)
+        )
+        self.chips = pg.PlotCurveItem()
+        self.plot.dress_with(lambda palette: self.chips.setPen(pen_on(palette, thin(SIMULATION))))
+        for item in (self.shade, self.lit, self.chips):
+            item.hide()
+            self.plot.addItem(item, ignoreBounds=True)
+        self.plot.setYRange(-0.12, 1.25, padding=0)
+
+    def _make_controls(self) -> None:
+        self.column = QSpinBox()
+        self.column.setKeyboardTracking(False)
+        self.column.setAccessibleName(self.tr("Column whose exposure is shown"))
+        self.column.setToolTip(
+            self.tr(
+                "The column of the picture whose exposure is shown. Moving the mouse over the "
+                "profile chooses one too, and so do the arrow keys there."
+            )
+        )
+        keep_wheel_for_scrolling(self.column)
+        self.column.valueChanged.connect(self.column_chosen)
+        self.hold = QCheckBox(self.tr("Hold"))
+        self.hold.setToolTip(
+            self.tr("Keep this column wherever the mouse is, as a click on the profile does.")
+        )
+        self.hold.clicked.connect(self.hold_chosen)
+
+    def show_column(self, column: int, columns: int, held: bool) -> None:
+        """Show which of the picture's columns is chosen, without telling of it."""
+        self.column.blockSignals(True)
+        self.column.setRange(0, columns - 1)
+        self.column.setValue(column)
+        self.column.blockSignals(False)
+        self.hold.setChecked(held)
+
+    def show_window(self, window: ExposureWindow, level: float) -> None:
+        """Show a column's exposure, and the grey level that came of it."""
+        edges = window.edges * _MICRO
+        start, end = window.start * _MICRO, window.end * _MICRO
+        last = edges[-1]
+        self.chips.setData(edges, window.lit.astype(np.float64), stepMode="center")
+        self.shade.setRegion((start, min(end, last)))
+        parts = window.lit_parts * _MICRO
+        self.lit.setOpts(x0=parts[:, 0], x1=parts[:, 1])
+        for item in (self.shade, self.chips):
+            item.show()
+        self.lit.setVisible(len(parts) > 0)
+        self.plot.limit("bottom", 2.0 * last, _LEAST_SPAN * last)
+        self.plot.setXRange(0.0, last, padding=0.01)
+        share = window.on_time / window.exposure_time
+        text = self.tr(
+            "Column {column}: {exposure} exposure, LED on for {on} ({share:.0f} %) "
+            "→ {level:.1f} grey levels"
+        ).format(
+            column=window.column,
+            exposure=SECOND.format(window.exposure_time, 4),
+            on=SECOND.format(window.on_time, 4),
+            share=100.0 * share,
+            level=level,
+        )
+        if window.shortened:
+            text += self.tr("; only the first {chips} chips are drawn").format(
+                chips=len(window.lit)
+            )
+        self.sentence.setText(text)
+        self.plot.setAccessibleDescription(text)
+
+
+def _hatching(colour: QColor) -> QBrush:
+    return QBrush(colour, Qt.BrushStyle.BDiagPattern)

@@ -1,0 +1,45 @@
+"""The pane that explains the stripes, with its controllers."""
+
+from PySide6.QtCore import QObject
+
+from occ_gui.explanation.column_picker import ColumnPicker
+from occ_gui.explanation.equation_controller import EquationController
+from occ_gui.explanation.explanation_view import ExplanationView
+from occ_gui.explanation.exposure_controller import ExposureController
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.plot import Plot
+
+
+class ExplanationDesk(QObject):
+    """The equations of the scene, and the exposure of the column that is pointed at.
+
+    Parameters
+    ----------
+    scenes
+        The scene.
+    plot
+        The profile, in which columns are picked.
+    """
+
+    def __init__(self, scenes: SceneStore, plot: Plot) -> None:
+        super().__init__()
+        self.pane = ExplanationView()
+        self.picker = ColumnPicker(plot)
+        self._equations = EquationController(scenes, self.pane.equations)
+        exposure = self._exposure = ExposureController(self.pane.exposure, self.picker)
+        self.picker.hovered.connect(exposure.hover)
+        self.picker.clicked.connect(exposure.click)
+        self.picker.stepped.connect(exposure.step)
+        self.picker.released.connect(lambda: exposure.hold(False))
+        self.pane.exposure.column_chosen.connect(exposure.choose)
+        self.pane.exposure.hold_chosen.connect(exposure.hold)
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the pane."""
+        self._equations.set_seen(seen)
+        self._exposure.set_seen(seen)
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Explain these results from now on."""
+        self._exposure.show_snapshot(snapshot)

@@ -1,0 +1,138 @@
+"""Lead through the explorations: every step sets its scene and shows where to look."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.files.file_controller import sample_photos
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.widgets.plain_text import LONGEST
+from occ_model.errors import OccError, one_line
+from occ_model.photo.reading.load import Photo
+from occ_model.results.teaching import Exploration, Step
+from occ_model.teaching.explorations import explorations
+
+
+class ExplorationPane(Protocol):
+    """A pane that shows explorations and their steps."""
+
+    def list_explorations(
+        self, found: Sequence[Exploration], reached: Mapping[str, int], failure: str
+    ) -> None:
+        """Offer these, with the steps that were reached, or say why there are none."""
+
+    def show_step(self, exploration: Exploration, place: int) -> None:
+        """Show a step of an exploration."""
+
+
+class ExplorationController(QObject):
+    """Goes from step to step and remembers, while the window is open, how far the user came.
+
+    Parameters
+    ----------
+    scenes
+        Takes the scene of a step.
+    photos
+        Opens the photo of a step.
+    pane
+        Shows the explorations.
+    """
+
+    said = Signal(str)
+    """Why a step is not as it should be."""
+
+    pane_wanted = Signal(str)
+    """The name of the pane that a step is best seen in."""
+
+    def __init__(self, scenes: SceneStore, photos: PhotoController, pane: ExplorationPane) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self._photos = photos
+        self._pane = pane
+        self._all: tuple[Exploration, ...] = ()
+        self._current: Exploration | None = None
+        self._done: dict[str, int] = {}
+        self._places: dict[str, int] = {}
+        self._open: Path | None = None
+        photos.opened.connect(self._note_photo)
+
+    def set_seen(self, seen: bool) -> None:
+        """Read the explorations as soon as somebody wants to see them."""
+        if seen and not self._all:
+            failure = ""
+            try:
+                self._all = explorations()
+            except OccError as error:
+                failure = one_line(str(error), LONGEST)
+            except Exception as error:  # noqa: BLE001 - whatever is in them, the window works on
+                reason = one_line(f"{type(error).__name__}: {error}")
+                failure = self.tr("The explorations cannot be read: {reason}.").format(
+                    reason=reason
+                )
+            self._pane.list_explorations(self._all, {}, failure)
+
+    def choose(self, name: str) -> None:
+        """Go on with an exploration where it was left."""
+        for exploration in self._all:
+            if exploration.name == name:
+                self._current = exploration
+                self._go(self._places.get(name, 0))
+
+    def go(self, steps: int) -> None:
+        """Go on, or back, by some steps; beyond the last one to the list."""
+        if self._current is None:
+            return
+        name, count = self._current.name, len(self._current.steps)
+        place = self._places[name] + steps
+        if place < count:
+            self._go(max(place, 0))
+            return
+        self._done[name] = count
+        self._places[name] = 0
+        self.leave()
+
+    def leave(self) -> None:
+        """Go back to the list; the step stays where it is."""
+        self._current = None
+        self._pane.list_explorations(self._all, self._places | self._done, "")
+
+    def set_again(self) -> None:
+        """Set the scene of the step again, whatever has been changed in it."""
+        if self._current is not None:
+            self._set(self._current, self._places[self._current.name])
+
+    def _go(self, place: int) -> None:
+        exploration = self._current
+        if exploration is None:
+            return
+        self._places[exploration.name] = place
+        self._done.pop(exploration.name, None)
+        self._pane.show_step(exploration, place)
+        self._set(exploration, place)
+
+    def _set(self, exploration: Exploration, place: int) -> None:
+        step = exploration.steps[place]
+        title = self.tr("step {number} of “{title}”").format(
+            number=place + 1, title=exploration.title
+        )
+        self._scenes.put(step.scene, title, new_gesture())
+        self._open_photo(step)
+        if step.pane:
+            self.pane_wanted.emit(step.pane)
+
+    def _open_photo(self, step: Step) -> None:
+        samples = {path.stem: path for path in sample_photos()}
+        wanted = samples.get(step.photo)
+        if step.photo and wanted is None:
+            self.said.emit(self.tr("The photo {name} is missing.").format(name=step.photo))
+        elif wanted is not None and wanted != self._open:
+            self._photos.open(wanted)
+        elif not step.photo and self._open in samples.values():
+            self._photos.close()  # a photo of the user's own stays
+
+    def _note_photo(self, photo: Photo | None) -> None:
+        self._open = None if photo is None else photo.path

@@ -1,0 +1,1 @@
+"""Panes as figures and tables in files."""

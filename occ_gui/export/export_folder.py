@@ -1,0 +1,69 @@
+"""Where files stand before all of them take their places; what a crash left there is removed."""
+
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from secrets import token_hex
+
+from PySide6.QtCore import QLockFile
+
+from occ_gui.files.kept_file import is_something_else
+
+_PREFIX = ".export-"
+_NAME = re.compile(re.escape(_PREFIX) + r"[a-z0-9_]{8}")
+
+
+@contextmanager
+def folder_aside(folder: Path) -> Iterator[Path]:
+    """Make a folder in a folder, locked beside it as long as it is there.
+
+    Raises
+    ------
+    OSError
+        It cannot be made.
+    """
+    aside = folder / f"{_PREFIX}{token_hex(4)}"
+    lock = _lock_of(aside)
+    is_locked = lock.tryLock(0)  # before there is anything that another process could remove
+    aside.mkdir()
+    try:
+        if not is_locked:
+            raise OSError(f"no lock can be made beside {aside.name}")
+        yield aside
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+        lock.unlock()
+
+
+def remove_left_behind(folder: Path) -> None:
+    """Remove what processes have left in a folder that did not come to their end."""
+    names = {path.name.removesuffix(".lock") for path in folder.glob(f"{_PREFIX}*")}
+    for name in filter(_NAME.fullmatch, names):
+        aside = folder / name
+        if is_something_else(Path(f"{aside}.lock")):
+            continue
+        lock = _lock_of(aside)
+        if not lock.tryLock(0):  # of a process that is at work, here or on another computer
+            continue
+        if _holds_only_files(aside):
+            shutil.rmtree(aside, ignore_errors=True)
+        lock.unlock()
+
+
+def _lock_of(aside: Path) -> QLockFile:
+    lock = QLockFile(f"{aside}.lock")
+    lock.setStaleLockTime(0)  # only that of a process that is gone is broken
+    return lock
+
+
+def _holds_only_files(path: Path) -> bool:
+    """Say whether it is a folder as an export makes it, and nothing of anybody else's."""
+    try:
+        is_folder = path.is_dir() and not path.is_symlink()
+        return is_folder and all(
+            each.is_file() and not each.is_symlink() for each in path.iterdir()
+        )
+    except OSError:
+        return False

@@ -1,0 +1,192 @@
+"""What of the window can be drawn for print, as it is at the moment."""
+
+from collections.abc import Callable, Mapping
+from datetime import datetime
+from functools import partial
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtCore import QObject
+
+from occ_gui.detection_map.map_controller import MapRequest
+from occ_gui.detection_map.rate_map import RateMap
+from occ_gui.detection_map.sweep_table import table_of
+from occ_gui.export.jobs import Sketch
+from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.errors import OccError
+from occ_model.photo.reading.load import Photo
+from occ_model.results import AccuracyPoint, Comparison, DecodeResult
+from occ_model.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from occ_model.figures.drawn import Drawing
+
+
+class NothingToDraw(OccError):  # noqa: N818 - no error: it is only too early
+    """There is nothing yet that a figure could show."""
+
+
+class ProfilePane(Protocol):
+    """The pane of the column profile."""
+
+    def columns_in_view(self) -> tuple[int, int]:
+        """Give the first column that is seen, and the one behind the last."""
+
+
+class AccuracyPane(Protocol):
+    """The pane of the accuracy study."""
+
+    @property
+    def measured(self) -> tuple[AccuracyPoint, ...]:
+        """All points of the scene as it is; none while they are not complete."""
+
+
+Source = Callable[[], Sketch]
+"""Gives what a figure is drawn from, or raises NothingToDraw."""
+
+
+class Figures(QObject):
+    """Knows what each figure is drawn from.
+
+    Parameters
+    ----------
+    settings
+        How the window simulates.
+    comparison
+        Gives the photo's profile beside the simulated one, if there is any.
+    profile, accuracy
+        The panes whose figures show what they show.
+    decoders
+        Names of the decoders.
+    """
+
+    def __init__(
+        self,
+        settings: SettingsStore,
+        comparison: Callable[[], Comparison | None],
+        profile: ProfilePane,
+        accuracy: AccuracyPane,
+        decoders: tuple[str, ...],
+    ) -> None:
+        super().__init__()
+        self._settings = settings
+        self._comparison = comparison
+        self._profile, self._accuracy = profile, accuracy
+        self._snapshot: Snapshot | None = None
+        self._photo: Photo | None = None
+        self._sources: dict[str, Source] = {
+            "picture": self._of_picture,
+            "profile": self._of_profile,
+        }
+        self.titles = {"picture": self.tr("Picture"), "profile": self.tr("Column profile")}
+        for decoder in decoders:
+            name = f"decoding-{decoder}"
+            title = self.tr("Decoding, {decoder}").format(decoder=decoder)
+            self.add(name, title, partial(self._of_decoding, decoder))
+        self.add("accuracy", self.tr("Accuracy and time"), self._of_accuracy)
+
+    def add_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> None:
+        """Let the detection map be drawn, too, which is given once all its points are known."""
+        self.add("map", self.tr("Detection map"), partial(self._of_map, full))
+
+    def _of_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> Sketch:
+        there = full()
+        if there is None:
+            raise NothingToDraw(
+                self.tr("The detection map is not complete yet: open its pane and wait a moment.")
+            )
+        table = table_of(*there)
+
+        def draw() -> "Drawing":
+            from occ_model.figures.sweep import sweep_drawing
+
+            return sweep_drawing(table)
+
+        return self.sketch(self._shown().frame.scene, draw)
+
+    def add(self, name: str, title: str, source: Source) -> None:
+        """Let one more figure be drawn."""
+        self._sources[name] = source
+        self.titles[name] = title
+
+    @property
+    def sources(self) -> Mapping[str, Source]:
+        """What gives the sketch of each figure, by the figures' names."""
+        return self._sources
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Draw these results from now on."""
+        self._snapshot = snapshot
+
+    def show_photo(self, photo: Photo | None) -> None:
+        """Draw this photo beside the picture from now on, or none."""
+        self._photo = photo
+
+    def sketch(self, scene: Scene, draw: "Callable[[], Drawing]") -> Sketch:
+        """Note what a figure shows, and when it was asked for."""
+        now = datetime.now().astimezone().isoformat(timespec="seconds")
+        return Sketch(scene, self._settings.settings, now, draw)
+
+    def _shown(self) -> Snapshot:
+        if self._snapshot is None:
+            raise NothingToDraw(self.tr("There is no picture yet."))
+        return self._snapshot
+
+    def _of_picture(self) -> Sketch:
+        shown = self._shown()
+        photo = None if self._photo is None else self._photo.image
+        frame, region = shown.frame, shown.decoded.region
+
+        def draw() -> "Drawing":
+            from occ_model.figures.window_panes import picture_drawing
+
+            return picture_drawing(frame, region, photo)
+
+        return self.sketch(frame.scene, draw)
+
+    def _of_profile(self) -> Sketch:
+        shown, comparison = self._shown(), self._comparison()
+        first, last = self._profile.columns_in_view()
+
+        def draw() -> "Drawing":
+            from occ_model.figures.window_panes import profile_drawing
+
+            return profile_drawing(
+                shown.frame, shown.band, shown.band_undefined, comparison, first, last
+            )
+
+        return self.sketch(shown.frame.scene, draw)
+
+    def _of_decoding(self, decoder: str) -> Sketch:
+        shown = self._shown()
+        result = _read_by(decoder, shown)
+        if result is None:
+            raise NothingToDraw(
+                self.tr("The {decoder} decoder has not read the picture.").format(decoder=decoder)
+            )
+
+        def draw() -> "Drawing":
+            from occ_model.figures.window_panes import decode_drawing
+
+            return decode_drawing(shown.frame.scene, result)
+
+        return self.sketch(shown.frame.scene, draw)
+
+    def _of_accuracy(self) -> Sketch:
+        points = self._accuracy.measured
+        if not points:
+            raise NothingToDraw(
+                self.tr("What accuracy costs is not measured yet: open its pane and wait a moment.")
+            )
+
+        def draw() -> "Drawing":
+            from occ_model.figures.accuracy import accuracy_drawing
+
+            return accuracy_drawing(points)
+
+        return self.sketch(self._shown().frame.scene, draw)
+
+
+def _read_by(decoder: str, shown: Snapshot) -> DecodeResult | None:
+    results = (shown.decoded, *shown.others)
+    return next((result for result in results if result.decoder == decoder), None)

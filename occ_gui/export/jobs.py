@@ -1,0 +1,140 @@
+"""Figures to files, off the window's thread: all that is written is written here."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from occ_gui.export.export_folder import folder_aside, remove_left_behind
+from occ_model.errors import OutputError
+from occ_model.files.writing import check_replaceable, make_folder
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+if TYPE_CHECKING:
+    from occ_model.figures.drawn import Drawing
+
+# matplotlib takes half a second to import: nothing here imports the export before it is used.
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sketch:
+    """What a figure is drawn from, as it was when the figure was asked for.
+
+    Parameters
+    ----------
+    scene, settings
+        What it shows, for its provenance.
+    date
+        When it was asked for.
+    draw
+        Makes the drawing; it must not touch a widget.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
+    date: str
+    draw: "Callable[[], Drawing]"
+
+    def provenance(self, drawing: "Drawing") -> Provenance:
+        """Say where the figure's numbers come from."""
+        from occ_model.figures.notes import settings_notes
+
+        scenes, settings = {"at hand": self.scene}, self.settings
+        notes = settings_notes(settings)
+        return Provenance(drawing.title, scenes, settings.seed, notes, self.date)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ExportJob:
+    """Figures, and where they go.
+
+    Parameters
+    ----------
+    sketches
+        The figures.
+    path
+        The file of the only figure; None for the clipboard.
+    folder
+        The folder that every figure is written to in every format.
+    """
+
+    sketches: Sequence[Sketch]
+    path: Path | None = None
+    folder: Path | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Exported:
+    """What became of a job.
+
+    Parameters
+    ----------
+    job
+        The job.
+    files
+        The files that were written.
+    png
+        The figure for the clipboard, else nothing.
+    """
+
+    job: ExportJob
+    files: Sequence[Path] = ()
+    png: bytes = b""
+
+
+def export(job: ExportJob) -> Exported:
+    """Write figures; what cannot be written complete is not there at all.
+
+    Raises
+    ------
+    OutputError
+        The ending names no format, or there is no writing there.
+    """
+    if job.folder is not None:
+        return Exported(job, _write_all(job.folder, job.sketches))
+    (sketch,) = job.sketches
+    drawing = sketch.draw()
+    if job.path is not None:
+        drawing.write(job.path, sketch.provenance(drawing))
+        return Exported(job, (job.path,))
+    from occ_model.figures.drawing import figure_bytes, house_style
+
+    with house_style():
+        return Exported(job, png=figure_bytes(drawing.draw(), "png", sketch.provenance(drawing)))
+
+
+def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
+    """Write a folder's figures beside their places first: a disk that is full half-way leaves none.
+
+    Raises
+    ------
+    OutputError
+        A figure cannot be written.
+    """
+    from occ_model.figures.drawn import write_all
+
+    is_new = not folder.exists()
+    make_folder(folder)
+    try:
+        remove_left_behind(folder)
+        with folder_aside(folder) as aside:
+            drawn = {id(drawing): (drawing, sketch) for drawing, sketch in _drawn(sketches)}
+            written = write_all(
+                aside,
+                [drawing for drawing, _ in drawn.values()],
+                lambda drawing: drawn[id(drawing)][1].provenance(drawing),
+            )
+            for path in written:
+                check_replaceable(folder / path.name)
+            return [path.replace(folder / path.name) for path in written]
+    except OSError as error:
+        raise OutputError(f"{folder} cannot be written to: {error.strerror or error}.") from None
+    finally:
+        if is_new and not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def _drawn(sketches: Sequence[Sketch]) -> "list[tuple[Drawing, Sketch]]":
+    return [(sketch.draw(), sketch) for sketch in sketches]

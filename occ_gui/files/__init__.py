@@ -1,0 +1,1 @@
+"""Scenes, presets and the session in files."""

@@ -1,0 +1,225 @@
+"""The file menu: dialogs, and reading and writing scenes, photos and pictures."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from occ_gui.files.preferences import Memory
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.errors import OccError, one_line
+from occ_model.files.resources import resource_path
+from occ_model.files.writing import PICTURE_ENDINGS, write_image
+from occ_model.photo.reading.load import Photo
+from occ_model.scene.from_text import read_scene_file, write_scene_file
+from occ_model.scene.scene_inside import ENDINGS, SCENE_ENDING, scene_inside
+
+_PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
+_PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2"
+
+
+def _has_scene(path: Path) -> bool:
+    """Say whether a file is a scene, or a figure or table that carries one."""
+    ending = path.suffix.lower()
+    if ending != ".png":  # a photo can be one, none of the others
+        return ending == SCENE_ENDING or ending in ENDINGS
+    try:
+        scene_inside(path)
+    except OccError:
+        return False
+    return True
+
+
+def _is_file(path: Path) -> bool:
+    """Say whether a path is a regular file; one that can be no path is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def sample_photos() -> list[Path]:
+    """List the photos that come with the program, by name."""
+    return sorted(resource_path("photos").glob("*.jpg"))
+
+
+class FileController(QObject):
+    """Does what the file menu says, and opens what is dropped on the window.
+
+    Parameters
+    ----------
+    window
+        The window that dialogs belong to.
+    store
+        The scene.
+    photos
+        Opens photos.
+    memory
+        Remembers files and folders.
+    """
+
+    said = Signal(str)
+    """What was done, or why it was not."""
+
+    scene_opened = Signal(Path)
+    """The scene file whose scene is the scene now."""
+
+    scene_saved = Signal(Path)
+    """The scene file that the scene has been saved to."""
+
+    def __init__(
+        self, window: QWidget, store: SceneStore, photos: PhotoController, memory: Memory
+    ) -> None:
+        super().__init__(window)
+        self._window = window
+        self._store = store
+        self._photos = photos
+        self._memory = memory
+        self._snapshot: Snapshot | None = None
+        photos.opened.connect(self._remember)
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Keep the picture that is on the screen, which is the one to save."""
+        self._snapshot = snapshot
+
+    def ask_for_photo(self) -> None:
+        """Let the user choose a photo and open it."""
+        kinds = self.tr("Photos ({patterns});;All files (*)").format(patterns=_PHOTOS)
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, self.tr("Open photo"), self._memory.folder, kinds
+        )
+        if name:
+            self.open_file(Path(name))
+
+    def ask_for_scene(self) -> None:
+        """Let the user choose a scene file and open it."""
+        kinds = self.tr("Scenes and figures ({patterns});;All files (*)").format(
+            patterns=" ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
+        )
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, self.tr("Open scene"), self._memory.folder, kinds
+        )
+        if name:
+            self.open_scene(Path(name))
+
+    def open_file(self, path: Path) -> None:
+        """Open a scene file, an exported figure or a photo, whichever it is."""
+        if _has_scene(path):
+            self.open_scene(path)
+        else:
+            self._photos.open(path)
+
+    def open_recent(self, path: Path) -> None:
+        """Open a file that was opened before; one that has gone is forgotten."""
+        if _is_file(path):
+            self.open_file(path)
+            return
+        self._memory.drop(path)
+        self.said.emit(self.tr("{path} is no longer there.").format(path=one_line(str(path))))
+
+    def open_sample(self, path: Path) -> None:
+        """Open a photo that comes with the program, with the scene that belongs to it."""
+        scene = path.with_suffix(SCENE_ENDING)
+        if scene.is_file():
+            self._put_scene(scene)
+        self._photos.open(path)
+
+    def open_dropped(self, paths: Sequence[Path]) -> None:
+        """Open the first scene and the first photo of what was dropped on the window."""
+        files = [path for path in paths if _is_file(path)]
+        scenes = [path for path in files if _has_scene(path)]
+        photos = [path for path in files if path not in scenes]
+        if not files:
+            what = (
+                self.tr("{path} is no file").format(path=one_line(str(paths[0]))) if paths else ""
+            )
+            what = what or self.tr("What was dropped is no file of this computer")
+            self.said.emit(self.tr("{what}; drop a photo or a scene (.toml).").format(what=what))
+            return
+        for path in scenes[:1]:
+            self.open_scene(path)
+        for path in photos[:1]:
+            self._photos.open(path)
+        opened = [one_line(path.name) for path in (*scenes[:1], *photos[:1])]
+        if len(paths) > len(opened):
+            self.said.emit(
+                self.tr("Of {count} things that were dropped, only {names} can be shown.").format(
+                    count=len(paths), names=self.tr(" and ").join(opened)
+                )
+            )
+
+    def open_scene(self, path: Path) -> None:
+        """Open a scene file; a bad one leaves the scene as it is."""
+        if self._put_scene(path):
+            self._memory.add(path)
+            if path.suffix.lower() != SCENE_ENDING:
+                # The file stays what it is: it is not what the scene is saved to.
+                said = self.tr("Opened the scene inside {name}")
+            else:
+                said = self.tr("Opened {name}")
+                self.scene_opened.emit(path)
+            self.said.emit(said.format(name=one_line(path.name)))
+
+    def _put_scene(self, path: Path) -> bool:
+        try:
+            scene = read_scene_file(path)
+        except OccError as error:
+            self.said.emit(str(error))
+            return False
+        self._store.put(scene, self.tr("opening of {name}").format(name=one_line(path.name)))
+        return True
+
+    def ask_to_save_scene(self) -> None:
+        """Let the user choose where to save the scene."""
+        name, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save scene"), self._in_folder("scene.toml"),
+            self.tr("Scenes (*.toml)"),
+        )  # fmt: skip
+        if name:
+            path = Path(name)
+            self.save_scene(path if path.suffix else path.with_suffix(SCENE_ENDING))
+
+    def save_scene(self, path: Path) -> None:
+        """Write the scene to a file."""
+        scene = self._store.scene
+        if self._save(path, lambda: write_scene_file(path, scene)):
+            self._memory.add(path)
+            self.scene_saved.emit(path)
+
+    def ask_to_save_picture(self) -> None:
+        """Let the user choose where to save the simulated picture."""
+        name, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save simulated picture"), self._in_folder("simulation.png"),
+            self.tr("Pictures ({patterns})").format(patterns=_PICTURES),
+        )  # fmt: skip
+        if name:
+            self.save_picture(Path(name))
+
+    def save_picture(self, path: Path) -> None:
+        """Write the picture on the screen to a file, at its full size."""
+        if self._snapshot is None:
+            self.said.emit(self.tr("There is no picture yet."))
+            return
+        image = self._snapshot.frame.image
+        self._save(path, lambda: write_image(path, image))
+
+    def _save(self, path: Path, write: Callable[[], None]) -> bool:
+        try:
+            write()
+        except OccError as error:
+            self.said.emit(str(error))
+            return False
+        self._memory.visit(path)
+        self.said.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+        return True
+
+    def _in_folder(self, name: str) -> str:
+        folder = self._memory.folder
+        return str(Path(folder, name)) if folder else name
+
+    def _remember(self, photo: Photo | None) -> None:
+        if photo is not None and photo.path not in sample_photos():
+            self._memory.add(photo.path)

@@ -1,0 +1,1 @@
+"""A real photo: opened, matched, compared."""

@@ -1,0 +1,200 @@
+"""What a match is asked for, and how far it is."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN, MatchChoice
+from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.parameter_rows import explain
+from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ
+
+SQUARE_FREQUENCY = Quantity(
+    "square_frequency",
+    "Frequency of the square wave",
+    "",
+    "Cycles per second of a blinking LED, each of two chips: one lit, one dark.",
+    unit=HERTZ, low=0.5, high=5e8, slider=(50.0, 2e4), scale="log", default=1000.0,
+)  # fmt: skip
+
+_FREQUENCY = KNOWN[0]
+
+_STEPS = 1000
+"""Steps of the progress bar."""
+
+
+class MatchForm(QWidget):
+    """The choices of a match, the button that starts it, and its progress."""
+
+    asked = Signal(object)
+    """A match is wanted: a MatchChoice."""
+
+    edited = Signal(str, object, int)
+    """What is known has been entered: name, value in SI units, and the number of the gesture."""
+
+    cancelled = Signal()
+    refused = Signal(str)
+    """Why what was entered is not taken."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._scene: Scene | None = None
+        self.sent = WordChoice(
+            self.tr("What was sent"),
+            self.tr(
+                "What the LED in the photo sent: what the scene sends, a square wave of so many "
+                "cycles per second, or whatever can be read from the stripes.\n"
+                "Find out: what the scene sends if that explains the stripes, else read."
+            ),
+            {
+                "auto": self.tr("Find out: as the scene, else read"),
+                "scene": self.tr("What the scene sends"),
+                "square": self.tr("Square wave of"),
+                "read": self.tr("Unknown: read it from the stripes"),
+            },
+        )
+        self.square = QuantityEdit(SQUARE_FREQUENCY)
+        self.square.setAccessibleName(SQUARE_FREQUENCY.label)
+        self.square.setToolTip(f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}")
+        self.estimate = WordChoice(
+            self.tr("What is estimated"),
+            self.tr(
+                "Stripes tell the product of readout time (in µs) and switching frequency "
+                "(in kHz): one of them has to be known, and is taken from the scene."
+            ),
+            {
+                "readout_time": self.tr("Readout time, frequency known"),
+                "switching_frequency": self.tr("Frequency, readout time known"),
+            },
+        )
+        self._make_known()
+        self.gamma = QCheckBox(self.tr("Fit gamma too"))
+        self.gamma.setToolTip(
+            self.tr("Estimate the camera's gamma from the shape of the stripes' edges as well.")
+        )
+        self._make_run()
+        self._lay_out()
+        self.sent.chosen.connect(self._show_known)
+        self.estimate.chosen.connect(self._show_known)
+        self.square.edited.connect(self._show_known)
+        self.square.refused.connect(self.refused)
+        self._show_known()
+
+    def _make_known(self) -> None:
+        """Make the fields of what must be known: it can be entered where it is asked for."""
+        self.known: dict[str, QuantityEdit] = {}
+        for name in KNOWN:
+            declared = quantity(name)
+            field = self.known[name] = QuantityEdit(declared)
+            field.setAccessibleName(self.tr("Known: {label}").format(label=declared.label))
+            told = self.tr("What is known of the photo; entering it changes the scene.")
+            field.setToolTip(f"{told}\n\n{explain(declared)}")
+            field.edited.connect(lambda value, name=name: self._edit(name, value))
+            field.refused.connect(self.refused)
+        self.hint = ElidedLabel("", Qt.TextElideMode.ElideRight)
+
+    def _edit(self, name: str, value: float) -> None:
+        self.edited.emit(name, value, new_gesture())
+
+    def _make_run(self) -> None:
+        self.start = QPushButton(self.tr("&Match photo"))
+        self.start.setToolTip(self.tr("Find the settings that explain the photo's stripes."))
+        self.start.clicked.connect(lambda: self.asked.emit(self.choice()))
+        self.progress = QProgressBar()
+        self.progress.setRange(0, _STEPS)
+        self.progress.setAccessibleName(self.tr("Share of the match that is done, in percent"))
+        self.cancel = QPushButton(self.tr("&Cancel"))
+        self.cancel.setToolTip(self.tr("Give up this match; what was found before stays."))
+        self.cancel.clicked.connect(self.cancelled)
+        self.show_running(False)
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout()
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setVerticalSpacing(3)
+        grid.addWidget(QLabel(self.tr("Sent")), 0, 0)
+        grid.addWidget(self.sent, 0, 1)
+        grid.addWidget(self.square, 0, 2)
+        grid.addWidget(QLabel(self.tr("Estimate")), 1, 0)
+        grid.addWidget(self.estimate, 1, 1, 1, 2)
+        known = QHBoxLayout()
+        for field in self.known.values():
+            known.addWidget(field)
+        known.addWidget(self.hint, 1)
+        grid.addWidget(QLabel(self.tr("Known")), 2, 0)
+        grid.addLayout(known, 2, 1, 1, 2)
+        grid.setColumnStretch(1, 1)
+        run = QHBoxLayout()
+        run.addWidget(self.gamma)
+        run.addStretch()
+        for widget in (self.start, self.progress, self.cancel):
+            run.addWidget(widget)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(3)
+        layout.addLayout(grid)
+        layout.addLayout(run)
+
+    def choice(self) -> MatchChoice:
+        """Give what is chosen, and typed so far."""
+        for field in (self.square, *self.known.values()):
+            field.take_typed()
+        return MatchChoice(
+            sent=self.sent.key(),
+            square_frequency=self.square.value(),
+            estimate=self.estimate.key(),
+            fit_gamma=self.gamma.isChecked(),
+        )
+
+    def show_scene(self, scene: Scene) -> None:
+        """Say what is known from this scene."""
+        self._scene = scene
+        self._show_known()
+
+    def show_running(self, running: bool) -> None:
+        """Show the progress and a way out of it, or the button that starts a match."""
+        goes, comes = (self.start, self.cancel) if running else (self.cancel, self.start)
+        had_focus = goes.hasFocus()
+        for widget in (self.progress, self.cancel):
+            widget.setVisible(running)
+        self.start.setVisible(not running)
+        if had_focus:  # or what is typed next would land in whatever field comes after it
+            comes.setFocus()
+        self.gamma.setEnabled(not running)
+        self.progress.setValue(0)
+
+    def show_progress(self, share: float) -> None:
+        """Show which share of the work is done, from 0 to 1."""
+        self.progress.setValue(round(_STEPS * share))
+
+    def _show_known(self) -> None:
+        square = self.sent.key() == "square"
+        self.square.setVisible(square)
+        of_frequency = self.estimate.key() == "readout_time"
+        for name, field in self.known.items():
+            field.setVisible((name == _FREQUENCY) == of_frequency)
+            field.setEnabled(not (of_frequency and square))  # then it is told by the square wave
+            if self._scene is not None:
+                field.set_value(float(self._scene.value(name)))
+        if square:
+            self.known[_FREQUENCY].set_value(CHIPS_OF_A_CYCLE * self.square.value())
+        blinking = self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE
+        self.hint.set_full_text(
+            self.tr("chips: a blinking LED of {cycles}").format(cycles=HERTZ.format(blinking, 4))
+            if of_frequency
+            else ""
+        )

@@ -1,0 +1,170 @@
+"""What a match has found, with how sure it is."""
+
+import math
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFontDatabase
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_model.results import Match
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ
+
+_ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+
+
+def _known_of(match: Match) -> str:
+    """Say which of the two, of which stripes tell only the product, was given."""
+    return next(name for name in KNOWN if name not in match.uncertainties)
+
+
+def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
+    """Write a value with its standard deviation, as many digits of it as that leaves sure."""
+    if spread is None or not 0.0 < spread < math.inf:
+        return quantity.format(value)
+    symbol, worth = quantity.unit.display(value)
+    # Two digits of the uncertainty, and the value as far as these reach.
+    decimals = min(max(0, 1 - math.floor(math.log10(spread / worth))), 12)
+    number = f"{value / worth:.{decimals}f} ± {spread / worth:.{decimals}f}"
+    return f"{number} {symbol}".rstrip()
+
+
+class MatchResult(QWidget):
+    """The estimates of a match as a table, how well they explain the photo, and their use."""
+
+    apply_asked = Signal()
+    """The scene is to become the one that was found."""
+
+    save_asked = Signal()
+    """What was found is to be kept as a preset."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._form = QFormLayout()
+        self._form.setContentsMargins(0, 0, 0, 0)
+        self._form.setVerticalSpacing(2)
+        self.values: dict[str, QLabel] = {}
+        for name, title in self._titles().items():
+            # A pattern can be as long as it likes.
+            label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setAccessibleName(title)
+            self.values[name] = label
+            self._form.addRow(title, label)
+        fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        self.values["pattern"].setFont(fixed)
+        self._match: Match | None = None
+        self._scene: Scene | None = None
+        self._given = math.nan
+        self.stale = QLabel()
+        self.stale.setWordWrap(True)
+        self.stale.setTextFormat(Qt.TextFormat.PlainText)
+        self.stale.setAccessibleName(self.tr("Whether the match is still of what is known"))
+        self.stale.hide()
+        self.apply = QPushButton(self.tr("&Apply to the scene"))
+        self.apply.setToolTip(
+            self.tr(
+                "Put what was found into the scene, as one step that can be undone: its picture "
+                "then lies on the photo."
+            )
+        )
+        self.apply.clicked.connect(self.apply_asked)
+        self.save = QPushButton(self.tr("&Save as preset…"))
+        self.save.setToolTip(
+            self.tr(
+                "Keep what was measured as a preset of your own, with the photo and the "
+                "uncertainties as its sources."
+            )
+        )
+        self.save.clicked.connect(self.save_asked)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.apply)
+        buttons.addWidget(self.save)
+        buttons.addStretch()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(self._form)
+        layout.addWidget(self.stale)
+        layout.addLayout(buttons)
+
+    def _titles(self) -> dict[str, str]:
+        estimates = {name: quantity(name).label for name in _ESTIMATES}
+        return {
+            **estimates,
+            "others": self.tr("or exposed for"),
+            "chip": self.tr("Chip length"),
+            "correlation": self.tr("Correlation"),
+            "saturated": self.tr("Saturated"),
+            "pattern": self.tr("Pattern"),
+        }
+
+    def show_match(self, match: Match) -> None:
+        """Show what was found."""
+        self._match = match
+        if self._scene is not None:
+            self._given = float(self._scene.value(_known_of(match)))
+        self._show_stale()
+        for name, text in (self._estimates(match) | self._quality(match)).items():
+            label = self.values[name]
+            if isinstance(label, ElidedLabel):
+                label.set_full_text(text)
+            else:
+                label.setText(text)
+            self._form.setRowVisible(label, bool(text))
+
+    def show_scene(self, scene: Scene) -> None:
+        """Tell whether what was given for the match is still what this scene has."""
+        self._scene = scene
+        self._show_stale()
+
+    def _show_stale(self) -> None:
+        match, scene = self._match, self._scene
+        if match is None or scene is None:
+            return
+        declared = quantity(name := _known_of(match))
+        now, then = float(scene.value(name)), float(getattr(match, name))
+        self.stale.setText(
+            self.tr("Found with {then}; the scene has {now} now: match again.").format(
+                then=declared.format(then), now=declared.format(now)
+            )
+        )
+        self.stale.setVisible(now not in {then, self._given})
+
+    def _estimates(self, match: Match) -> dict[str, str]:
+        """Write the estimates, and what was known beside them; nothing for a gamma not fitted."""
+        texts = {}
+        for name in _ESTIMATES:
+            spread = match.uncertainties.get(name)
+            texts[name] = with_uncertainty(quantity(name), getattr(match, name), spread)
+            if spread is None:
+                known = name != "gamma"
+                texts[name] = self.tr("{value} (given)").format(value=texts[name]) if known else ""
+        if len(match.pattern) == CHIPS_OF_A_CYCLE:
+            # What a blinking LED's maker gives are its cycles, not its chips.
+            cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, 4)
+            texts["switching_frequency"] += self.tr(": blinks at {cycles}").format(cycles=cycles)
+        exposure = quantity("exposure_time")
+        others = (exposure.format(t, 4) for t in match.other_exposures)
+        return {**texts, "others": self.tr(" or ").join(others)}
+
+    def _quality(self, match: Match) -> dict[str, str]:
+        columns = 1.0 / (match.switching_frequency * match.readout_time)
+        how = self.tr("read") if match.pattern_was_read else self.tr("given")
+        return {
+            "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
+                columns=columns, chips=len(match.pattern)
+            ),
+            "correlation": self.tr("{correlation:.4f}, RMSE {rmse:.2f} grey levels").format(
+                correlation=match.correlation, rmse=match.rmse
+            ),
+            "saturated": self.tr("{share:.1f} % of the region's pixels").format(
+                share=100 * match.stripes.saturated
+            ),
+            "pattern": self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how),
+        }

@@ -1,0 +1,133 @@
+"""Read photos off the window's thread and hand them to the views."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject, Signal
+
+import occ_model as occ
+from occ_gui.background.cancellable import Cancellable, Progress
+from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
+
+
+class PhotoView(Protocol):
+    """A pane that shows a photo."""
+
+    def show_photo(self, photo: Photo | None) -> None:
+        """Show this photo in place of the last one, or none."""
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoReading:
+    """How photos are read.
+
+    Parameters
+    ----------
+    scan_axis
+        Which axis of the file the shutter scanned, one of SCAN_AXES.
+    channel
+        What of a coloured photo is taken, one of CHANNELS.
+    """
+
+    scan_axis: str = SCAN_AXES[0]
+    channel: str = CHANNELS[0]
+
+
+def _read(request: tuple[Path, PhotoReading], progress: Progress) -> Photo:
+    path, reading = request
+    return occ.load_photo(path, reading.scan_axis, channel=reading.channel, progress=progress)
+
+
+class PhotoController(QObject):
+    """Opens photos, turns them, takes another of their channels, and closes them.
+
+    Parameters
+    ----------
+    views
+        The panes that show the photo.
+    """
+
+    opened = Signal(object)
+    """The photo that the views have just been given, or None."""
+
+    failed = Signal(str)
+    """Why a photo could not be read; the last one stays."""
+
+    begun = Signal()
+    """A photo is being read."""
+
+    progressed = Signal(float)
+    """The share of the reading that is done, from 0 to 1."""
+
+    ended = Signal()
+    """No photo is being read any more: it is shown, has failed, or is not wanted."""
+
+    reading_changed = Signal(object)
+    """How photos are read from now on: a PhotoReading."""
+
+    def __init__(self, views: Sequence[PhotoView]) -> None:
+        super().__init__()
+        self._views = views
+        self._wanted: Path | None = None
+        self._path: Path | None = None
+        self.reading = PhotoReading()
+        self.runner: Cancellable[tuple[Path, PhotoReading], Photo] = Cancellable(
+            _read, "reading of the photo"
+        )
+        self.runner.progressed.connect(self.progressed)
+        self.runner.finished.connect(self._show)
+        self.runner.failed.connect(self._keep_last)
+
+    def open(self, path: Path) -> None:
+        """Read a photo and show it."""
+        self._wanted = path
+        self.runner.start((path, self.reading))
+        self.begun.emit()
+
+    def cancel(self) -> None:
+        """Give up the reading; the last photo stays."""
+        if self.runner.is_running:
+            self.runner.cancel()
+            self._wanted = self._path
+            self.ended.emit()
+
+    def scan_along(self, scan_axis: str) -> None:
+        """Say which axis of the file the shutter scanned, and turn the photo that is open."""
+        self._read_as(replace(self.reading, scan_axis=scan_axis))
+
+    def take_channel(self, channel: str) -> None:
+        """Say which channel is taken, also of the photo that is open."""
+        self._read_as(replace(self.reading, channel=channel))
+
+    def _read_as(self, reading: PhotoReading) -> None:
+        self.reading = reading
+        self.reading_changed.emit(reading)
+        if self._wanted is not None:
+            self.open(self._wanted)
+
+    def close(self) -> None:
+        """Show no photo any more."""
+        self.cancel()
+        self._wanted = self._path = None
+        self._hand_over(None)
+
+    def _show(self, photo: Photo) -> None:
+        self.ended.emit()
+        self._path = photo.path
+        self._hand_over(photo)
+
+    def _keep_last(self, sentence: str) -> None:
+        self.ended.emit()
+        self._wanted = self._path
+        self.failed.emit(sentence)
+
+    def _hand_over(self, photo: Photo | None) -> None:
+        for view in self._views:
+            view.show_photo(photo)
+        self.opened.emit(photo)
+
+    def stop(self) -> None:
+        """Stop reading."""
+        self.runner.stop()

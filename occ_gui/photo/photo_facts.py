@@ -1,0 +1,127 @@
+"""What is known of a photo, and how it is read."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_model.errors import one_line
+from occ_model.photo.reading.load import Photo
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
+
+_PREFIXES = {"exposure_time": "", "iso": "ISO ", "f_number": "f/"}
+"""What stands before a camera's notes, by the names of the scene's parameters."""
+
+
+class PhotoFacts(QWidget):
+    """The photo's name, size, camera and settings, and the choice of channel and scan axis."""
+
+    settings_asked = Signal()
+    """The scene is to have the settings that the camera noted."""
+
+    channel_chosen = Signal(str)
+    scan_axis_chosen = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.name = ElidedLabel()
+        font = self.name.font()
+        font.setBold(True)
+        self.name.setFont(font)
+        self.size_line = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.notes = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.use_settings = QPushButton(self.tr("&Use this photo's settings"))
+        self.use_settings.setToolTip(
+            self.tr(
+                "Put the exposure time, ISO speed and f-number that the camera noted into the "
+                "scene, as one step that can be undone."
+            )
+        )
+        self.use_settings.clicked.connect(self.settings_asked)
+        self.channel = WordChoice(
+            self.tr("Channel"),
+            self.tr("The colour in which the stripes are looked for; of a grey photo all are one."),
+            {
+                "brightest": self.tr("brightest"),
+                "luma": self.tr("luma"),
+                "red": self.tr("red"),
+                "green": self.tr("green"),
+                "blue": self.tr("blue"),
+            },
+        )
+        self.channel.chosen.connect(self.channel_chosen)
+        self.scan_axis = WordChoice(
+            self.tr("Scanned"),
+            self.tr(
+                "Which way the shutter scanned: by columns or by lines of the file; automatic: "
+                "across the stripes."
+            ),
+            {
+                "auto": self.tr("automatic"),
+                "columns": self.tr("by columns"),
+                "lines": self.tr("by lines"),
+            },
+        )
+        self.scan_axis.chosen.connect(self.scan_axis_chosen)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        notes = QHBoxLayout()
+        notes.addWidget(self.notes, 1)
+        notes.addWidget(self.use_settings)
+        choices = QHBoxLayout()
+        for text, control in (
+            (self.tr("Channel"), self.channel),
+            (self.tr("Scanned"), self.scan_axis),
+        ):
+            choices.addWidget(QLabel(text))
+            choices.addWidget(control, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(3)
+        layout.addWidget(self.name)
+        layout.addWidget(self.size_line)
+        layout.addLayout(notes)
+        layout.addLayout(choices)
+
+    def show_photo(self, photo: Photo) -> None:
+        """Show what is known of a photo."""
+        self.name.set_full_text(photo.path.name)
+        self.name.setToolTip(in_tool_tip(one_line(str(photo.path), LONGEST)))
+        rows, columns = photo.image.shape
+        width, height = (rows, columns) if photo.turned else (columns, rows)
+        size = self.tr("{width} x {height} px, {channel}").format(
+            width=width, height=height, channel=self._channel_word(photo.channel)
+        )
+        if photo.turned:
+            size += self.tr(", turned")
+        camera = f"{photo.camera}, " if photo.camera else ""
+        self.size_line.set_full_text(camera + size)
+        noted = self._noted(photo)
+        self.notes.set_full_text(", ".join(noted) or self.tr("No settings noted."))
+        self.use_settings.setEnabled(bool(noted))
+
+    def show_reading(self, channel: str, scan_axis: str) -> None:
+        """Show how photos are read, without telling of it."""
+        self.channel.show_key(channel)
+        self.scan_axis.show_key(scan_axis)
+
+    def _channel_word(self, channel: str) -> str:
+        words = {
+            "grey": self.tr("grey"),
+            "luma": self.tr("luma"),
+            "red": self.tr("red channel"),
+            "green": self.tr("green channel"),
+            "blue": self.tr("blue channel"),
+        }
+        return words.get(channel, channel)
+
+    def _noted(self, photo: Photo) -> list[str]:
+        noted = []
+        for name, prefix in _PREFIXES.items():
+            value, declared = getattr(photo, name), PARAMETERS[name]
+            if value is not None and isinstance(declared, Quantity):
+                noted.append(prefix + declared.format(value))
+        return noted

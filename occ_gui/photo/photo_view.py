@@ -1,0 +1,142 @@
+"""The photo: what it is, what explains it, and where it lies."""
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.photo.match_form import MatchForm
+from occ_gui.photo.match_result import MatchResult
+from occ_gui.photo.photo_facts import PhotoFacts
+from occ_gui.photo.placement_form import PlacementForm
+from occ_gui.picture.placement import Placement
+from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
+from occ_model.scene.scene import Scene
+
+_SCROLL_BAR = 20
+_LEAST_HEIGHT = 200
+
+
+class PhotoView(QWidget):
+    """All about the open photo; without one, a way to open one."""
+
+    open_asked = Signal()
+    """A photo is to be chosen and opened."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.facts, self.form = PhotoFacts(), MatchForm()
+        self.result, self.placement = MatchResult(), PlacementForm()
+        self.failure = QLabel()
+        self.failure.setWordWrap(True)
+        self.failure.setTextFormat(Qt.TextFormat.PlainText)
+        self.failure.setAccessibleName(self.tr("Why there is no match"))
+        self.failure.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self._pages = QStackedWidget()
+        self._pages.addWidget(self._make_invitation())
+        self._pages.addWidget(self._make_page())
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._pages)
+        self.failure.hide()
+        self.result.hide()
+
+    def _make_invitation(self) -> QWidget:
+        page = QWidget()
+        text = QLabel(
+            self.tr(
+                "No photo is open. Drop one on the window, or open one, to lay it over the "
+                "simulation and find the settings that explain its stripes."
+            )
+        )
+        text.setWordWrap(True)
+        button = QPushButton(self.tr("&Open photo…"))
+        button.setToolTip(self.tr("Choose a photo of a rolling-shutter camera."))
+        button.clicked.connect(self.open_asked)
+        layout = QVBoxLayout(page)
+        layout.addWidget(text)
+        layout.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addStretch()
+        return page
+
+    def _make_page(self) -> QWidget:
+        page = self._page = QWidget()
+        layout = QVBoxLayout(page)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(5)
+        layout.addWidget(self.facts)
+        layout.addWidget(_line())
+        layout.addWidget(self.form)
+        layout.addWidget(self.failure)
+        layout.addWidget(self.result)
+        layout.addWidget(_line())
+        layout.addWidget(self.placement)
+        layout.addStretch()
+        least = QSize(page.minimumSizeHint().width() + _SCROLL_BAR, _LEAST_HEIGHT)
+        self._scroll = ScrollPane(page, least)
+        return self._scroll
+
+    def show_photo(self, photo: Photo | None) -> None:
+        """Show what is known of this photo in place of the last one, or none."""
+        self._pages.setCurrentIndex(0 if photo is None else 1)
+        self.failure.hide()
+        if photo is not None:
+            self.facts.show_photo(photo)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show what is known from this scene."""
+        self.form.show_scene(scene)
+        self.result.show_scene(scene)
+
+    def show_placement(self, placement: Placement, by_hand: bool) -> None:
+        """Show where the photo lies."""
+        self.placement.show_placement(placement, by_hand)
+
+    def show_match_begun(self) -> None:
+        """Tell that a match is being worked on."""
+        self.failure.hide()
+        self.form.show_running(True)
+
+    def show_progress(self, share: float) -> None:
+        """Tell which share of the work is done, from 0 to 1."""
+        self.form.show_progress(share)
+
+    def show_match(self, match: Match | None) -> None:
+        """Show what a match gave in place of the last one, or that there is none."""
+        self.form.show_running(False)
+        self.failure.hide()
+        self.result.setVisible(match is not None)
+        if match is not None:
+            self.result.show_match(match)
+            self._bring_into_view(self.result)
+
+    def show_match_failed(self, sentence: str) -> None:
+        """Tell why there is no match; the last one stays."""
+        self.form.show_running(False)
+        self.failure.setText(sentence)
+        self.failure.show()
+        self._bring_into_view(self.failure)
+
+    def show_match_cancelled(self) -> None:
+        """Tell that the match was given up; the last one stays."""
+        self.form.show_running(False)
+
+    def _bring_into_view(self, part: QWidget) -> None:
+        """Scroll to what has just come, once the page has made room for it."""
+        self._page.adjustSize()
+        self._scroll.ensureWidgetVisible(part, 0, 4)
+
+
+def _line() -> QFrame:
+    line = QFrame()
+    line.setFrameShape(QFrame.Shape.HLine)
+    line.setFrameShadow(QFrame.Shadow.Sunken)
+    return line

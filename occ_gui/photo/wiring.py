@@ -1,0 +1,88 @@
+"""All that is done with a photo, put together: reading, placing, comparing, matching."""
+
+from PySide6.QtCore import QObject
+
+from occ_gui.photo.comparison_controller import ComparisonController
+from occ_gui.photo.match_controller import MatchController
+from occ_gui.photo.photo_controller import PhotoController, PhotoReading
+from occ_gui.photo.photo_view import PhotoView
+from occ_gui.picture.image_view import ImageView
+from occ_gui.picture.photo_overlay import MODES
+from occ_gui.picture.placement import Placement, PlacementStore
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.results import Match
+
+
+class PhotoDesk(QObject):
+    """The controllers of a photo, connected with the panes that show it.
+
+    Parameters
+    ----------
+    scenes
+        The scene that a photo is matched with.
+    image, profile, pane
+        The panes.
+    """
+
+    def __init__(
+        self, scenes: SceneStore, image: ImageView, profile: ProfileView, pane: PhotoView
+    ) -> None:
+        super().__init__()
+        self._image = image
+        self._pane = pane
+        self.placements = PlacementStore()
+        self.comparison = ComparisonController(self.placements, profile)
+        self.matching = MatchController(scenes, pane, [self.comparison])
+        self.photos = PhotoController([image, pane, self.comparison, self.matching])
+        self.placements.changed.connect(self._show_placement)
+        image.overlay.placed.connect(self.placements.move)
+        pane.placement.placed.connect(self.placements.move)
+        pane.placement.reset_asked.connect(self.placements.reset)
+        pane.placement.moving_chosen.connect(self._let_move)
+        image.mode_chosen.connect(image.set_mode)
+        profile.enhanced_chosen.connect(self.comparison.set_enhanced)
+        pane.facts.channel_chosen.connect(self.photos.take_channel)
+        pane.facts.scan_axis_chosen.connect(self.photos.scan_along)
+        pane.facts.settings_asked.connect(self.matching.use_notes)
+        pane.form.asked.connect(self.matching.start)
+        pane.form.cancelled.connect(self.matching.cancel)
+        pane.result.apply_asked.connect(self.matching.apply)
+        self.matching.matched.connect(self._on_match)
+        self.photos.reading_changed.connect(self._show_reading)
+        scenes.changed.connect(pane.show_scene)
+        pane.show_scene(scenes.scene)
+        self._show_reading(self.photos.reading)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that was asked for is shown."""
+        runs = (self.photos.runner, self.matching.runner)
+        return self.comparison.runner.is_idle and not any(run.is_running for run in runs)
+
+    def match(self) -> None:
+        """Match the photo as the pane's choices say."""
+        self.matching.start(self._pane.form.choice())
+
+    def _let_move(self, by_mouse: bool) -> None:
+        self._image.overlay.set_movable(by_mouse)
+        if by_mouse and self._image.mode.key() == MODES[0]:
+            # There is nothing to move while the photo stands beside the picture.
+            self._image.mode_chosen.emit(MODES[1])
+
+    def _on_match(self, _match: Match) -> None:
+        # What was placed by hand was placed on another picture.
+        self.placements.reset()
+
+    def _show_placement(self, placement: Placement) -> None:
+        self._image.show_placement(placement)
+        self._pane.show_placement(placement, self.placements.is_by_hand)
+
+    def _show_reading(self, reading: PhotoReading) -> None:
+        self._pane.facts.show_reading(reading.channel, reading.scan_axis)
+
+    def stop(self) -> None:
+        """Let the work in the background end."""
+        self.matching.stop()
+        self.comparison.stop()
+        self.photos.stop()

@@ -1,0 +1,1 @@
+"""The simulated picture, with a photo on it."""

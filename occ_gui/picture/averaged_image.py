@@ -1,0 +1,145 @@
+"""An image drawn without false stripes, however small it is shown."""
+
+import math
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QRect, QRectF
+from PySide6.QtGui import QImage, QPainter
+from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
+
+from occ_gui.simulation.preview import halved
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.arrays import ByteArray
+
+
+class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
+    """A grey image that shows the mean of the pixels that share a pixel of the screen.
+
+    Taking one of them instead, as image items do, turns fine stripes into coarse ones that are
+    not there. Where a pixel of the image is larger than one of the screen, it is shown as such.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
+        self._halves: tuple[ByteArray, ...] = ()
+        self._rect = QRectF()
+        self._first_row = -math.inf
+        self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
+
+    def set_image(
+        self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
+    ) -> None:
+        """Show an image.
+
+        Parameters
+        ----------
+        image : ndarray of uint8, shape (rows, columns)
+            The image; it is not copied.
+        rect
+            Where it lies, by default with its first pixel's centre at (0, 0).
+        halves
+            The image at a half of its size, a quarter and so on, where they are there already.
+        """
+        rows, columns = image.shape
+        rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect
+        if rect != self._rect:
+            self.prepareGeometryChange()
+            self._rect = rect
+        self._image, self._halves = image, tuple(halves)
+        self._drawn = None
+        self.update()
+
+    def show_from(self, row: float) -> None:
+        """Show only what lies at this height of the view or below it; all of it for -inf."""
+        if row != self._first_row:
+            self._first_row = row
+            self.update()
+
+    def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
+        """Where the image lies."""
+        return self._rect
+
+    @guarded
+    def paint(
+        self,
+        painter: QPainter,
+        _option: QStyleOptionGraphicsItem,
+        _widget: QWidget | None = None,
+    ) -> None:
+        """Draw the part of the image that can be seen, at the size it is seen."""
+        part = self._visible_part()
+        if part.isEmpty():
+            return
+        target = self._target(part)
+        on_screen = painter.deviceTransform().mapRect(target)
+        size = (max(1, math.ceil(on_screen.width())), max(1, math.ceil(on_screen.height())))
+        if self._drawn is None or self._drawn[:2] != (part, size):
+            self._drawn = (part, size, self._averaged(part, size))
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
+        if self._first_row > self._rect.top():
+            painter.setClipRect(self._rect.adjusted(0, self._first_row - self._rect.top(), 0, 0))
+        painter.drawImage(target, self._drawn[2])
+
+    def _visible_part(self) -> QRect:
+        """Give the pixels of the image that are in view."""
+        rows, columns = self._image.shape
+        view = self.viewRect()
+        if view is None or not rows or not columns or self._rect.isEmpty():
+            return QRect()
+        seen = view.intersected(self._rect)
+        if seen.isEmpty():
+            return QRect()
+        x_scale, y_scale = columns / self._rect.width(), rows / self._rect.height()
+        left = math.floor((seen.left() - self._rect.left()) * x_scale)
+        top = math.floor((seen.top() - self._rect.top()) * y_scale)
+        right = math.ceil((seen.right() - self._rect.left()) * x_scale)
+        bottom = math.ceil((seen.bottom() - self._rect.top()) * y_scale)
+        whole = QRect(0, 0, columns, rows)
+        return QRect(left, top, right - left, bottom - top).intersected(whole)
+
+    def _target(self, part: QRect) -> QRectF:
+        """Say where some of the image's pixels lie in the view."""
+        rows, columns = self._image.shape
+        x_scale, y_scale = self._rect.width() / columns, self._rect.height() / rows
+        return QRectF(
+            self._rect.left() + part.left() * x_scale,
+            self._rect.top() + part.top() * y_scale,
+            part.width() * x_scale,
+            part.height() * y_scale,
+        )
+
+    def _averaged(self, part: QRect, size: tuple[int, int]) -> QImage:
+        pixels = self._image[
+            part.top() : part.top() + part.height(), part.left() : part.left() + part.width()
+        ]
+        # Along each axis only ever fewer pixels: enlarging is the painter's, without smoothing.
+        smaller = (min(size[0], part.width()), min(size[1], part.height()))
+        if pixels.shape == self._image.shape:
+            pixels = self._smallest_for(*smaller)
+        pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
+        rows, columns = pixels.shape
+        image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
+        return image.copy()  # so that it does not refer to memory that goes away
+
+    def _smallest_for(self, columns: int, rows: int) -> ByteArray:
+        """Give the smallest of the image and its halves that still has so many pixels."""
+        large = [h for h in self._halves if h.shape[0] >= rows and h.shape[1] >= columns]
+        return large[-1] if large else self._image
+
+
+def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
+    """Average an image down to a size that is no larger than its own.
+
+    By halving, which is fast; only the last step, less than a half, is of another ratio. What
+    halving leaves out at the edge is less than a pixel of the screen.
+    """
+    while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
+        pixels = halved(pixels)
+    if pixels.shape == (rows, columns):
+        return pixels
+    smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)
+    return np.asarray(smaller, dtype=np.uint8)

@@ -1,0 +1,142 @@
+"""The picture before, up to a line that can be moved, over the picture of now."""
+
+import math
+
+import pyqtgraph as pg
+from PySide6.QtCore import QObject, QRectF, QSignalBlocker, Qt
+from PySide6.QtGui import QPainter
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QStyleOptionGraphicsItem, QWidget
+
+from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.plot import BEFORE
+from occ_model.arrays import ByteArray
+
+_LINE_PEN = pg.mkPen(BEFORE, width=2)
+_PAPER = "#f4f4f4"
+_INK = "#202020"
+
+_SLIDER_STEPS = 100
+_SLIDER_WIDTH = 90
+
+
+class WipedImage(AveragedImage):
+    """An image that is shown up to a column of the view."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._last_column = math.inf
+
+    def show_until(self, column: float) -> None:
+        """Show only what lies to the left of this place in the view; all of it for inf."""
+        if column != self._last_column:
+            self._last_column = column
+            self.update()
+
+    @guarded
+    def paint(
+        self,
+        painter: QPainter,
+        option: QStyleOptionGraphicsItem,
+        widget: QWidget | None = None,
+    ) -> None:
+        """Draw what is to the left of the line."""
+        rect = QRectF(self.boundingRect())
+        rect.setRight(min(rect.right(), self._last_column))
+        if rect.width() <= 0.0:
+            return
+        painter.save()
+        painter.setClipRect(rect, Qt.ClipOperation.IntersectClip)
+        super().paint(painter, option, widget)
+        painter.restore()
+
+
+class BeforeWipe(QObject):
+    """Compares the picture with the one before the latest change; off until asked for.
+
+    Parameters
+    ----------
+    box
+        The view of the picture of now.
+    """
+
+    def __init__(self, box: pg.ViewBox) -> None:
+        super().__init__()
+        self._image: ByteArray | None = None
+        self._share = 0.5
+        self.picture = WipedImage()
+        self.line = pg.InfiniteLine(angle=90, movable=True, pen=_LINE_PEN)
+        self.line.sigPositionChanged.connect(self._follow_line)
+        self._names = (
+            pg.TextItem(self.tr("before"), color=_INK, fill=_PAPER, anchor=(1.0, 0.0)),
+            pg.TextItem(self.tr("now"), color=_INK, fill=_PAPER, anchor=(0.0, 0.0)),
+        )
+        # Over the picture of now, under a photo that lies on it.
+        for depth, item in enumerate((self.picture, self.line, *self._names)):
+            item.setZValue(5 + depth)
+            item.hide()
+            box.addItem(item, ignoreBounds=True)
+        self._make_controls()
+
+    def _make_controls(self) -> None:
+        self.chosen = QCheckBox(self.tr("Before"))
+        self.chosen.setToolTip(
+            self.tr(
+                "Show, to the left of a line that can be dragged, the picture before the latest "
+                "change, and to the right of it the one now."
+            )
+        )
+        self.chosen.toggled.connect(self._arrange)
+        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider.setRange(0, _SLIDER_STEPS)
+        self.slider.setValue(round(self._share * _SLIDER_STEPS))
+        self.slider.setFixedWidth(_SLIDER_WIDTH)
+        self.slider.setAccessibleName(self.tr("Place of the line between before and now"))
+        self.slider.setToolTip(
+            self.tr("Where the picture before ends, in percent of the picture's width.")
+        )
+        self.slider.valueChanged.connect(self._follow_slider)
+        self.slider.hide()
+        self.controls = QWidget()
+        row = QHBoxLayout(self.controls)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.slider)
+        row.addWidget(self.chosen)
+
+    def show_before(self, snapshot: Snapshot) -> None:
+        """Compare with this picture from now on."""
+        self._image = snapshot.frame.image
+        if self.chosen.isChecked():
+            self._arrange()
+
+    def _arrange(self) -> None:
+        image, shown = self._image, self.chosen.isChecked()
+        self.slider.setVisible(shown)
+        for item in (self.picture, self.line, *self._names):
+            item.setVisible(shown and image is not None)
+        if shown and image is not None:
+            self.picture.set_image(image)
+            self.line.setBounds((-0.5, image.shape[1] - 0.5))
+            self._place()
+
+    def _place(self) -> None:
+        """Put line and names where the share of the picture's width says."""
+        if self._image is None:
+            return
+        column = self._share * self._image.shape[1] - 0.5
+        with QSignalBlocker(self.line), QSignalBlocker(self.slider):
+            self.line.setValue(column)
+            self.slider.setValue(round(self._share * _SLIDER_STEPS))
+        self.picture.show_until(column)
+        for name in self._names:
+            name.setPos(column, -0.5)
+
+    def _follow_line(self) -> None:
+        if self._image is not None:
+            self._share = (float(self.line.value()) + 0.5) / self._image.shape[1]
+            self._place()
+
+    def _follow_slider(self, percent: int) -> None:
+        self._share = percent / _SLIDER_STEPS
+        self._place()

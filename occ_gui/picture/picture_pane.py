@@ -1,0 +1,108 @@
+"""One picture with its caption."""
+
+from collections.abc import Sequence
+
+import pyqtgraph as pg
+from PySide6.QtCore import QEvent, QRectF
+from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
+
+from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plot import REGION
+from occ_model.arrays import ByteArray
+from occ_model.results import Region
+
+_REGION_PEN = pg.mkPen(REGION, width=2)
+
+_FARTHEST = 1e7
+"""Pixels from the first one that can be brought into view."""
+
+_LARGEST_SPAN = 4e6
+"""Pixels that can be in view side by side."""
+
+_LEAST_SPAN = 0.5
+"""Pixels that are in view at least."""
+
+
+class PicturePane(QWidget):
+    """One picture with its caption, and the region that was read.
+
+    Parameters
+    ----------
+    caption
+        What the picture is.
+    parent
+        The parent widget.
+    """
+
+    def __init__(self, caption: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.caption = ElidedLabel(caption)
+        self.graphics = pg.GraphicsView()
+        self.graphics.setBackground(self.palette().dark().color())
+        self.graphics.setAccessibleName(caption)
+        self.box = pg.ViewBox(lockAspect=True, invertY=True, enableMenu=False)
+        self.box.setLimits(
+            xMin=-_FARTHEST, xMax=_FARTHEST, yMin=-_FARTHEST, yMax=_FARTHEST,
+            minXRange=_LEAST_SPAN, minYRange=_LEAST_SPAN,
+            maxXRange=_LARGEST_SPAN, maxYRange=_LARGEST_SPAN,
+        )  # fmt: skip
+        self.graphics.setCentralItem(self.box)
+        self._picture = AveragedImage()
+        self._region = QGraphicsRectItem()
+        self._region.setPen(_REGION_PEN)
+        self.box.addItem(self._picture)
+        self.box.addItem(self._region, ignoreBounds=True)
+        self._image: ByteArray | None = None
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(2)
+        self.caption_row = QHBoxLayout()
+        self.caption_row.addWidget(self.caption, 1)
+        layout.addLayout(self.caption_row)
+        layout.addWidget(self.graphics, 1)
+
+    def show_picture(self, image: ByteArray, halves: Sequence[ByteArray] = ()) -> None:
+        """Show a picture; the view moves only when its size changes.
+
+        Parameters
+        ----------
+        image : ndarray of uint8, shape (rows, columns)
+            The picture.
+        halves
+            The same at a half of its size, a quarter and so on, where they are there already.
+        """
+        self._picture.set_image(image, halves=halves)
+        before, self._image = self._image, image
+        if before is None or before.shape != image.shape:
+            self.fit()
+
+    def level_at(self, column: int, row: int) -> int | None:
+        """Give the grey level of a pixel, None beside the picture."""
+        image = self._image
+        if image is None or not (0 <= row < image.shape[0] and 0 <= column < image.shape[1]):
+            return None
+        return int(image[row, column])
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the palette, as when the theme changes."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            self.graphics.setBackground(self.palette().dark().color())
+
+    def show_region(self, region: Region | None) -> None:
+        """Draw the rectangle that the decoder read, or none."""
+        self._region.setVisible(region is not None)
+        if region is not None:
+            self._region.setRect(
+                QRectF(
+                    region.first_column - 0.5,
+                    region.first_row - 0.5,
+                    region.columns,
+                    region.rows,
+                )
+            )
+
+    def fit(self) -> None:
+        """Show the whole picture."""
+        self.box.setRange(self._picture.boundingRect(), padding=0.01)

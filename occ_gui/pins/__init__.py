@@ -1,0 +1,1 @@
+"""Two pinned states, compared."""

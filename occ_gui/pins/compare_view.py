@@ -1,0 +1,215 @@
+"""Two pinned states side by side: only what differs, and both profiles."""
+
+import numpy as np
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.plain_text import in_tool_tip
+from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, SIMULATION, new_plot, thin
+
+_LEAST_TABLE = 250
+
+
+class CompareView(QWidget):
+    """Buttons that pin, the table of what differs, and the profiles of A and B.
+
+    What is not seen is not drawn: the view must be told whether it is.
+    """
+
+    pin_asked = Signal(str)
+    """What is shown is to be kept as "A" or "B"."""
+
+    go_asked = Signal(str)
+    """The scene of "A" or "B" is wanted back."""
+
+    clear_asked = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._pinned = Pinned()
+        self._drawn: Pinned | None = None
+        self._seen = False
+        self.pins = {name: self._pin_button(name) for name in ("A", "B")}
+        self.returns = {name: self._return_button(name) for name in ("A", "B")}
+        self.clear = QPushButton(self.tr("Clear"))
+        self.clear.setToolTip(self.tr("Forget A and B."))
+        self.clear.setAccessibleName(self.tr("Clear A and B"))
+        self.clear.clicked.connect(self.clear_asked)
+        self.hint = QLabel()
+        self.hint.setWordWrap(True)
+        self.hint.setTextFormat(Qt.TextFormat.PlainText)
+        self._make_table()
+        self._make_plot()
+        self._lay_out()
+        self._redraw()
+
+    def _pin_button(self, name: str) -> QPushButton:
+        button = QPushButton(self.tr("Pin {name}").format(name=name))
+        button.setToolTip(
+            self.tr("Keep what is shown as {name}, to compare it (Ctrl+Shift+{name}).").format(
+                name=name
+            )
+        )
+        button.clicked.connect(lambda: self.pin_asked.emit(name))
+        return button
+
+    def _return_button(self, name: str) -> QPushButton:
+        button = QPushButton(self.tr("Take me to {name}").format(name=name))
+        button.setToolTip(
+            self.tr(
+                "Put the scene of {name} in place of the scene, as one step that can be undone."
+            ).format(name=name)
+        )
+        button.clicked.connect(lambda: self.go_asked.emit(name))
+        return button
+
+    def _make_table(self) -> None:
+        self.table = QTableWidget(0, 3)
+        self.table.setHorizontalHeaderLabels([self.tr("Only what differs"), "A", "B"])
+        self.table.setAccessibleName(self.tr("What differs between A and B"))
+        self.table.setToolTip(self.tr("Inputs that differ between A and B, then outputs."))
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        # A row of a long sentence can be higher than the table.
+        self.table.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.table.verticalHeader().hide()
+        self.table.setMinimumWidth(_LEAST_TABLE)
+        self.table.setTabKeyNavigation(False)  # so that the keyboard can leave it
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        for column in (1, 2):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
+        # A decoder's reason is a sentence: it needs another height at every width, once all
+        # columns have theirs.
+        self._fitting = QTimer(self, singleShot=True)
+        self._fitting.setInterval(0)
+        self._fitting.timeout.connect(self.table.resizeRowsToContents)
+        header.sectionResized.connect(lambda: self._fitting.start())
+
+    def _make_plot(self) -> None:
+        self.plot = new_plot(
+            self.tr("Profiles of A and B"), self.tr("column"), self.tr("level"), self.palette()
+        )
+        self.plot.setDownsampling(auto=True, mode="peak")
+        self.plot.setClipToView(True)
+        pens = {"A": thin(SIMULATION), "B": thin(BAND, Qt.PenStyle.DashLine)}
+        self.legend = LineLegend()
+        for name, pen in pens.items():
+            self.legend.add_line(name, pen, name)
+        self.curves = {name: self.plot.add_curve(pen) for name, pen in pens.items()}
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        for name in ("A", "B"):
+            row.addWidget(self.pins[name])
+            row.addWidget(self.returns[name])
+        row.addWidget(self.clear)
+        row.addStretch(1)
+        row.addWidget(self.legend)
+        panes = self._panes = QSplitter(Qt.Orientation.Horizontal)
+        panes.addWidget(self.table)
+        panes.addWidget(self.plot)
+        panes.setChildrenCollapsible(False)
+        panes.setSizes([560, 380])
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(4, 2, 4, 2)
+        layout.setSpacing(2)
+        layout.addLayout(row)
+        layout.addWidget(self.hint)
+        layout.addWidget(panes, 1)
+        layout.addStretch()
+
+    def set_seen(self, seen: bool) -> None:
+        """Say whether anybody can see the view."""
+        self._seen = seen
+        if seen and self._drawn is not self._pinned:
+            self._redraw()
+
+    def show_pinned(self, pinned: Pinned) -> None:
+        """Show these two states in place of the last ones."""
+        self._pinned = pinned
+        if self._seen:
+            self._redraw()
+
+    def _redraw(self) -> None:
+        pinned = self._drawn = self._pinned
+        pins: dict[str, Pin | None] = {"A": pinned.a, "B": pinned.b}
+        for name, pin in pins.items():
+            self.returns[name].setEnabled(pin is not None)
+            self.legend.show_line(name, pin is not None)
+            if pin is None:
+                self.curves[name].setData([], [])
+            else:
+                self.curves[name].setData(
+                    np.arange(len(pin.profile), dtype=np.float64), pin.profile
+                )
+        there = [pin for pin in pins.values() if pin is not None]
+        self.clear.setEnabled(bool(there))
+        self.hint.setText(self._what_is_missing(pinned))
+        self.hint.setVisible(bool(self.hint.text()))
+        self._panes.setVisible(bool(there))
+        self.table.setVisible(len(there) == len(pins))
+        self._fill(pinned)
+        if there:
+            self._fit(there)
+
+    def _what_is_missing(self, pinned: Pinned) -> str:
+        if pinned.a is None and pinned.b is None:
+            return self.tr("Pin what is shown as A, change the scene, and pin it as B.")
+        if pinned.a is None or pinned.b is None:
+            name = "A" if pinned.a is None else "B"
+            return self.tr("Change the scene, and pin it as {name}.").format(name=name)
+        return "" if pinned.inputs else self.tr("A and B are the same scene.")
+
+    def _fill(self, pinned: Pinned) -> None:
+        sections = ((self.tr("Inputs"), pinned.inputs), (self.tr("Outputs"), pinned.outputs))
+        self.table.clearSpans()
+        self.table.setRowCount(0)
+        for title, rows in sections:
+            if rows:
+                self._add_title(title)
+            for row in rows:
+                self._add_row(row)
+        self.table.resizeRowsToContents()
+
+    def _add_title(self, title: str) -> None:
+        place = self.table.rowCount()
+        self.table.insertRow(place)
+        item = QTableWidgetItem(title)
+        font = item.font()
+        font.setBold(True)
+        item.setFont(font)
+        item.setFlags(Qt.ItemFlag.ItemIsEnabled)
+        self.table.setItem(place, 0, item)
+        self.table.setSpan(place, 0, 1, 3)
+
+    def _add_row(self, row: ComparedRow) -> None:
+        place = self.table.rowCount()
+        self.table.insertRow(place)
+        for column, text in enumerate((row.what, row.a, row.b)):
+            item = QTableWidgetItem(text)
+            item.setToolTip(in_tool_tip(row.meaning if column == 0 else text))
+            item.setTextAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
+            self.table.setItem(place, column, item)
+
+    def _fit(self, pins: list[Pin]) -> None:
+        """Show the first packets of both, and all their levels from black."""
+        first = min(pin.first_column for pin in pins)
+        last = max(pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in pins)
+        last = min(last, max(len(pin.profile) - 1.0 for pin in pins))
+        self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
+        largest = max(float(pin.profile.max()) for pin in pins)
+        self.plot.setYRange(0.0, max(20.0, largest), padding=0.06)

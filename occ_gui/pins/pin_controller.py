@@ -1,0 +1,178 @@
+"""Pin two states of the window, compare them, and go back to either."""
+
+from typing import Protocol
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
+from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.parameter_rows import explain
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results import DecodeResult
+from occ_model.scene.parameter_kinds import Parameter, ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS
+from occ_model.scene.simulation_settings import TOLERANCE
+
+_ALL_DIGITS = 17
+
+
+class ComparePane(Protocol):
+    """A pane that shows how two states differ."""
+
+    def show_pinned(self, pinned: Pinned) -> None:
+        """Show these two in place of the last ones."""
+
+
+class PinController(QObject):
+    """Keeps up to two states, A and B.
+
+    Parameters
+    ----------
+    scenes
+        Takes a pinned scene when the user wants to go back to it.
+    pane
+        Shows how they differ.
+    """
+
+    said = Signal(str)
+    """What was done, or why it was not."""
+
+    def __init__(self, scenes: SceneStore, pane: ComparePane) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self._pane = pane
+        self._snapshot: Snapshot | None = None
+        self.pinned = Pinned()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Pin these results from now on, when asked to."""
+        self._snapshot = snapshot
+
+    def pin(self, name: str) -> None:
+        """Keep what is shown as A or as B."""
+        if self._snapshot is None:
+            self.said.emit(self.tr("There is no picture yet that could be pinned."))
+            return
+        new = self._pin_of(self._snapshot)
+        a, b = (new, self.pinned.b) if name == "A" else (self.pinned.a, new)
+        self._put(a, b)
+        self.said.emit(self.tr("Pinned what is shown as {name}.").format(name=name))
+
+    def clear(self) -> None:
+        """Forget both."""
+        self._put(None, None)
+        self.said.emit(self.tr("Nothing is pinned any more."))
+
+    def go_to(self, name: str) -> None:
+        """Put the scene of A or of B in place of the scene, as one step."""
+        pin = self.pinned.a if name == "A" else self.pinned.b
+        if pin is None:
+            self.said.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
+            return
+        self._scenes.put(pin.scene, self.tr("return to {name}").format(name=name), new_gesture())
+
+    def _put(self, a: Pin | None, b: Pin | None) -> None:
+        inputs: tuple[ComparedRow, ...] = ()
+        outputs: tuple[ComparedRow, ...] = ()
+        if a is not None and b is not None:
+            inputs = tuple(self._differing_inputs(a, b))
+            outputs = tuple(
+                ComparedRow(what, one, other, meaning)
+                for (what, one, meaning), (_, other, _) in zip(a.outputs, b.outputs, strict=True)
+                if one != other
+            )
+        self.pinned = Pinned(a, b, inputs, outputs)
+        self._pane.show_pinned(self.pinned)
+
+    def _differing_inputs(self, a: Pin, b: Pin) -> list[ComparedRow]:
+        names = (name for names in GROUPS.values() for name in names)
+        inputs: list[tuple[Parameter, ParameterValue, ParameterValue]] = [
+            (PARAMETERS[name], a.scene.value(name), b.scene.value(name)) for name in names
+        ]
+        inputs.append((TOLERANCE, a.tolerance, b.tolerance))
+        rows = []
+        for declared, one, other in inputs:
+            if one != other:
+                texts = _told_apart(declared, one, other)
+                first, second = (text or self.tr("none") for text in texts)
+                rows.append(ComparedRow(declared.label, first, second, explain(declared)))
+        return rows
+
+    def _pin_of(self, snapshot: Snapshot) -> Pin:
+        frame = snapshot.frame
+        return Pin(
+            scene=frame.scene,
+            tolerance=frame.plan.tolerance,
+            profile=frame.profile,
+            first_column=snapshot.panel_origin[0],
+            packet_columns=snapshot.packet_columns,
+            outputs=tuple(self._outputs(snapshot)),
+        )
+
+    def _outputs(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
+        frame = snapshot.frame
+        scene = frame.scene
+        period = scene.transmitter.switching_period
+        shown = {d.effect: d.label for d in frame.plan.decisions if d.included}
+        return [
+            (
+                self.tr("Contrast"),
+                self.tr("{swing:.1f} grey levels").format(swing=float(np.ptp(frame.profile))),
+                self.tr("Swing of the profile: its largest less its smallest value."),
+            ),
+            (
+                self.tr("Columns a chip"),
+                self.tr("{columns:.2f} columns").format(columns=period / scene.camera.readout_time),
+                self.tr("Switching period over readout time."),
+            ),
+            (
+                self.tr("Exposure"),
+                self.tr("{chips:.3f} chips").format(chips=scene.camera.exposure_time / period),
+                self.tr("Exposure time over switching period."),
+            ),
+            *self._readings(snapshot),
+            (
+                self.tr("Effects simulated"),
+                ", ".join(shown.values()) or self.tr("none"),
+                self.tr("What the plan includes of the effects."),
+            ),
+            (
+                self.tr("Simulation time"),
+                self.tr("{time:.1f} ms").format(time=1e3 * snapshot.simulation_seconds),
+                self.tr("Time that the simulation of the picture took."),
+            ),
+        ]
+
+    def _readings(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
+        rows = []
+        for result in (snapshot.decoded, *snapshot.others):
+            name = self.tr("Decoder “{name}”").format(name=result.decoder)
+            rows.append((name, self._reading(result, snapshot), self.tr("What it read.")))
+            if result.decoder != snapshot.decoded.decoder:
+                sure = result.confidence
+                text = self.tr("none") if sure is None else f"{sure:.3f}"
+                meaning = self.tr("How far the best code is ahead of the second best, 0 to 1.")
+                rows.append((self.tr("Confidence, “{name}”").format(name=result.decoder), text,
+                             meaning))  # fmt: skip
+        return rows
+
+    def _reading(self, result: DecodeResult, snapshot: Snapshot) -> str:
+        if result.code is None:
+            return result.failure or self.tr("no code read")
+        right = tuple(result.bits.tolist()) == snapshot.sent
+        verdict = self.tr("right") if right else self.tr("wrong")
+        return self.tr("code {code}, {verdict}").format(code=result.code, verdict=verdict)
+
+
+def _told_apart(declared: Parameter, one: ParameterValue, other: ParameterValue) -> tuple[str, str]:
+    """Write two values with as many digits as tell them apart."""
+    if isinstance(declared, Quantity):
+        a, b = float(one), float(other)
+        texts = declared.format(a), declared.format(b)
+        if texts[0] != texts[1]:
+            return texts
+        return declared.format(a, _ALL_DIGITS), declared.format(b, _ALL_DIGITS)
+    return str(one), str(other)

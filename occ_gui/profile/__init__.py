@@ -1,0 +1,1 @@
+"""The column profile beside its comparisons."""

@@ -1,0 +1,292 @@
+"""The column profile beside the band model's and a photo's, and what tells them apart."""
+
+from functools import cached_property
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.profile.residual_plot import ResidualPlot
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.plot import (
+    BAND,
+    BEFORE,
+    PACKETS_IN_VIEW,
+    PHOTO,
+    REGION,
+    SIMULATION,
+    THRESHOLD,
+    new_plot,
+    thin,
+)
+from occ_model.arrays import FloatArray
+
+_LEAST_HEIGHT = 76
+"""Pixels: in a low window all panes have to share them."""
+
+_AXIS_WIDTH = 52
+
+_SHADE = 40
+"""How much of the region's colour lies under the curves, of 255."""
+
+
+class ProfileView(QWidget):
+    """Grey level over column: the simulation, the band model or why there is none, and the photo.
+
+    The plot follows the panel's first packets, or the whole panel, until the user moves it. While
+    a photo is open, what is left of it without the simulation is drawn under both.
+    """
+
+    enhanced_chosen = Signal(bool)
+    """Whether the simulated columns are wanted as they stand in the picture."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._snapshot: Snapshot | None = None
+        self._photo: PhotoProfile | None = None
+        self._photo_levels: FloatArray | None = None
+        self._before: Snapshot | None = None
+        self._before_levels: FloatArray | None = None
+        self._simulated_levels: tuple[FloatArray | None, ...] = ()
+        self.plot = new_plot(
+            self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
+        )
+        self.plot.setMinimumHeight(_LEAST_HEIGHT)
+        # Where several columns share a pixel their extremes are drawn, not one of them by chance.
+        self.plot.setDownsampling(auto=True, mode="peak")
+        self.plot.setClipToView(True)
+        self.legend = LineLegend()
+        self._make_curves()
+        self.reason = QLabel()
+        self.reason.setWordWrap(True)
+        self.reason.setTextFormat(Qt.TextFormat.PlainText)
+        self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
+        self._make_controls()
+        self.plot.getAxis("left").setWidth(_AXIS_WIDTH)
+        self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
+        self._lay_out()
+
+    def _make_curves(self) -> None:
+        line = Qt.PenStyle
+        pens = {
+            "simulation": (self.tr("simulation"), thin(SIMULATION)),
+            "before": (self.tr("before"), thin(BEFORE)),
+            "band": (self.tr("band model"), thin(BAND, line.DashLine)),
+            "photo": (self.tr("photo"), thin(PHOTO)),
+            "threshold": (self.tr("threshold"), thin(THRESHOLD, line.DashDotLine)),
+        }
+        for key, (text, pen) in pens.items():
+            self.legend.add_line(key, pen, text)
+            self.legend.show_line(key, key == "simulation")
+        self.before = self.plot.add_curve(pens["before"][1])  # under all others
+        self.simulation = self.plot.add_curve(pens["simulation"][1])
+        self.band = self.plot.add_curve(pens["band"][1])
+        self.photo = self.plot.add_curve(pens["photo"][1])
+        self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
+        shade = QColor(REGION)
+        shade.setAlpha(_SHADE)
+        self._region = pg.LinearRegionItem(brush=shade, pen=pg.mkPen(None), movable=False)
+        self._region.setZValue(-10)
+        for item in (self._region, self.threshold):
+            item.hide()
+            self.plot.addItem(item, ignoreBounds=True)
+
+    def _make_controls(self) -> None:
+        self.enhanced = QCheckBox(self.tr("Enhanced"))
+        self.enhanced.setToolTip(
+            self.tr("Show the simulated column values as they stand in the picture.")
+        )
+        self.enhanced.toggled.connect(self._draw_before)
+        self.enhanced.toggled.connect(self._redraw)
+        self.enhanced.toggled.connect(self.enhanced_chosen)
+        self._packets = self._range_button(
+            self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW),
+            self.tr("Show the panel's first packets, and follow them."),
+        )
+        self._panel = self._range_button(
+            self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")
+        )
+        self._packets.setChecked(True)
+
+    def _range_button(self, text: str, tip: str) -> QPushButton:
+        button = QPushButton(text)
+        button.setCheckable(True)
+        button.setToolTip(tip)
+        button.clicked.connect(lambda: self._follow(button))
+        return button
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        row.addWidget(self.legend)
+        row.addStretch(1)
+        for control in (self.enhanced, self._packets, self._panel):
+            row.addWidget(control)
+        layout = self._rows = QVBoxLayout(self)
+        layout.setContentsMargins(4, 4, 4, 4)
+        layout.setSpacing(2)
+        layout.addLayout(row)
+        layout.addWidget(self.reason)
+        layout.addWidget(self.plot, 3)
+
+    @cached_property
+    def residual(self) -> ResidualPlot:
+        """What is left of a photo without the simulation: made with the first photo."""
+        residual = ResidualPlot(self.plot)
+        residual.plot.getAxis("left").setWidth(_AXIS_WIDTH)  # so that a column stands over itself
+        residual.hide()
+        self._rows.addWidget(residual, 2)
+        return residual
+
+    def _make_room(self) -> None:
+        """Name the columns once only, under the lower of the two plots."""
+        if self._photo is None and "residual" not in vars(self):
+            return  # there has never been a lower one
+        below = self._photo is not None and self._photo.comparison is not None
+        self.residual.setVisible(self._photo is not None)
+        # A sentence in place of the lower plot takes no more room than a line.
+        policy = self.residual.sizePolicy()
+        vertical = QSizePolicy.Policy.Preferred if below else QSizePolicy.Policy.Maximum
+        policy.setVerticalPolicy(vertical)
+        self.residual.setSizePolicy(policy)
+        self.plot.name_bottom(not below)
+        self.plot.getAxis("bottom").setStyle(showValues=not below)
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Show these results in place of the last ones."""
+        self._snapshot = snapshot
+        self._redraw()
+
+    def show_photo_profile(self, profile: PhotoProfile | None) -> None:
+        """Show this profile of a photo in place of the last one, or none."""
+        self._photo = profile
+        if profile is None:
+            self._photo_levels = None
+            _draw(self.photo, None)
+        elif profile.comparison is None:  # as it is in the file
+            self._photo_levels = profile.raw
+            _draw(self.photo, profile.raw, profile.first_column, profile.scale)
+        else:  # in the simulation's levels
+            self._photo_levels = profile.comparison.photo
+            _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
+        self.legend.show_line("photo", profile is not None)
+        self._make_room()
+        if profile is not None:
+            self.residual.show_profile(profile)
+        self._fit_levels()
+        if self._snapshot is not None:
+            self._fit_columns(self._snapshot)
+
+    def _redraw(self) -> None:
+        snapshot = self._snapshot
+        if snapshot is None:
+            return
+        decoded = snapshot.decoded
+        enhanced = self.enhanced.isChecked()
+        profile = _levels(snapshot, enhanced)
+        _draw(self.simulation, profile)
+        _draw(self.band, snapshot.band)
+        self.reason.setText(snapshot.band_undefined)
+        self.reason.setVisible(bool(snapshot.band_undefined))
+        self._region.setVisible(decoded.region is not None)
+        if decoded.region is not None:
+            self._region.setRegion((decoded.region.first_column, decoded.region.last_column))
+        self.threshold.setVisible(enhanced and decoded.threshold is not None)
+        if decoded.threshold is not None:
+            self.threshold.setValue(decoded.threshold)
+        for key, visible in {
+            "band": snapshot.band is not None,
+            "threshold": self.threshold.isVisible(),
+        }.items():
+            self.legend.show_line(key, visible)
+        self._simulated_levels = (profile, snapshot.band)
+        self._fit_levels()
+        self._fit_columns(snapshot)
+
+    def show_before(self, snapshot: Snapshot) -> None:
+        """Show the profile of these results, in grey, as that before the latest change."""
+        self._before = snapshot
+        self.legend.show_line("before", True)
+        self._draw_before()
+        self._fit_levels()
+
+    def _draw_before(self) -> None:
+        if self._before is not None:
+            self._before_levels = _levels(self._before, self.enhanced.isChecked())
+            _draw(self.before, self._before_levels)
+
+    def _fit_levels(self) -> None:
+        """Show from black to the largest value, in steps, so that the axis does not tremble."""
+        profiles = (*self._simulated_levels, self._before_levels, self._photo_levels)
+        largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
+        step = 20.0
+        self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
+
+    def _fit_columns(self, snapshot: Snapshot) -> None:
+        if not (self._packets.isChecked() or self._panel.isChecked()):
+            return
+        last_column = len(snapshot.frame.profile) - 1
+        panel = np.clip(snapshot.frame.corners[:, 0], 0, last_column)
+        first, last = float(panel.min()), float(panel.max())
+        if last - first < 1.0:  # the panel is out of the picture
+            first, last = 0.0, float(last_column)
+        if self._packets.isChecked():
+            first = self._first_of_photo(first, last)
+            last = min(last, first + PACKETS_IN_VIEW * snapshot.packet_columns)
+        self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
+
+    def _first_of_photo(self, first: float, last: float) -> float:
+        """Begin where a photo does that lies further to the right, so that it can be compared."""
+        comparison = None if self._photo is None else self._photo.comparison
+        if comparison is None or not first < comparison.first_column < last:
+            return first
+        return float(comparison.first_column)
+
+    def columns_in_view(self) -> tuple[int, int]:
+        """Give the first column that is seen, and the one behind the last."""
+        columns = 0 if self._snapshot is None else len(self._snapshot.frame.profile)
+        low, high = self.plot.viewRange()[0]
+        first = min(max(int(np.ceil(low)), 0), max(columns - 2, 0))
+        return first, min(max(int(high) + 1, first + 2), columns)
+
+    def level_at(self, column: int) -> float | None:
+        """Give the simulated level of a column, None beside the picture."""
+        levels = self._simulated_levels[0] if self._simulated_levels else None
+        if levels is None or not 0 <= column < len(levels):
+            return None
+        return float(levels[column])
+
+    def _stop_following(self) -> None:
+        for button in (self._packets, self._panel):
+            button.setChecked(False)
+
+    def _follow(self, clicked: QPushButton) -> None:
+        self._stop_following()
+        clicked.setChecked(True)
+        self._redraw()
+
+
+def _levels(snapshot: Snapshot, enhanced: bool) -> FloatArray:
+    """Give the column values, as they stand in the picture if they are wanted enhanced."""
+    frame = snapshot.frame
+    return frame.enhanced.astype(np.float64) if enhanced else frame.profile
+
+
+def _draw(
+    curve: pg.PlotDataItem, values: FloatArray | None, first_column: float = 0.0, scale: float = 1.0
+) -> None:
+    if values is None:
+        curve.setData([], [])
+    else:
+        curve.setData(first_column + scale * np.arange(len(values), dtype=np.float64), values)

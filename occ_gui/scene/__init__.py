@@ -1,0 +1,1 @@
+"""The scene that is shown, and the controls that change it."""

@@ -1,0 +1,75 @@
+"""The code as a number and as bits, side by side."""
+
+import re
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QFontDatabase
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSpinBox, QWidget
+
+from occ_gui.scene.gesture import Gestures
+from occ_gui.widgets.undo_keys import leave_undo_to_window
+from occ_model.scene.scene import Scene
+
+
+class CodeEntry(QWidget):
+    """Shows the code twice and lets the user change it in either form."""
+
+    edited = Signal(str, object, int)
+    """The parameter's name, the code, and the number of the gesture."""
+
+    refused = Signal(str)
+    """Why what was entered is not taken."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._bits = 0
+        self._gestures = Gestures()
+        self.number = QSpinBox()
+        self.number.setKeyboardTracking(False)
+        self.number.setAccessibleName(self.tr("Code as a number"))
+        self.bits = QLineEdit()
+        self.bits.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        self.bits.setAccessibleName(self.tr("Code as bits"))
+        self.bits.setToolTip(self.tr("The bits, the first sent first."))
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.number)
+        layout.addWidget(self.bits, 1)
+        for line in (self.number.lineEdit(), self.bits):
+            line.textEdited.connect(self._gestures.end)
+        for field in (self.number, self.bits):
+            leave_undo_to_window(field)
+        self.number.valueChanged.connect(self._tell)
+        self.bits.editingFinished.connect(self._read_bits)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show a scene's code without telling of it."""
+        transmitter = scene.transmitter
+        self._bits = transmitter.bits
+        self.number.blockSignals(True)
+        self.number.setRange(0, 2**self._bits - 1)
+        self.number.setValue(transmitter.code)
+        self.number.blockSignals(False)
+        self.number.setToolTip(
+            self.tr("The code sent, from 0 to {largest}.").format(largest=2**self._bits - 1)
+        )
+        self.bits.setText(f"{transmitter.code:0{self._bits}b}")
+        # A raw pattern is sent in place of the code.
+        self.setEnabled(not transmitter.pattern)
+
+    def _tell(self, code: int) -> None:
+        self.edited.emit("code", code, self._gestures.of_change())
+
+    def _read_bits(self) -> None:
+        text = "".join(self.bits.text().split())
+        if re.fullmatch(f"[01]{{{self._bits}}}", text):
+            self.bits.setText(text)
+            if int(text, 2) != self.number.value():
+                self._tell(int(text, 2))
+            return
+        self.bits.setText(f"{self.number.value():0{self._bits}b}")
+        self.refused.emit(
+            self.tr("The bits are {text!r}; allowed: {bits} characters 0 and 1.").format(
+                text=text, bits=self._bits
+            )
+        )

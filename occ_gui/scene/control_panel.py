@@ -1,0 +1,147 @@
+"""The controls of a scene: preset, code, sliders, and the rest on further pages."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QStandardItemModel
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFrame,
+    QLabel,
+    QScrollArea,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.scene.code_entry import CodeEntry
+from occ_gui.scene.parameter_panel import ParameterPanel
+from occ_gui.scene.parameter_rows import QuantityRow
+from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_model.errors import one_line
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS, Scene
+
+MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number", "distance")
+"""The parameters whose sliders are always at hand."""
+
+
+class ControlPanel(QWidget):
+    """All controls of a scene.
+
+    Parameters
+    ----------
+    presets
+        Names and titles of the presets.
+    effects
+        The parameters that effects are governed by: they have a page of their own.
+    parent
+        The parent widget.
+    """
+
+    edited = Signal(str, object, int)
+    """Name, value in SI units, and the number of the gesture that the change belongs to."""
+
+    refused = Signal(str)
+    """Why what was entered is not taken."""
+
+    preset_chosen = Signal(str)
+    """The name of a preset to load."""
+
+    def __init__(
+        self,
+        presets: Sequence[tuple[str, str]],
+        effects: Sequence[str] = (),
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.preset = QComboBox()
+        self.preset.setAccessibleName(self.tr("Preset"))
+        self.preset.setToolTip(
+            self.tr("Load a scene that comes with the program, or one of your own.")
+        )
+        self.preset.setPlaceholderText(self.tr("Choose a preset"))
+        self.preset.setSizeAdjustPolicy(
+            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        )
+        self.list_presets(presets)
+        self.preset.activated.connect(
+            lambda index: self.preset_chosen.emit(self.preset.itemData(index))
+        )
+        self.code = CodeEntry()
+        others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
+        model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
+        self.panels = {
+            self.tr("Main"): ParameterPanel(MAIN),
+            self.tr("Panel and camera"): ParameterPanel(n for n in others if n not in model),
+            self.tr("Effects"): ParameterPanel(effects),
+            self.tr("Model"): ParameterPanel(model),
+        }
+        self._lay_out()
+        parts: tuple[CodeEntry | ParameterPanel, ...] = (self.code, *self.panels.values())
+        for part in parts:
+            part.edited.connect(self.edited)
+            part.refused.connect(self.refused)
+
+    def _lay_out(self) -> None:
+        layout = QVBoxLayout(self)
+        layout.addWidget(QLabel(self.tr("Preset")))
+        layout.addWidget(self.preset)
+        layout.addWidget(QLabel(self.tr("Code, as a number and as bits")))
+        layout.addWidget(self.code)
+        pages = QTabWidget()
+        for title, panel in self.panels.items():
+            scroll = QScrollArea()
+            scroll.setWidgetResizable(True)
+            scroll.setFrameShape(QFrame.Shape.NoFrame)
+            scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+            scroll.setWidget(panel)
+            scroll.setMinimumWidth(panel.minimumSizeHint().width() + 20)
+            pages.addTab(scroll, title)
+        layout.addWidget(pages, 1)
+
+    def list_presets(
+        self, presets: Sequence[tuple[str, str]], unreadable: Sequence[tuple[str, str]] = ()
+    ) -> None:
+        """Offer these presets in place of the last ones.
+
+        Parameters
+        ----------
+        presets
+            Names and titles.
+        unreadable
+            Names of those that cannot be loaded, and why: they are listed, and cannot be chosen.
+        """
+        self.preset.clear()
+        for name, title in presets:
+            self._list(one_line(name), name, title)
+        for name, reason in unreadable:
+            text = self.tr("{name}: cannot be read").format(name=one_line(name))
+            place = self._list(text, None, reason)
+            entries = self.preset.model()
+            if isinstance(entries, QStandardItemModel):
+                entries.item(place).setEnabled(False)
+        self.preset.setCurrentIndex(-1)
+
+    def _list(self, text: str, name: str | None, tip: str) -> int:
+        """Add an entry, and give its place."""
+        self.preset.addItem(text, name)
+        place = self.preset.count() - 1
+        tip = in_tool_tip(one_line(tip, LONGEST))
+        self.preset.setItemData(place, tip, Qt.ItemDataRole.ToolTipRole)
+        return place
+
+    def main_rows(self) -> dict[str, QuantityRow]:
+        """Give the rows of the main sliders, by the names of their parameters."""
+        rows = {name: row for panel in self.panels.values() for name, row in panel.rows.items()}
+        return {name: row for name in MAIN if isinstance(row := rows[name], QuantityRow)}
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show a scene's values without telling of them."""
+        self.code.show_scene(scene)
+        for panel in self.panels.values():
+            panel.show_scene(scene)
+
+    def show_preset(self, name: str | None) -> None:
+        """Show which preset the scene is, none where it has been changed."""
+        self.preset.setCurrentIndex(-1 if name is None else self.preset.findData(name))

@@ -1,0 +1,60 @@
+"""A form of parameter rows."""
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from occ_gui.scene.parameter_rows import ParameterRow, explain, row_for
+from occ_model.scene.parameter_kinds import Parameter
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+
+
+class ParameterPanel(QWidget):
+    """Rows of controls for some of the parameters, made from their declarations.
+
+    Parameters
+    ----------
+    names
+        The parameters, in the order shown.
+    parent
+        The parent widget.
+    """
+
+    edited = Signal(str, object, int)
+    """Name, value in SI units, and the number of the gesture that the change belongs to."""
+
+    refused = Signal(str)
+    """Why what was entered is not taken."""
+
+    def __init__(self, names: Iterable[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.rows: dict[str, ParameterRow] = {}
+        layout = QVBoxLayout(self)
+        layout.setSpacing(2)
+        for name in names:
+            row = row_for(PARAMETERS[name])
+            row.edited.connect(self.edited)
+            row.refused.connect(self.refused)
+            self.rows[name] = row
+            layout.addWidget(_label(PARAMETERS[name]))
+            layout.addWidget(row)
+            layout.addSpacing(6)
+        layout.addStretch(1)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show a scene's values without telling of them."""
+        for name, row in self.rows.items():
+            row.show_value(scene.value(name))
+
+
+def _label(declared: Parameter) -> QLabel:
+    text = declared.label
+    if declared.symbol:
+        base, _, index = declared.symbol.partition("_")
+        text += f" <i>{base}</i><sub>{index}</sub>" if index else f" <i>{base}</i>"
+    label = QLabel(text)
+    label.setTextFormat(Qt.TextFormat.RichText)
+    label.setToolTip(explain(declared))
+    return label

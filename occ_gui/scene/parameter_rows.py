@@ -1,0 +1,205 @@
+"""The controls of one parameter, one class for every kind of declaration."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QGridLayout,
+    QLineEdit,
+    QSlider,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.scene.gesture import Gestures
+from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
+from occ_gui.widgets.undo_keys import leave_undo_to_window
+from occ_model.errors import ParameterError
+from occ_model.scene.parameter_kinds import (
+    ChipPattern,
+    Choice,
+    Count,
+    Declaration,
+    Parameter,
+    ParameterValue,
+    Quantity,
+)
+
+_SLIDER_STEPS = 1000
+
+
+class ParameterRow(QWidget):
+    """Controls that show one parameter and let the user change it."""
+
+    edited = Signal(str, object, int)
+    """Name, value in SI units, and the number of the gesture that the change belongs to."""
+
+    refused = Signal(str)
+    """Why what was entered is not taken."""
+
+    def __init__(self, declaration: Declaration, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.name = declaration.name
+        self._gestures = Gestures()
+
+    def show_value(self, value: ParameterValue) -> None:
+        """Show a value without telling of it."""
+        raise NotImplementedError
+
+    def _tell(self, value: ParameterValue, held: bool = False) -> None:
+        self.edited.emit(self.name, value, self._gestures.of_change(held))
+
+
+class QuantityRow(ParameterRow):
+    """A slider and a number field."""
+
+    def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
+        super().__init__(quantity, parent)
+        self._quantity = quantity
+        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider.setRange(0, _SLIDER_STEPS)
+        self.slider.setPageStep(_SLIDER_STEPS // 20)
+        self.field = QuantityEdit(quantity)
+        self._layout = QGridLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setVerticalSpacing(1)
+        self._layout.setColumnStretch(0, 1)
+        self._layout.addWidget(self.slider, 0, 0)
+        self._layout.addWidget(self.field, 0, 1)
+        for control in (self.slider, self.field):
+            _name(control, quantity)
+            keep_wheel_for_scrolling(control)
+        self.slider.sliderPressed.connect(self._gestures.end)
+        self.slider.sliderReleased.connect(self._gestures.end)
+        self.field.lineEdit().textEdited.connect(self._gestures.end)
+        self.slider.valueChanged.connect(self._slide)
+        self.field.edited.connect(self._take)
+        self.field.refused.connect(self.refused)
+        self.show_value(quantity.default)
+
+    def show_value(self, value: ParameterValue) -> None:
+        """Show a value without telling of it."""
+        number = float(value)
+        self.field.set_value(number)
+        self._place_slider(number)
+
+    def add_below(self, widget: QWidget) -> None:
+        """Put a widget under the slider, as wide as it."""
+        self._layout.addWidget(widget, 1, 0)
+
+    def _place_slider(self, value: float) -> None:
+        self.slider.blockSignals(True)
+        self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
+        self.slider.blockSignals(False)
+
+    def _slide(self, position: int) -> None:
+        value = self._quantity.at(position / _SLIDER_STEPS)
+        self.field.set_value(value)
+        self._tell(value, held=self.slider.isSliderDown())
+
+    def _take(self, value: float) -> None:
+        self._place_slider(value)
+        self._tell(value)
+
+
+class CountRow(ParameterRow):
+    """A number field for whole numbers."""
+
+    def __init__(self, declared: Count, parent: QWidget | None = None) -> None:
+        super().__init__(declared, parent)
+        self.field = QSpinBox()
+        self.field.setRange(declared.low, declared.high)
+        self.field.setKeyboardTracking(False)
+        keep_wheel_for_scrolling(self.field)
+        leave_undo_to_window(self.field)
+        _fill(self, self.field, declared)
+        self.field.lineEdit().textEdited.connect(self._gestures.end)
+        self.field.valueChanged.connect(self._tell)
+
+    def show_value(self, value: ParameterValue) -> None:
+        """Show a value without telling of it."""
+        self.field.blockSignals(True)
+        self.field.setValue(int(value))
+        self.field.blockSignals(False)
+
+
+class ChoiceRow(ParameterRow):
+    """A list of words."""
+
+    def __init__(self, declared: Choice, parent: QWidget | None = None) -> None:
+        super().__init__(declared, parent)
+        self.field = QComboBox()
+        self.field.addItems(declared.choices)
+        keep_wheel_for_scrolling(self.field)
+        _fill(self, self.field, declared)
+        self.field.textActivated.connect(self._tell)
+
+    def show_value(self, value: ParameterValue) -> None:
+        """Show a value without telling of it."""
+        self.field.setCurrentText(str(value))
+
+
+class PatternRow(ParameterRow):
+    """A line for chips."""
+
+    def __init__(self, declared: ChipPattern, parent: QWidget | None = None) -> None:
+        super().__init__(declared, parent)
+        self._declared = declared
+        self._shown = ""
+        self.field = QLineEdit()
+        self.field.setPlaceholderText(self.tr("empty: packets"))
+        leave_undo_to_window(self.field)
+        _fill(self, self.field, declared)
+        self.field.textEdited.connect(self._gestures.end)
+        self.field.editingFinished.connect(self._read)
+
+    def show_value(self, value: ParameterValue) -> None:
+        """Show a value without telling of it."""
+        self._shown = str(value)
+        self.field.setText(self._shown)
+
+    def _read(self) -> None:
+        if self.field.text() == self._shown:
+            return
+        try:
+            value = self._declared.parse(self.field.text())
+        except ParameterError as error:
+            self.field.setText(self._shown)
+            self.refused.emit(str(error))
+            return
+        unchanged = value == self._shown
+        self.show_value(value)
+        if not unchanged:
+            self._tell(value)
+
+
+def row_for(declared: Parameter) -> ParameterRow:
+    """Make the controls that suit a declaration."""
+    match declared:
+        case Quantity():
+            return QuantityRow(declared)
+        case Count():
+            return CountRow(declared)
+        case Choice():
+            return ChoiceRow(declared)
+        case ChipPattern():
+            return PatternRow(declared)
+
+
+def explain(declared: Parameter) -> str:
+    """Write a declaration's meaning, symbol and range as a tooltip."""
+    symbol = f" ({declared.symbol})" if declared.symbol else ""
+    return f"{declared.label}{symbol}\n{declared.meaning}\nAllowed: {declared.allowed}"
+
+
+def _name(control: QWidget, declared: Parameter) -> None:
+    control.setAccessibleName(declared.label)
+    control.setToolTip(explain(declared))
+
+
+def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
+    layout = QVBoxLayout(row)
+    layout.setContentsMargins(0, 0, 0, 0)
+    layout.addWidget(control)
+    _name(control, declared)

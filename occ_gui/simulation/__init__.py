@@ -1,0 +1,1 @@
+"""The scene simulated and decoded off the window's thread."""

@@ -1,1 +1,0 @@
-"""What the window shows, as values that can be watched."""

@@ -1,1 +1,0 @@
-"""Work that must not block the window."""

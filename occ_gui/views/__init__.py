@@ -1,1 +1,0 @@
-"""Panes that show results and know no physics."""

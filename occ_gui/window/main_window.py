@@ -1,0 +1,233 @@
+"""The window: panes in docks, and the menus."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent, QUndoStack
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
+
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.photo.photo_view import PhotoView
+from occ_gui.picture.image_view import ImageView
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.widgets.drops import leave_drops_to_window
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import LONGEST
+from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.widgets.work_bar import WorkBar
+from occ_gui.window.menus import Menus
+from occ_model.errors import one_line
+
+_FIRST_SIZE = QSize(1280, 800)
+_ROOM_BELOW = 3
+_LEAST_DECODING = QSize(320, 300)
+
+
+class MainWindow(QMainWindow):
+    """Docks and menus; what they do is connected in :mod:`occ_gui.app.application`.
+
+    Parameters
+    ----------
+    controls, image, profile, decode, photo, accuracy, detection
+        The panes.
+    undo_stack
+        The steps that the edit menu undoes.
+    """
+
+    closing = Signal()
+    """The window is about to close."""
+
+    arranged = Signal()
+    """The panes have been laid out for the first time."""
+
+    dropped = Signal(list)
+    """The paths of what was dropped on the window; none where nothing of it is a file."""
+
+    def __init__(  # noqa: PLR0913, PLR0917 - one a pane
+        self,
+        controls: ControlPanel,
+        image: ImageView,
+        profile: ProfileView,
+        decode: DecodeView,
+        photo: PhotoView,
+        accuracy: AccuracyView,
+        detection: MapView,
+        *,
+        undo_stack: QUndoStack,
+    ) -> None:
+        super().__init__()
+        self.setWindowTitle(self.tr("Optical Camera Communication"))
+        self.setDockNestingEnabled(True)
+        self.setAnimated(False)  # each picture of a movement would draw all the plots
+        self.setCentralWidget(image)
+        self.docks = self._make_docks(controls, decode, photo, profile, accuracy, detection)
+        self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
+        self.docks["map"].visibilityChanged.connect(detection.set_seen)
+        self.menus = Menus(self, undo_stack, self.docks.values())
+        self.actions_by_name = self.menus.actions
+        self.setAcceptDrops(True)
+        leave_drops_to_window(self)
+        self._said_until = ""
+        self._is_arranged = False
+        self._behind = {"photo": "decode"}
+        self._above: dict[str, QDockWidget] = {}
+        self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.pointed, self._timing = QLabel(), QLabel()
+        self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
+        self.reading = WorkBar(self.tr("How much of the photo has been read"))
+        self.statusBar().addPermanentWidget(self.reading)
+        self.statusBar().addPermanentWidget(self.pointed)
+        self.statusBar().addPermanentWidget(self._timing)
+        self.resize(_FIRST_SIZE)
+
+    def _make_docks(
+        self,
+        controls: QWidget,
+        decode: QWidget,
+        photo: QWidget,
+        profile: QWidget,
+        accuracy: QWidget,
+        detection: QWidget,
+    ) -> dict[str, QDockWidget]:
+        left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+        bottom = Qt.DockWidgetArea.BottomDockWidgetArea
+        self.setCorner(Qt.Corner.BottomLeftCorner, left)
+        decoding = ScrollPane(decode, _LEAST_DECODING)
+        docks = {
+            "controls": self._dock("controls", self.tr("Scene"), controls, left),
+            "decode": self._dock("decode", self.tr("Decoding"), decoding, right),
+            "photo": self._dock("photo", self.tr("Photo"), photo, right),
+            "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
+            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
+            "map": self._dock("map", self.tr("Detection map"), detection, bottom),
+        }
+        self.tabifyDockWidget(docks["profile"], docks["accuracy"])
+        self.tabifyDockWidget(docks["accuracy"], docks["map"])
+        docks["profile"].raise_()
+        docks["photo"].hide()  # so that until it has its place it needs no room
+        self.resizeDocks([docks["profile"]], [308], Qt.Orientation.Vertical)
+        self.resizeDocks(
+            [docks["controls"], docks["decode"]], [340, 360], Qt.Orientation.Horizontal
+        )
+        return docks
+
+    def _dock(
+        self, name: str, title: str, content: QWidget, area: Qt.DockWidgetArea
+    ) -> QDockWidget:
+        dock = QDockWidget(title, self)
+        dock.setObjectName(name)
+        dock.setWidget(content)
+        self.addDockWidget(area, dock)
+        return dock
+
+    def add_pane(
+        self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
+    ) -> QDockWidget:
+        """Add a pane before the window is shown, and an entry of the view menu for it.
+
+        Parameters
+        ----------
+        name, title
+            Its name in the program and on the screen.
+        content
+            What it shows.
+        behind
+            The pane whose place it shares.
+        below
+            Or the pane under which it appears when it is asked for.
+        """
+        place = self.docks[behind or below]
+        dock = self._dock(name, title, content, self.dockWidgetArea(place))
+        self.docks[name] = dock
+        dock.hide()  # so that until it has its place it needs no room
+        if behind:
+            self._behind[name] = behind
+        else:
+            self.splitDockWidget(place, dock, Qt.Orientation.Vertical)
+            dock.toggleViewAction().triggered.connect(lambda: self._give_room(dock, place))
+            self._above[name] = place
+        leave_drops_to_window(dock)
+        self.menus.add_dock(dock)
+        return dock
+
+    def _give_room(self, dock: QDockWidget, above: QDockWidget) -> None:
+        """Let a pane that appears under another one take a third of the window's height."""
+        wanted = self.height() // _ROOM_BELOW
+        if dock.isVisible() and dock.height() < wanted:
+            rest = above.height() + dock.height() - wanted
+            self.resizeDocks([above, dock], [rest, wanted], Qt.Orientation.Vertical)
+
+    def bring_to_front(self, name: str) -> None:
+        """Show a pane before those that share its place."""
+        dock = self.docks[name]
+        if dock.isHidden() and name in self._above:
+            QTimer.singleShot(0, dock, lambda: self._give_room(dock, self._above[name]))
+        dock.show()
+        # A window that has just been shown lays its panes out once more, in an order of its own.
+        QTimer.singleShot(0, dock, dock.raise_)
+
+    def show_photo_name(self, name: str | None) -> None:
+        """Tell which photo is open, if any."""
+        self.menus.show_photo_open(name is not None)
+
+    def show_timing(self, simulation: float, reading: float) -> None:
+        """Tell how many seconds the last simulation took, and the reading of its picture."""
+        self._timing.setText(
+            self.tr("simulated in {simulation:.1f} ms, read in {reading:.1f} ms").format(
+                simulation=1e3 * simulation, reading=1e3 * reading
+            )
+        )
+
+    def show_plan_change(self, sentence: str) -> None:
+        """Tell which effects the plan has just switched, while there is nothing else to say."""
+        self._plan_change.set_full_text(sentence)
+
+    def say(self, sentence: str, until: str = "") -> None:
+        """Show a sentence in the status line, until the next one or until ``until`` has happened.
+
+        Parameters
+        ----------
+        sentence
+            The sentence.
+        until
+            What :meth:`happened` will be told of.
+        """
+        self._said_until = until
+        self.statusBar().showMessage(one_line(sentence, LONGEST))
+
+    def happened(self, what: str) -> None:
+        """Clear the sentence that was to be shown until this happened."""
+        if self._said_until == what:
+            self.statusBar().clearMessage()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Put panes behind those that they share a place with, once these have been laid out."""
+        super().showEvent(event)
+        # Earlier, beside the other group, Qt would leave a bar of tabs behind that belongs to none.
+        if not self._is_arranged:
+            self._is_arranged = True
+            for name, front in self._behind.items():
+                self.tabifyDockWidget(self.docks[front], self.docks[name])
+                self.docks[name].show()
+            for front in set(self._behind.values()):
+                self.docks[front].raise_()
+            self.arranged.emit()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
+        """Take what may be files."""
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell which files were dropped."""
+        event.acceptProposedAction()
+        urls = [url for url in event.mimeData().urls() if url.isLocalFile()]
+        self.dropped.emit([Path(url.toLocalFile()) for url in urls])
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell before closing."""
+        self.closing.emit()
+        super().closeEvent(event)

@@ -1,0 +1,203 @@
+"""The menus; what they do is connected in :mod:`occ_gui.app.application`."""
+
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
+
+from occ_gui.picture.photo_overlay import MODES
+from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
+from occ_model.errors import one_line
+from occ_model.photo.reading.load import SCAN_AXES
+
+_WITH_PHOTO = ("close_photo", "match", "use_settings")
+"""What can be done while a photo is open."""
+
+_WITH_MATCH = ("apply_match", "save_match")
+"""What can be done once a match has found something."""
+
+
+class Menus(QObject):
+    """The menus of a window.
+
+    Parameters
+    ----------
+    window
+        The window.
+    undo_stack
+        The steps that the edit menu undoes.
+    docks
+        The docks that the view menu shows and hides.
+    """
+
+    def __init__(
+        self, window: QMainWindow, undo_stack: QUndoStack, docks: Iterable[QDockWidget]
+    ) -> None:
+        super().__init__(window)
+        self._bar = window.menuBar()
+        self.actions: dict[str, QAction] = {}
+        self.tops: dict[str, QMenu] = {}
+        self._make_file_menu(window)
+        self._make_edit_menu(undo_stack)
+        self._make_photo_menu()
+        menu = self._top("view", self.tr("&View"))
+        self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
+        margins = self._add(menu, "margins", self.tr("Reading &margins under the sliders"))
+        margins.setCheckable(True)
+        menu.addSeparator()
+        self._view = menu
+        for dock in docks:
+            self.add_dock(dock)
+        menu = self._top("help", self.tr("&Help"))
+        self._add(menu, "explorations", self.tr("&Explorations"))
+        self._add(menu, "about", self.tr("&About"))
+        self.show_photo_open(False)
+        self.show_match_there(False)
+
+    def _top(self, name: str, text: str) -> QMenu:
+        self.tops[name] = self._bar.addMenu(text)
+        return self.tops[name]
+
+    def _add(
+        self,
+        menu: QMenu,
+        name: str,
+        text: str,
+        shortcut: QKeySequence.StandardKey | str | None = None,
+    ) -> QAction:
+        action = menu.addAction(text)
+        if shortcut is not None:
+            action.setShortcut(QKeySequence(shortcut))
+        self.actions[name] = action
+        return action
+
+    def _make_file_menu(self, window: QMainWindow) -> None:
+        keys = QKeySequence.StandardKey
+        menu = self._top("file", self.tr("&File"))
+        self._add(menu, "open_photo", self.tr("Open &photo…"), keys.Open)
+        self.recent = menu.addMenu(self.tr("Open &recent"))
+        self.samples = menu.addMenu(self.tr("Open sa&mple photo"))
+        for submenu in (self.recent, self.samples):
+            submenu.setToolTipsVisible(True)
+            submenu.setEnabled(False)
+        self._add(menu, "close_photo", self.tr("&Close photo"))
+        menu.addSeparator()
+        self._add(menu, "open_scene", self.tr("Open sc&ene…"), self.tr("Ctrl+Shift+O"))
+        self._add(menu, "save_scene", self.tr("&Save scene"), keys.Save)
+        self._add(menu, "save_scene_as", self.tr("Save scene &as…"), self.tr("Ctrl+Shift+S"))
+        self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
+        menu.addSeparator()
+        self._add(menu, "delete_preset", self.tr("&Delete preset…"))
+        menu.addSeparator()
+        self._add(menu, "quit", self.tr("&Quit"), self.tr("Ctrl+Q")).triggered.connect(window.close)
+
+    def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
+        menu = self._top("edit", self.tr("&Edit"))
+        undo = undo_stack.createUndoAction(self, self.tr("&Undo"))
+        redo = undo_stack.createRedoAction(self, self.tr("&Redo"))
+        undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
+        redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
+        menu.addActions([undo, redo])
+        self._make_pin_menu(menu)
+
+    def add_dock(self, dock: QDockWidget) -> None:
+        """Let the view menu show and hide a dock."""
+        self._view.addAction(dock.toggleViewAction())
+
+    def _make_pin_menu(self, edit: QMenu) -> None:
+        menu = edit.addMenu(self.tr("Pi&n and compare"))
+        self._add(menu, "pin_a", self.tr("Pin as &A"), self.tr("Ctrl+Shift+A"))
+        self._add(menu, "pin_b", self.tr("Pin as &B"), self.tr("Ctrl+Shift+B"))
+        self._add(menu, "go_to_a", self.tr("Take me &to A"))
+        self._add(menu, "go_to_b", self.tr("Take me t&o B"))
+        self._add(menu, "clear_pins", self.tr("C&lear both"))
+
+    def _make_photo_menu(self) -> None:
+        menu = self._top("photo", self.tr("&Photo"))
+        self._add(menu, "match", self.tr("&Match photo"), self.tr("Ctrl+M"))
+        self._add(menu, "apply_match", self.tr("&Apply to the scene"), self.tr("Ctrl+Shift+M"))
+        self._add(menu, "save_match", self.tr("Save match as &preset…"))
+        self._add(menu, "use_settings", self.tr("&Use this photo's settings"))
+        menu.addSeparator()
+        words = {
+            "beside": self.tr("&Side by side"),
+            "blend": self.tr("&Blended over the simulation"),
+            "split": self.tr("Sp&lit along a line"),
+            "difference": self.tr("&Difference"),
+        }
+        self.modes = QActionGroup(self)
+        for place, mode in enumerate(MODES, 1):
+            action = self._add_choice(menu, self.modes, f"show_{mode}", words[mode], mode)
+            action.setShortcut(QKeySequence(f"Ctrl+{place}"))
+        menu.addSeparator()
+        axes = menu.addMenu(self.tr("Photo was s&canned"))
+        words = {
+            "auto": self.tr("&Automatic: across its stripes"),
+            "columns": self.tr("Column by &column"),
+            "lines": self.tr("&Line by line"),
+        }
+        self.scan_axes = QActionGroup(self)
+        for axis in SCAN_AXES:
+            self._add_choice(axes, self.scan_axes, f"scan_{axis}", words[axis], axis)
+
+    def _add_choice(
+        self, menu: QMenu, group: QActionGroup, name: str, text: str, key: str
+    ) -> QAction:
+        action = self._add(menu, name, text)
+        action.setCheckable(True)
+        action.setChecked(not group.actions())
+        action.setData(key)
+        group.addAction(action)
+        return action
+
+    def show_choice(self, group: QActionGroup, key: str) -> None:
+        """Check the entry of a group that stands for a key, without telling of it."""
+        for action in group.actions():
+            if action.data() == key:
+                action.setChecked(True)
+
+    def show_photo_open(self, there: bool) -> None:
+        """Offer what can be done with a photo, if there is one."""
+        for name in _WITH_PHOTO:
+            self.actions[name].setEnabled(there)
+
+    def show_match_there(self, there: bool) -> None:
+        """Offer what can be done with a match, if there is one."""
+        for name in _WITH_MATCH:
+            self.actions[name].setEnabled(there)
+
+    def show_recent(
+        self, files: Iterable[Path], open_file: Callable[[Path], None], clear: Callable[[], None]
+    ) -> None:
+        """List the files that were opened last."""
+        self.recent.clear()
+        for path in files:
+            _add_file(self.recent, path, path.name, open_file)
+        self.recent.setEnabled(not self.recent.isEmpty())
+        if not self.recent.isEmpty():
+            self.recent.addSeparator()
+            self.recent.addAction(self.tr("&Clear this list")).triggered.connect(clear)
+
+    def show_samples(self, files: Iterable[Path], open_file: Callable[[Path], None]) -> None:
+        """List the photos that come with the program."""
+        self.samples.clear()
+        for path in files:
+            text = self.tr("{name} (simulated)").format(name=_in_words(path.stem))
+            _add_file(self.samples, path, text, open_file)
+        self.samples.setEnabled(not self.samples.isEmpty())
+
+
+def _in_words(name: str) -> str:
+    """Write a file's name as people do: ``led-1khz`` as LED 1 kHz."""
+    words = re.sub(r"(\d)(k?)hz\b", r"\1 \2Hz", name.replace("-", " "))
+    words = re.sub(r"\bled\b", "LED", words)
+    return words[:1].upper() + words[1:]
+
+
+def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], None]) -> None:
+    action = menu.addAction(in_menu(text))
+    action.setToolTip(in_tool_tip(one_line(str(path), LONGEST)))
+    action.triggered.connect(lambda: open_file(path))

@@ -22,7 +22,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
-PROJECT = Path(__file__).resolve().parents[2]
+PROJECT = Path(__file__).resolve().parents[3]
 
 LONG_NUMBER = "9" * 4000
 DEEP = 1500

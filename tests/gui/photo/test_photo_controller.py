@@ -33,7 +33,7 @@ class Bench:
         self.controller = PhotoController([self])
         self.controller.opened.connect(self.opened.append)
         self.controller.failed.connect(self.failures.append)
-        self._load = occ.photo.load.load_photo
+        self._load = occ.photo.reading.load.load_photo
         self._qtbot = qtbot
 
     def _read(

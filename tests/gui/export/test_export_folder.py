@@ -7,7 +7,7 @@ from pathlib import Path
 from occ_gui.export.export_folder import folder_aside, remove_left_behind
 from occ_gui.export.jobs import ExportJob, export
 
-PROJECT = Path(__file__).resolve().parents[2]
+PROJECT = Path(__file__).resolve().parents[3]
 
 KILLED = """
 import os, signal, sys

@@ -11,7 +11,7 @@ from PIL import Image
 from occ_gui.app.command_line import OVERLAYS, main
 from occ_gui.picture.photo_overlay import MODES
 
-PROJECT = Path(__file__).resolve().parents[2]
+PROJECT = Path(__file__).resolve().parents[3]
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")

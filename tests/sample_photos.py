@@ -13,7 +13,7 @@ from occ_model.scene.scene import Scene
 
 FOLDER = Path(__file__).parents[1] / "resources" / "photos"
 QUALITY = 85
-SAID = "Simulated by occ_model with every effect; no real photograph."
+KNOWN = "Simulated by occ_model with every effect; no real photograph."
 
 
 def _photographed(preset: str, brightest: float, **changes: str | float) -> Scene:
@@ -50,7 +50,7 @@ def as_jpeg(scene: Scene) -> bytes:
     """Write it as a camera would, with what it notes of its settings."""
     picture = Image.fromarray(taken(scene))
     exif = picture.getexif()
-    exif[0x010E], exif[0x010F], exif[0x0110] = SAID, "Simulated", "phone"
+    exif[0x010E], exif[0x010F], exif[0x0110] = KNOWN, "Simulated", "phone"
     exif.get_ifd(0x8769).update(
         {
             0x829A: scene.camera.exposure_time,

@@ -14,7 +14,7 @@ from occ_gui.simulation.request import SimulationRequest
 from occ_model.results import AccuracyPoint
 from occ_model.study.accuracy import accuracy, point_count
 
-REST_MS = 700
+IDLE_MS = 700
 """How long the scene must not have moved."""
 
 
@@ -88,8 +88,8 @@ class AccuracyController(QObject):
         self._seen = False
         self._done: SimulationRequest | None = None
         self._count = 0
-        self._rest = QTimer(self, singleShot=True)
-        self._rest.timeout.connect(self._start)
+        self._idle_timer = QTimer(self, singleShot=True)
+        self._idle_timer.timeout.connect(self._start)
         self.runner: Progressive[SimulationRequest, Measured] = Progressive(
             measure, "accuracy study"
         )
@@ -98,12 +98,12 @@ class AccuracyController(QObject):
         self.runner.failed.connect(self._fail)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
-        simulation.runner.idle.connect(self._wait_for_rest)
+        simulation.runner.idle.connect(self._wait_until_idle)
 
     @property
     def is_idle(self) -> bool:
         """Whether nothing is being measured or about to be."""
-        return not (self._rest.isActive() or self.runner.is_running)
+        return not (self._idle_timer.isActive() or self.runner.is_running)
 
     def _request(self) -> SimulationRequest:
         return SimulationRequest(self._scenes.scene, self._settings.settings)
@@ -112,23 +112,23 @@ class AccuracyController(QObject):
         """Say whether anybody can see the points."""
         self._seen = seen
         if seen:
-            self._wait_for_rest()
+            self._wait_until_idle()
             return
-        self._rest.stop()
+        self._idle_timer.stop()
         if self.runner.is_running:
             self.runner.cancel()
             self._pane.show_study_outdated()
 
     def _move_on(self) -> None:
-        self._rest.stop()
+        self._idle_timer.stop()
         self.runner.cancel()
         self._done = None
         self._pane.show_study_outdated()
-        self._wait_for_rest()
+        self._wait_until_idle()
 
-    def _wait_for_rest(self) -> None:
+    def _wait_until_idle(self) -> None:
         if self._seen and not self.runner.is_running and self._done is None:
-            self._rest.start(REST_MS)
+            self._idle_timer.start(IDLE_MS)
 
     def _start(self) -> None:
         if not self._simulation.runner.is_idle:
@@ -151,5 +151,5 @@ class AccuracyController(QObject):
 
     def stop(self) -> None:
         """Measure no more."""
-        self._rest.stop()
+        self._idle_timer.stop()
         self.runner.stop()

@@ -10,17 +10,17 @@ import occ_model as occ
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.desktop import Desktop
-from occ_gui.app.teaching_desk import TeachingDesk
+from occ_gui.app.teaching_desk import LearningPanes
 from occ_gui.app.wording import spoken
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
-from occ_gui.detection_map.slider_strips import MarginStrips
-from occ_gui.detection_map.wiring import ReachDesk
+from occ_gui.detection_map.slider_strips import SliderStrips
+from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Memory
 from occ_gui.files.preset_controller import PresetController
 from occ_gui.photo.photo_view import PhotoView
-from occ_gui.photo.wiring import PhotoDesk
+from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
@@ -70,16 +70,18 @@ class Application(QObject):
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
         self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.detection = MapView(tuple(DECODERS))
-        self.margins = MarginStrips(self.controls.main_rows())
+        self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(
             self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
         )  # fmt: skip
-        self.desk = PhotoDesk(self.store, self.image, self.profile, self.photo)
+        self.desk = PhotoWiring(self.store, self.image, self.profile, self.photo)
         self.photos = self.desk.photos
         self.presets = PresetController(self.window, self.store, self.desk.matching)
         self.files = FileController(self.window, self.store, self.photos, self.memory)
-        self.teaching = TeachingDesk(self.window, self.store, self.photos, self.image, self.profile)
+        self.teaching = LearningPanes(
+            self.window, self.store, self.photos, self.image, self.profile
+        )
         # What was before, and the comparison, go before the profile, which is drawn with them.
         first = (self.image, self.teaching, self.desk.comparison)
         views = (*first, self.profile, self.decode, self.accuracy)
@@ -87,7 +89,9 @@ class Application(QObject):
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
-        self.reach = ReachDesk(self.store, self.settings, self.detection, self.margins)
+        self.detection_map = DetectionMapWiring(
+            self.store, self.settings, self.detection, self.slider_strips
+        )
         self.desktop = Desktop(self)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
@@ -95,7 +99,7 @@ class Application(QObject):
         self._connect_settings()
         self._connect_photo()
         self._connect_menus()
-        self._connect_margins()
+        self._connect_slider_strips()
         self._list_presets()
         self._list_recent()
         self.window.menus.show_samples(sample_photos(), self.files.open_sample)
@@ -106,14 +110,14 @@ class Application(QObject):
         self.controls.edited.connect(self._edit)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
-        self.presets.said.connect(self.window.say)
+        self.presets.status_message.connect(self.window.say)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
         self.controls.refused.connect(self._say_refusal)
         self.simulation.shown.connect(self._on_shown)
         self.simulation.failed.connect(self._say_failure)
-        self.files.said.connect(self.window.say)
-        self.teaching.said.connect(self._say_refusal)
+        self.files.status_message.connect(self.window.say)
+        self.teaching.status_message.connect(self._say_refusal)
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
@@ -166,13 +170,13 @@ class Application(QObject):
         menus.modes.triggered.connect(self._show_mode)
         self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
 
-    def _connect_margins(self) -> None:
+    def _connect_slider_strips(self) -> None:
         shown = self.window.actions_by_name["margins"]
-        shown.toggled.connect(self.margins.set_shown)
-        shown.triggered.connect(self.memory.keep_margins)
-        self.margins.set_shown(self.memory.margins)
-        shown.setChecked(self.memory.margins)
-        self.decode.decoder_chosen.connect(self.reach.margins.choose_decoder)
+        shown.toggled.connect(self.slider_strips.set_shown)
+        shown.triggered.connect(self.memory.keep_slider_strips)
+        self.slider_strips.set_shown(self.memory.slider_strips)
+        shown.setChecked(self.memory.slider_strips)
+        self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
 
     @property
     def is_idle(self) -> bool:
@@ -295,5 +299,5 @@ class Application(QObject):
         self.simulation.stop()
         self.study.stop()
         self.desk.stop()
-        self.reach.stop()
+        self.detection_map.stop()
         self.desktop.stop()

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
-from occ_gui.app.start import Start, Unasked, start_of
+from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_model.errors import one_line, shown
 from occ_model.exit_codes import EXIT_MISUSE
 from occ_model.files.writing import write_whole
@@ -94,7 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     add_scene_options(parser)
     add_simulation_options(parser)
     # Noise that keeps up with a slider, and a preset that wins over the last session if named.
-    parser.set_defaults(noise="reused", preset=Unasked(DEFAULT_PRESET))
+    parser.set_defaults(noise="reused", preset=DefaultOption(DEFAULT_PRESET))
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
         "--match", action="store_true", help="match the photo, and let the scene follow it"
@@ -131,7 +131,7 @@ def _size(text: str) -> tuple[int, int]:
 def _run(options: argparse.Namespace, begin: Start) -> int:
     _prepare(options)
     qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.memory)
-    begin.take_up(application, with_photo=options.photo is None)
+    begin.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.desktop.theme.choose(options.theme)
     if options.size:
@@ -256,10 +256,10 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     deadline = QDeadlineTimer(_PATIENCE_MS)
     QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case
     QApplication.processEvents()  # what is about to begin is no rest
-    while not (rests := _is_at_rest(application, measured)) and not deadline.hasExpired():
+    while not (rests := _is_idle(application, measured)) and not deadline.hasExpired():
         # Waiting, not spinning: the worker needs the interpreter.
         QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
-        if _is_at_rest(application, measured):
+        if _is_idle(application, measured):
             QApplication.processEvents()  # paints, and may set something going again
     if failures:
         raise occ.OccError(failures[0])
@@ -267,9 +267,9 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 
 
-def _is_at_rest(application: "Application", measured: bool) -> bool:
+def _is_idle(application: "Application", measured: bool) -> bool:
     shown = application.is_idle and application.study.is_idle
-    return shown and (application.reach.is_idle or not measured)
+    return shown and (application.detection_map.is_idle or not measured)
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:

@@ -9,8 +9,8 @@ from PySide6.QtGui import QAction
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.app.error_reports import Faults
 from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.detection_map.wiring import ReachDesk
-from occ_gui.export.export_desk import ExportDesk
+from occ_gui.detection_map.wiring import DetectionMapWiring
+from occ_gui.export.export_desk import ExportWiring
 from occ_gui.export.figures import Figures
 from occ_gui.files.autosave import Autosave
 from occ_gui.files.document import Document
@@ -18,7 +18,7 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Memory
 from occ_gui.files.session import Session
 from occ_gui.files.session_keeper import SessionKeeper
-from occ_gui.photo.wiring import PhotoDesk
+from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.profile.profile_view import ProfileView
@@ -52,8 +52,8 @@ class Parts(Protocol):
     settings: SettingsStore
     memory: Memory
     files: FileController
-    desk: PhotoDesk
-    reach: ReachDesk
+    desk: PhotoWiring
+    detection_map: DetectionMapWiring
     simulation: SimulationController
     controls: ControlPanel
     image: ImageView
@@ -83,9 +83,9 @@ class Desktop(QObject):
             parts.settings, parts.desk.comparison.comparison, parts.profile, parts.accuracy.plot,
             tuple(DECODERS),
         )  # fmt: skip
-        self.figures.add_map(lambda: parts.reach.map.full)
+        self.figures.add_map(lambda: parts.detection_map.map.full)
         self.menus = DesktopMenus(window.menus, self.figures.titles)
-        self.export = ExportDesk(
+        self.export = ExportWiring(
             window, window.docks, self.figures, self.menus, parts.decode, memory
         )
         self.document = Document(window, parts.store, parts.files)
@@ -110,7 +110,7 @@ class Desktop(QObject):
         parts.simulation.shown.connect(self.figures.show_snapshot)
         parts.desk.photos.opened.connect(self._on_photo)
         for teller in (self.export.controller, self.brightness, self.session):
-            teller.said.connect(window.say)
+            teller.status_message.connect(window.say)
         self.faults.happened.connect(window.say)
         self.pointer.moved.connect(window.pointed.setText)
         window.arranged.connect(self.layout.note_first)

@@ -8,7 +8,7 @@ from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
 
 
-class GuideDesk(QObject):
+class ExplorationWiring(QObject):
     """The explorations, connected with what they set.
 
     Parameters

@@ -21,7 +21,7 @@ _NAMES = ("occ-explorer", "occ-gui")
 """Under which the settings are kept where nothing else is asked for."""
 
 
-class Unasked(str):
+class DefaultOption(str):
     """What an option is where nobody has said anything: its default, and known as such."""
 
     __slots__ = ()
@@ -52,7 +52,7 @@ class Start:
     session: "Session"
     fresh: bool
 
-    def take_up(self, application: "Application", with_photo: bool) -> None:
+    def restore(self, application: "Application", with_photo: bool) -> None:
         """Take up the session in a window that is not shown yet, and keep it from now on."""
         if self.memory is None:
             return
@@ -81,7 +81,7 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     from occ_gui.files.preferences import Memory
     from occ_gui.files.session import Session, recall_session
 
-    asked = bool(options.scene or options.settings or not isinstance(options.preset, Unasked))
+    asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
     if options.screenshot:  # of the window as it comes, whatever its user did last
         return Start(scene, settings, asked, None, Session(), fresh=True)
     memory = kept_settings()

@@ -16,11 +16,11 @@ from occ_gui.pins.pinned import Pinned
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.lazy_pane import Furnishing, LatePane
+from occ_gui.widgets.lazy_pane import LazyPane, PaneContent
 
 if TYPE_CHECKING:
-    from occ_gui.app.guide_desk import GuideDesk
-    from occ_gui.explanation.wiring import ExplanationDesk
+    from occ_gui.app.guide_desk import ExplorationWiring
+    from occ_gui.explanation.wiring import ExplanationWiring
     from occ_gui.pins.compare_view import CompareView
 
 
@@ -40,7 +40,7 @@ class DockWindow(Protocol):
         """Show a pane before those that share its place."""
 
 
-class TeachingDesk(QObject):
+class LearningPanes(QObject):
     """The panes that explain and compare, with their controllers, as docks of a window.
 
     Each pane is made when it is first seen.
@@ -57,7 +57,7 @@ class TeachingDesk(QObject):
         The panes that show what was before, and where a column is pointed at.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """What was done, or why it was not; until the scene changes."""
 
     def __init__(
@@ -79,11 +79,11 @@ class TeachingDesk(QObject):
         self._connect_menus()
 
     @cached_property
-    def explanation(self) -> "ExplanationDesk":
+    def explanation(self) -> "ExplanationWiring":
         """The equations and the exposure of a column."""
-        from occ_gui.explanation.wiring import ExplanationDesk
+        from occ_gui.explanation.wiring import ExplanationWiring
 
-        desk = ExplanationDesk(self._scenes, self._profile.plot)
+        desk = ExplanationWiring(self._scenes, self._profile.plot)
         if self._snapshot is not None:
             desk.show_snapshot(self._snapshot)
         return desk
@@ -101,12 +101,12 @@ class TeachingDesk(QObject):
         return view
 
     @cached_property
-    def guide(self) -> "GuideDesk":
+    def guide(self) -> "ExplorationWiring":
         """The explorations."""
-        from occ_gui.app.guide_desk import GuideDesk
+        from occ_gui.app.guide_desk import ExplorationWiring
 
-        desk = GuideDesk(self._scenes, self._photos)
-        desk.explorations.said.connect(self.said)
+        desk = ExplorationWiring(self._scenes, self._photos)
+        desk.explorations.status_message.connect(self.status_message)
         desk.explorations.pane_wanted.connect(self._window.bring_to_front)
         return desk
 
@@ -130,19 +130,19 @@ class TeachingDesk(QObject):
         add("explorations", self.tr("Explorations"), self._guide, below="controls")
 
     def _add_dock(
-        self, name: str, title: str, make: Callable[[], Furnishing], **place: str
+        self, name: str, title: str, make: Callable[[], PaneContent], **place: str
     ) -> None:
-        pane = LatePane(make)
+        pane = LazyPane(make)
         dock = self._window.add_pane(name, title, pane, **place)
         dock.visibilityChanged.connect(pane.set_seen)
 
-    def _explain(self) -> Furnishing:
+    def _explain(self) -> PaneContent:
         return self.explanation.pane, self.explanation.set_seen
 
-    def _compare(self) -> Furnishing:
+    def _compare(self) -> PaneContent:
         return self.compare, self.compare.set_seen
 
-    def _guide(self) -> Furnishing:
+    def _guide(self) -> PaneContent:
         return self.guide.pane, self.guide.explorations.set_seen
 
     def _connect_menus(self) -> None:
@@ -158,4 +158,4 @@ class TeachingDesk(QObject):
         actions["explorations"].triggered.connect(
             lambda: self._window.bring_to_front("explorations")
         )
-        self.pins.said.connect(self.said)
+        self.pins.status_message.connect(self.status_message)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject
 
 from occ_gui.detection_map.advice import Advice, TheoryNumbers
-from occ_model.results import Edge, Limits, Reach, Trial
+from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 
@@ -22,14 +22,14 @@ class AdviceLine:
     ----------
     text
         What is said.
-    way
+    destination
         Where it leads: a parameter, its value in SI units, and that value in words.
     is_title
         Whether it stands over what follows.
     """
 
     text: str
-    way: tuple[str, float, str] | None = None
+    destination: tuple[str, float, str] | None = None
     is_title: bool = False
 
 
@@ -70,18 +70,18 @@ class AdviceWords(QObject):
             distance=_written("distance", scene.pose.distance),
         )
 
-    def _line(self, text: str, reach: Reach, edge: Edge) -> AdviceLine:
-        value = _written(reach.parameter, edge.value)
-        ground = self.tr("there it read {counted}").format(counted=self._counted(edge.works))
-        if edge.fails is None:
+    def _line(self, text: str, working_range: WorkingRange, range_end: RangeEnd) -> AdviceLine:
+        value = _written(working_range.parameter, range_end.value)
+        ground = self.tr("there it read {counted}").format(counted=self._counted(range_end.works))
+        if range_end.fails is None:
             beyond = self.tr("beyond it was not tried")
         else:
             beyond = self.tr("at {value} {counted}").format(
-                value=_written(reach.parameter, edge.fails.value),
-                counted=self._counted(edge.fails),
+                value=_written(working_range.parameter, range_end.fails.value),
+                counted=self._counted(range_end.fails),
             )
         sentence = f"{text.format(value=value)}: {ground}, {beyond}."
-        return AdviceLine(sentence, (reach.parameter, edge.value, value))
+        return AdviceLine(sentence, (working_range.parameter, range_end.value, value))
 
     def _counted(self, trial: Trial) -> str:
         return self.tr("{right} of {sent} bits ({low:.1f} to {high:.1f} %)").format(

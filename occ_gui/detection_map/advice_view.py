@@ -31,14 +31,14 @@ class AdviceView(QWidget):
     back_asked = Signal()
     """The map is wanted again."""
 
-    way_asked = Signal(str, float)
+    destination_chosen = Signal(str, float)
     """The parameter to be changed, and its value in SI units."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._words = AdviceWords(self)
         self._lines: list[QWidget] = []
-        self.ways: list[QPushButton] = []
+        self.destinations: list[QPushButton] = []
         self.back = self._button(self.tr("Back to the map"), self.tr("Show the map again."))
         self.back.clicked.connect(self.back_asked)
         self.again = self._button(
@@ -87,7 +87,7 @@ class AdviceView(QWidget):
         for line in self._lines:
             self._column.removeWidget(line)
             line.deleteLater()
-        self._lines, self.ways = [], []
+        self._lines, self.destinations = [], []
         self.progress.setValue(0)
         self._show_running(True)
 
@@ -127,18 +127,18 @@ class AdviceView(QWidget):
         font.setBold(line.is_title)
         label.setFont(font)
         layout.addWidget(label, 1)
-        if line.way is not None:
-            layout.addWidget(self._way(line), 0, Qt.AlignmentFlag.AlignTop)
+        if line.destination is not None:
+            layout.addWidget(self._destination(line), 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(self._column.count() - 1, row)
         self._lines.append(row)
 
-    def _way(self, line: AdviceLine) -> QPushButton:
-        assert line.way is not None  # noqa: S101 - such a line leads somewhere
-        name, value, where = line.way
+    def _destination(self, line: AdviceLine) -> QPushButton:
+        assert line.destination is not None  # noqa: S101 - such a line leads somewhere
+        name, value, where = line.destination
         button = self._button(
             self.tr("Take me there"), self.tr("Change the scene to {where}.").format(where=where)
         )
         button.setAccessibleName(self.tr("Take me there: {where}").format(where=where))
-        button.clicked.connect(lambda: self.way_asked.emit(name, value))
-        self.ways.append(button)
+        button.clicked.connect(lambda: self.destination_chosen.emit(name, value))
+        self.destinations.append(button)
         return button

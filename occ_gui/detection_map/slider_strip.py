@@ -16,7 +16,7 @@ Colours = Callable[[FloatArray], ByteArray]
 """Gives shares, from 0 to 1 or not a number, their colours: (positions,) in, (positions, 4) out."""
 
 
-class MarginStrip(QWidget):
+class SliderStrip(QWidget):
     """A thin bar as long as a slider's way; grey where nothing is known.
 
     Parameters

@@ -14,7 +14,7 @@ from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.worker import Along, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
-from occ_model.receiver.decoders import PAPERS
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -33,7 +33,7 @@ RANKS = (3, 3)
 
 
 @dataclass(frozen=True, slots=True)
-class MarginRequest:
+class SliderStripRequest:
     """All that the strips depend on.
 
     Parameters
@@ -50,20 +50,20 @@ class MarginRequest:
     settings: SimulationSettings
     decoder: str
 
-    def along(self, name: str) -> "MarginRequest":
+    def along(self, name: str) -> "SliderStripRequest":
         """Give what the strip of one slider depends on: not on the slider itself."""
         given = {**UNSEEN, name: quantity(name).default}
-        return MarginRequest(self.scene.replace(**given), self.settings, self.decoder)
+        return SliderStripRequest(self.scene.replace(**given), self.settings, self.decoder)
 
 
-class MarginPane(Protocol):
+class SliderStripPane(Protocol):
     """Strips, one a slider."""
 
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of bits read rightly at positions along a slider, None: not known."""
 
 
-def margin_stages(missing: Mapping[str, "tuple[MarginRequest, set[int]]"]) -> Iterator[Stage]:
+def strip_stages(missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"]) -> Iterator[Stage]:
     """Give the stages of the work that is left.
 
     Parameters
@@ -83,14 +83,14 @@ def margin_stages(missing: Mapping[str, "tuple[MarginRequest, set[int]]"]) -> It
         yield Stage(rank, parcels, stays=stride == STRIDES[0])
 
 
-def _parcel(request: MarginRequest, name: str, places: list[int]) -> Parcel:
+def _parcel(request: SliderStripRequest, name: str, places: list[int]) -> Parcel:
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), False)
     values = lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
     return Parcel(measure_along, (request.scene, settings, name, points))
 
 
-class MarginController(QObject):
+class SliderStripController(QObject):
     """Connects the stores, the processes and the strips.
 
     What lies under a slider does not change while that slider is moved.
@@ -112,17 +112,17 @@ class MarginController(QObject):
         scenes: SceneStore,
         settings: SettingsStore,
         lane: Lane,
-        pane: MarginPane,
+        pane: SliderStripPane,
         names: Iterable[str],
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
         self._lane, self._pane = lane, pane
         self._names = tuple(names)
-        self._decoder = PAPERS
+        self._decoder = PAPER_DECODER
         self._seen = False
-        self._asked: MarginRequest | None = None
-        self._known: dict[str, tuple[MarginRequest, dict[int, float | None]]] = {}
+        self._asked: SliderStripRequest | None = None
+        self._known: dict[str, tuple[SliderStripRequest, dict[int, float | None]]] = {}
         lane.came.connect(self._take)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
@@ -149,19 +149,19 @@ class MarginController(QObject):
     def _move_on(self) -> None:
         if not self._seen:
             return
-        request = MarginRequest(self._scenes.scene, self._settings.settings, self._decoder)
+        request = SliderStripRequest(self._scenes.scene, self._settings.settings, self._decoder)
         if request == self._asked:
             return
         self._asked = request
-        missing: dict[str, tuple[MarginRequest, set[int]]] = {}
+        missing: dict[str, tuple[SliderStripRequest, set[int]]] = {}
         for name in self._names:
             along = request.along(name)
             known = self._known.get(name)
             there = set(known[1]) if known is not None and known[0] == along else set()
             missing[name] = (along, set(range(POSITIONS)) - there)
-        self._lane.put(request, partial(margin_stages, missing))
+        self._lane.put(request, partial(strip_stages, missing))
 
-    def _take(self, request: MarginRequest, results: list[Along]) -> None:
+    def _take(self, request: SliderStripRequest, results: list[Along]) -> None:
         for result in results:
             along = request.along(result.name)
             known = self._known.get(result.name)

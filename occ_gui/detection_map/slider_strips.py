@@ -4,13 +4,13 @@ import numpy as np
 from PySide6.QtCore import QEvent, QObject, Signal
 
 from occ_gui.detection_map.map_colours import RATES, painted
-from occ_gui.detection_map.slider_strip import MarginStrip
+from occ_gui.detection_map.slider_strip import SliderStrip
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.scene.parameters import PARAMETERS
 
 
-class MarginStrips(QObject):
+class SliderStrips(QObject):
     """A strip under each of some sliders.
 
     Parameters
@@ -26,9 +26,9 @@ class MarginStrips(QObject):
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.strips: dict[str, MarginStrip] = {}
+        self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
-            strip = MarginStrip(row.slider, PARAMETERS[name].label, _colours)
+            strip = SliderStrip(row.slider, PARAMETERS[name].label, _colours)
             row.add_below(strip)
             self.strips[name] = strip
         next(iter(self.strips.values())).installEventFilter(self)

@@ -7,8 +7,8 @@ from occ_gui.background.parcel import Workers
 from occ_gui.detection_map.advice_controller import AdvisorController
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
-from occ_gui.detection_map.slider_strip_controller import MarginController
-from occ_gui.detection_map.slider_strips import MarginStrips
+from occ_gui.detection_map.slider_strip_controller import SliderStripController
+from occ_gui.detection_map.slider_strips import SliderStrips
 from occ_gui.detection_map.worker import PRELOAD
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -27,7 +27,7 @@ def new_workers() -> Workers:
     return WorkerProcesses(PROCESSES, PRELOAD)
 
 
-class ReachDesk(QObject):
+class DetectionMapWiring(QObject):
     """The controllers, connected with the panes; they share some processes.
 
     Parameters
@@ -41,18 +41,20 @@ class ReachDesk(QObject):
     """
 
     def __init__(
-        self, scenes: SceneStore, settings: SettingsStore, pane: MapView, strips: MarginStrips
+        self, scenes: SceneStore, settings: SettingsStore, pane: MapView, strips: SliderStrips
     ) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
         self.crew = Crew(3, lambda: new_workers())
         for_map, for_strips, for_advice = self.crew.lanes
         self.map = DetectionMapController(scenes, settings, for_map, pane)
-        self.margins = MarginController(scenes, settings, for_strips, strips, strips.strips)
+        self.slider_strips = SliderStripController(
+            scenes, settings, for_strips, strips, strips.strips
+        )
         self.advisor = AdvisorController(scenes, settings, self.crew, for_advice, pane.advice)
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
-        self._start.timeout.connect(lambda: self.margins.set_seen(True))
+        self._start.timeout.connect(lambda: self.slider_strips.set_seen(True))
         strips.seen.connect(self._see_strips)
         pane.shown.connect(self.map.set_seen)
         pane.axes_chosen.connect(self.map.choose_axes)
@@ -62,12 +64,12 @@ class ReachDesk(QObject):
         pane.image_effects_switched.connect(self.advisor.use_image_effects)
         pane.advice.asked.connect(self.advisor.start)
         pane.advice.cancelled.connect(self.advisor.cancel)
-        pane.advice.way_asked.connect(self.advisor.take_there)
+        pane.advice.destination_chosen.connect(self.advisor.take_there)
 
     @property
     def is_idle(self) -> bool:
         """Whether all that can be seen is known, and nothing is about to be measured."""
-        parts = (self.map, self.margins, self.advisor)
+        parts = (self.map, self.slider_strips, self.advisor)
         return not self._start.isActive() and all(part.is_idle for part in parts)
 
     def _see_strips(self, seen: bool) -> None:
@@ -75,7 +77,7 @@ class ReachDesk(QObject):
             self._start.start()
         else:
             self._start.stop()
-            self.margins.set_seen(False)
+            self.slider_strips.set_seen(False)
 
     def stop(self) -> None:
         """Measure no more, and end the processes."""

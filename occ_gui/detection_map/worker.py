@@ -12,7 +12,7 @@ from occ_gui.detection_map.rate_map import LINES, TheoryFields
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
-from occ_model.results import RateSettings, SweepPoint, Way
+from occ_model.results import RateSettings, SignalPath, SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -82,10 +82,10 @@ def rate_settings(
         left out, or refused where it cannot be.
     """
     force: Mapping[str, bool] = settings.force
-    way: Way = "auto"
+    path: SignalPath = "auto"
     if not with_image_effects:
-        force, way = {**force, **dict.fromkeys(IMAGE_EFFECTS, False)}, "profile"
-    return RateSettings(images, decoders, SEED, settings.tolerance, force, way)
+        force, path = {**force, **dict.fromkeys(IMAGE_EFFECTS, False)}, "profile"
+    return RateSettings(images, decoders, SEED, settings.tolerance, force, path)
 
 
 def leaves_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.plot import Plot
 
 
-class ExplanationDesk(QObject):
+class ExplanationWiring(QObject):
     """The equations of the scene, and the exposure of the column that is pointed at.
 
     Parameters

@@ -42,7 +42,7 @@ class ExplorationController(QObject):
         Shows the explorations.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """Why a step is not as it should be."""
 
     pane_wanted = Signal(str)
@@ -128,7 +128,9 @@ class ExplorationController(QObject):
         samples = {path.stem: path for path in sample_photos()}
         wanted = samples.get(step.photo)
         if step.photo and wanted is None:
-            self.said.emit(self.tr("The photo {name} is missing.").format(name=step.photo))
+            self.status_message.emit(
+                self.tr("The photo {name} is missing.").format(name=step.photo)
+            )
         elif wanted is not None and wanted != self._open:
             self._photos.open(wanted)
         elif not step.photo and self._open in samples.values():

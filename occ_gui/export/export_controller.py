@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.export.figures import Figures, NothingToDraw
-from occ_gui.export.jobs import Exported, ExportJob, Sketch, export
+from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Memory
 from occ_model.errors import one_line
 from occ_model.scene.scene_inside import ENDINGS
@@ -28,7 +28,7 @@ class ExportController(QObject):
         Remembers the folder.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """What was done, or why it was not."""
 
     def __init__(self, window: QWidget | None, figures: Figures, memory: Memory) -> None:
@@ -41,7 +41,7 @@ class ExportController(QObject):
         # Looked up when it is called, so that another one can be put in its place.
         self.runner: LatestWins[ExportJob, Exported] = LatestWins(lambda job: export(job), "export")
         self.runner.finished.connect(self._tell)
-        self.runner.failed.connect(self.said)
+        self.runner.failed.connect(self.status_message)
         self.runner.idle.connect(self._go_on)
 
     @property
@@ -51,8 +51,8 @@ class ExportController(QObject):
 
     def ask(self, name: str) -> None:
         """Let the user choose the file that a figure is written to."""
-        sketch = self._sketch(name)
-        if sketch is None:
+        request = self._request(name)
+        if request is None:
             return
         kinds = {
             ".png": self.tr("PNG picture (*.png)"),
@@ -71,13 +71,13 @@ class ExportController(QObject):
         if not path.suffix:
             ending = next((each for each, text in kinds.items() if text == kind), ENDINGS[0])
             path = path.with_suffix(ending)
-        self._put(ExportJob((sketch,), path=path))
+        self._put(ExportJob((request,), path=path))
 
     def export(self, name: str, path: Path) -> None:
         """Write a figure in the format that the file's ending names."""
-        sketch = self._sketch(name)
-        if sketch is not None:
-            self._put(ExportJob((sketch,), path=path))
+        request = self._request(name)
+        if request is not None:
+            self._put(ExportJob((request,), path=path))
 
     def ask_for_folder(self) -> None:
         """Let the user choose the folder that all figures are written to."""
@@ -89,34 +89,34 @@ class ExportController(QObject):
 
     def export_all(self, folder: Path) -> None:
         """Write every figure that there is in every format into a folder."""
-        sketches, missing = [], []
+        requests, missing = [], []
         for name, source in self._figures.sources.items():
             try:
-                sketches.append(source())
+                requests.append(source())
             except NothingToDraw as reason:
                 missing.append(f"{self._figures.titles[name]}: {reason}")
         self._left_out = " ".join(missing)
-        if not sketches:
-            self.said.emit(self._left_out)
+        if not requests:
+            self.status_message.emit(self._left_out)
             return
-        self._put(ExportJob(tuple(sketches), folder=folder))
+        self._put(ExportJob(tuple(requests), folder=folder))
 
     def copy(self, name: str) -> None:
         """Put a figure on the clipboard, as a picture."""
-        sketch = self._sketch(name)
-        if sketch is not None:
-            self._put(ExportJob((sketch,)))
+        request = self._request(name)
+        if request is not None:
+            self._put(ExportJob((request,)))
 
-    def _sketch(self, name: str) -> Sketch | None:
+    def _request(self, name: str) -> FigureRequest | None:
         try:
             return self._figures.sources[name]()
         except NothingToDraw as reason:
-            self.said.emit(str(reason))
+            self.status_message.emit(str(reason))
             return None
 
     def _put(self, job: ExportJob) -> None:
         self._waiting.append(job)
-        self.said.emit(self.tr("Drawing…"))
+        self.status_message.emit(self.tr("Drawing…"))
         self._go_on()
 
     def _go_on(self) -> None:
@@ -127,14 +127,16 @@ class ExportController(QObject):
         job = done.job
         if job.folder is not None:
             self._memory.visit(job.folder / "figure")
-            said = self.tr("Exported {count} files into {folder}.").format(
+            message = self.tr("Exported {count} files into {folder}.").format(
                 count=len(done.files), folder=one_line(job.folder.name)
             )
             left_out = self.tr("Left out: {what}").format(what=self._left_out)
-            self.said.emit(f"{said} {left_out}" if self._left_out else said)
+            self.status_message.emit(f"{message} {left_out}" if self._left_out else message)
         elif job.path is not None:
             self._memory.visit(job.path)
-            self.said.emit(self.tr("Exported {name}").format(name=one_line(job.path.name)))
+            self.status_message.emit(
+                self.tr("Exported {name}").format(name=one_line(job.path.name))
+            )
         else:
             self._to_clipboard(done.png)
 
@@ -142,7 +144,7 @@ class ExportController(QObject):
         # With the texts of the file, the scene among them. Data made here, not by Qt, would end
         # the program with a fault where it is still on the clipboard then.
         QGuiApplication.clipboard().setImage(QImage.fromData(png))
-        self.said.emit(self.tr("Copied the figure."))
+        self.status_message.emit(self.tr("Copied the figure."))
 
     def stop(self) -> None:
         """Write no more than is at work."""

@@ -16,7 +16,7 @@ _BY_DOCK = {"profile": "profile", "accuracy": "accuracy", "map": "map"}
 """The figures that stand for docks; every other pane is copied as the picture."""
 
 
-class ExportDesk(QObject):
+class ExportWiring(QObject):
     """Connects the menu with the figures.
 
     Parameters

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.sweep_table import table_of
-from occ_gui.export.jobs import Sketch
+from occ_gui.export.jobs import FigureRequest
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError
@@ -41,7 +41,7 @@ class AccuracyPane(Protocol):
         """All points of the scene as it is; none while they are not complete."""
 
 
-Source = Callable[[], Sketch]
+Source = Callable[[], FigureRequest]
 """Gives what a figure is drawn from, or raises NothingToDraw."""
 
 
@@ -89,7 +89,7 @@ class Figures(QObject):
         """Let the detection map be drawn, too, which is given once all its points are known."""
         self.add("map", self.tr("Detection map"), partial(self._of_map, full))
 
-    def _of_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> Sketch:
+    def _of_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> FigureRequest:
         there = full()
         if there is None:
             raise NothingToDraw(
@@ -102,7 +102,7 @@ class Figures(QObject):
 
             return sweep_drawing(table)
 
-        return self.sketch(self._shown().frame.scene, draw)
+        return self.request(self._shown().frame.scene, draw)
 
     def add(self, name: str, title: str, source: Source) -> None:
         """Let one more figure be drawn."""
@@ -122,17 +122,17 @@ class Figures(QObject):
         """Draw this photo beside the picture from now on, or none."""
         self._photo = photo
 
-    def sketch(self, scene: Scene, draw: "Callable[[], Drawing]") -> Sketch:
+    def request(self, scene: Scene, draw: "Callable[[], Drawing]") -> FigureRequest:
         """Note what a figure shows, and when it was asked for."""
         now = datetime.now().astimezone().isoformat(timespec="seconds")
-        return Sketch(scene, self._settings.settings, now, draw)
+        return FigureRequest(scene, self._settings.settings, now, draw)
 
     def _shown(self) -> Snapshot:
         if self._snapshot is None:
             raise NothingToDraw(self.tr("There is no picture yet."))
         return self._snapshot
 
-    def _of_picture(self) -> Sketch:
+    def _of_picture(self) -> FigureRequest:
         shown = self._shown()
         photo = None if self._photo is None else self._photo.image
         frame, region = shown.frame, shown.decoded.region
@@ -142,9 +142,9 @@ class Figures(QObject):
 
             return picture_drawing(frame, region, photo)
 
-        return self.sketch(frame.scene, draw)
+        return self.request(frame.scene, draw)
 
-    def _of_profile(self) -> Sketch:
+    def _of_profile(self) -> FigureRequest:
         shown, comparison = self._shown(), self._comparison()
         first, last = self._profile.columns_in_view()
 
@@ -155,9 +155,9 @@ class Figures(QObject):
                 shown.frame, shown.band, shown.band_undefined, comparison, first, last
             )
 
-        return self.sketch(shown.frame.scene, draw)
+        return self.request(shown.frame.scene, draw)
 
-    def _of_decoding(self, decoder: str) -> Sketch:
+    def _of_decoding(self, decoder: str) -> FigureRequest:
         shown = self._shown()
         result = _read_by(decoder, shown)
         if result is None:
@@ -170,9 +170,9 @@ class Figures(QObject):
 
             return decode_drawing(shown.frame.scene, result)
 
-        return self.sketch(shown.frame.scene, draw)
+        return self.request(shown.frame.scene, draw)
 
-    def _of_accuracy(self) -> Sketch:
+    def _of_accuracy(self) -> FigureRequest:
         points = self._accuracy.measured
         if not points:
             raise NothingToDraw(
@@ -184,7 +184,7 @@ class Figures(QObject):
 
             return accuracy_drawing(points)
 
-        return self.sketch(self._shown().frame.scene, draw)
+        return self.request(self._shown().frame.scene, draw)
 
 
 def _read_by(decoder: str, shown: Snapshot) -> DecodeResult | None:

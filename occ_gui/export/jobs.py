@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Sketch:
+class FigureRequest:
     """What a figure is drawn from, as it was when the figure was asked for.
 
     Parameters
@@ -52,7 +52,7 @@ class ExportJob:
 
     Parameters
     ----------
-    sketches
+    requests
         The figures.
     path
         The file of the only figure; None for the clipboard.
@@ -60,7 +60,7 @@ class ExportJob:
         The folder that every figure is written to in every format.
     """
 
-    sketches: Sequence[Sketch]
+    requests: Sequence[FigureRequest]
     path: Path | None = None
     folder: Path | None = None
 
@@ -93,19 +93,19 @@ def export(job: ExportJob) -> Exported:
         The ending names no format, or there is no writing there.
     """
     if job.folder is not None:
-        return Exported(job, _write_all(job.folder, job.sketches))
-    (sketch,) = job.sketches
-    drawing = sketch.draw()
+        return Exported(job, _write_all(job.folder, job.requests))
+    (request,) = job.requests
+    drawing = request.draw()
     if job.path is not None:
-        drawing.write(job.path, sketch.provenance(drawing))
+        drawing.write(job.path, request.provenance(drawing))
         return Exported(job, (job.path,))
     from occ_model.figures.drawing import figure_bytes, house_style
 
     with house_style():
-        return Exported(job, png=figure_bytes(drawing.draw(), "png", sketch.provenance(drawing)))
+        return Exported(job, png=figure_bytes(drawing.draw(), "png", request.provenance(drawing)))
 
 
-def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
+def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     """Write a folder's figures beside their places first: a disk that is full half-way leaves none.
 
     Raises
@@ -120,7 +120,7 @@ def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
     try:
         remove_left_behind(folder)
         with folder_aside(folder) as aside:
-            drawn = {id(drawing): (drawing, sketch) for drawing, sketch in _drawn(sketches)}
+            drawn = {id(drawing): (drawing, request) for drawing, request in _drawn(requests)}
             written = write_all(
                 aside,
                 [drawing for drawing, _ in drawn.values()],
@@ -136,5 +136,5 @@ def _write_all(folder: Path, sketches: Sequence[Sketch]) -> list[Path]:
             folder.rmdir()
 
 
-def _drawn(sketches: Sequence[Sketch]) -> "list[tuple[Drawing, Sketch]]":
-    return [(sketch.draw(), sketch) for sketch in sketches]
+def _drawn(requests: Sequence[FigureRequest]) -> "list[tuple[Drawing, FigureRequest]]":
+    return [(request.draw(), request) for request in requests]

@@ -61,7 +61,7 @@ class FileController(QObject):
         Remembers files and folders.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """What was done, or why it was not."""
 
     scene_opened = Signal(Path)
@@ -118,7 +118,9 @@ class FileController(QObject):
             self.open_file(path)
             return
         self._memory.drop(path)
-        self.said.emit(self.tr("{path} is no longer there.").format(path=one_line(str(path))))
+        self.status_message.emit(
+            self.tr("{path} is no longer there.").format(path=one_line(str(path)))
+        )
 
     def open_sample(self, path: Path) -> None:
         """Open a photo that comes with the program, with the scene that belongs to it."""
@@ -137,7 +139,9 @@ class FileController(QObject):
                 self.tr("{path} is no file").format(path=one_line(str(paths[0]))) if paths else ""
             )
             what = what or self.tr("What was dropped is no file of this computer")
-            self.said.emit(self.tr("{what}; drop a photo or a scene (.toml).").format(what=what))
+            self.status_message.emit(
+                self.tr("{what}; drop a photo or a scene (.toml).").format(what=what)
+            )
             return
         for path in scenes[:1]:
             self.open_scene(path)
@@ -145,7 +149,7 @@ class FileController(QObject):
             self._photos.open(path)
         opened = [one_line(path.name) for path in (*scenes[:1], *photos[:1])]
         if len(paths) > len(opened):
-            self.said.emit(
+            self.status_message.emit(
                 self.tr("Of {count} things that were dropped, only {names} can be shown.").format(
                     count=len(paths), names=self.tr(" and ").join(opened)
                 )
@@ -157,17 +161,17 @@ class FileController(QObject):
             self._memory.add(path)
             if path.suffix.lower() != SCENE_ENDING:
                 # The file stays what it is: it is not what the scene is saved to.
-                said = self.tr("Opened the scene inside {name}")
+                message = self.tr("Opened the scene inside {name}")
             else:
-                said = self.tr("Opened {name}")
+                message = self.tr("Opened {name}")
                 self.scene_opened.emit(path)
-            self.said.emit(said.format(name=one_line(path.name)))
+            self.status_message.emit(message.format(name=one_line(path.name)))
 
     def _put_scene(self, path: Path) -> bool:
         try:
             scene = read_scene_file(path)
         except OccError as error:
-            self.said.emit(str(error))
+            self.status_message.emit(str(error))
             return False
         self._store.put(scene, self.tr("opening of {name}").format(name=one_line(path.name)))
         return True
@@ -201,7 +205,7 @@ class FileController(QObject):
     def save_picture(self, path: Path) -> None:
         """Write the picture on the screen to a file, at its full size."""
         if self._snapshot is None:
-            self.said.emit(self.tr("There is no picture yet."))
+            self.status_message.emit(self.tr("There is no picture yet."))
             return
         image = self._snapshot.frame.image
         self._save(path, lambda: write_image(path, image))
@@ -210,10 +214,10 @@ class FileController(QObject):
         try:
             write()
         except OccError as error:
-            self.said.emit(str(error))
+            self.status_message.emit(str(error))
             return False
         self._memory.visit(path)
-        self.said.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
         return True
 
     def _in_folder(self, name: str) -> str:

@@ -51,11 +51,11 @@ class Memory(QObject):
         return str(self._folder) if is_there else ""
 
     @property
-    def margins(self) -> bool:
+    def slider_strips(self) -> bool:
         """Whether strips under the sliders show how well a decoder would read."""
         return self._value(_MARGINS) != _NO
 
-    def keep_margins(self, shown: bool) -> None:
+    def keep_slider_strips(self, shown: bool) -> None:
         """Remember whether the strips are shown."""
         self._write(_MARGINS, "yes" if shown else _NO)
 

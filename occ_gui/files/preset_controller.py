@@ -34,7 +34,7 @@ class PresetController(QObject):
         Gives what is to be saved.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """What was done, or why it was not."""
 
     changed = Signal()
@@ -69,7 +69,7 @@ class PresetController(QObject):
         try:
             scene = preset_named(name).scene
         except OccError as error:  # its file may have become anything meanwhile
-            self.said.emit(one_line(str(error), LONGEST))
+            self.status_message.emit(one_line(str(error), LONGEST))
             self._update()
             return
         self._store.put(scene, self.tr("preset {name}").format(name=name), new_gesture())
@@ -78,7 +78,7 @@ class PresetController(QObject):
         """Let the user name a preset, and save what the match found as it."""
         photo = self._matching.photo
         if photo is None or self._matching.match is None:
-            self.said.emit(self.tr("There is no match yet that could be saved."))
+            self.status_message.emit(self.tr("There is no match yet that could be saved."))
             return
         name, wanted = QInputDialog.getText(
             self._window,
@@ -95,7 +95,7 @@ class PresetController(QObject):
         """Let the user choose one of the own presets, and delete it."""
         own = [*user_presets(), *self._unreadable]
         if not own:
-            self.said.emit(self.tr("There is no preset of your own."))
+            self.status_message.emit(self.tr("There is no preset of your own."))
             return
         name, wanted = QInputDialog.getItem(
             self._window, self.tr("Delete preset"), self.tr("Preset to delete"), own, 0, False
@@ -105,10 +105,10 @@ class PresetController(QObject):
         try:
             delete_preset(name)
         except OccError as error:
-            self.said.emit(str(error))
+            self.status_message.emit(str(error))
             return
         self._update()
-        self.said.emit(self.tr("Deleted the preset {name}").format(name=name))
+        self.status_message.emit(self.tr("Deleted the preset {name}").format(name=name))
 
     def _may_replace(self, name: str) -> bool:
         if name not in user_presets() and name not in self._unreadable:
@@ -122,7 +122,7 @@ class PresetController(QObject):
 
     def _tell_saved(self, name: str) -> None:
         self._update()
-        self.said.emit(self.tr("Saved the preset {name}").format(name=name))
+        self.status_message.emit(self.tr("Saved the preset {name}").format(name=name))
 
     def _update(self) -> None:
         self._read()

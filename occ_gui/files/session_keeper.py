@@ -31,7 +31,7 @@ class SessionKeeper(QObject):
         Gives the photo that is open, if any.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """What has been restored, or what cannot be kept."""
 
     def __init__(
@@ -63,7 +63,7 @@ class SessionKeeper(QObject):
             Whether the store's scene was asked for, and stays whatever was left behind.
         """
         self._autosave = autosave
-        autosave.failed.connect(self.said)
+        autosave.failed.connect(self.status_message)
         left, asked = autosave.recovered, self._store.scene
         if not scene_wins and session.scene_file is not None:
             self._document.resume(session.scene_file, _saved_in(session.scene_file))
@@ -89,10 +89,12 @@ class SessionKeeper(QObject):
         self._store.put(left, title)
         if scene_wins and left != asked:
             self._store.put(asked, self.tr("opening of what was asked for"))
-            said = self.tr("The last session did not come to its end; Undo brings its scene back.")
+            message = self.tr(
+                "The last session did not come to its end; Undo brings its scene back."
+            )
         else:
-            said = self.tr("The last session did not come to its end: its scene is restored.")
-        self.said.emit(said)
+            message = self.tr("The last session did not come to its end: its scene is restored.")
+        self.status_message.emit(message)
 
     def keep(self) -> None:
         """Keep the session now."""

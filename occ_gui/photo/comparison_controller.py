@@ -142,7 +142,7 @@ class ComparisonController(QObject):
         if stripes is None:
             return None
         first = placement.column + stripes.region.first_column * placement.scale
-        return compare(stripes.evened, simulated, first, placement.scale)
+        return compare(stripes.flattened, simulated, first, placement.scale)
 
     def comparison(self) -> Comparison | None:
         """Compare with the simulated columns before enhancement; None where that cannot be."""

@@ -26,10 +26,10 @@ def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> 
     """Write a value with its standard deviation, as many digits of it as that leaves sure."""
     if spread is None or not 0.0 < spread < math.inf:
         return quantity.format(value)
-    symbol, worth = quantity.unit.display(value)
+    symbol, factor = quantity.unit.display(value)
     # Two digits of the uncertainty, and the value as far as these reach.
-    decimals = min(max(0, 1 - math.floor(math.log10(spread / worth))), 12)
-    number = f"{value / worth:.{decimals}f} ± {spread / worth:.{decimals}f}"
+    decimals = min(max(0, 1 - math.floor(math.log10(spread / factor))), 12)
+    number = f"{value / factor:.{decimals}f} ± {spread / factor:.{decimals}f}"
     return f"{number} {symbol}".rstrip()
 
 

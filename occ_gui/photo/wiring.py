@@ -14,7 +14,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.results import Match
 
 
-class PhotoDesk(QObject):
+class PhotoWiring(QObject):
     """The controllers of a photo, connected with the panes that show it.
 
     Parameters

@@ -37,7 +37,7 @@ class PinController(QObject):
         Shows how they differ.
     """
 
-    said = Signal(str)
+    status_message = Signal(str)
     """What was done, or why it was not."""
 
     def __init__(self, scenes: SceneStore, pane: ComparePane) -> None:
@@ -54,23 +54,23 @@ class PinController(QObject):
     def pin(self, name: str) -> None:
         """Keep what is shown as A or as B."""
         if self._snapshot is None:
-            self.said.emit(self.tr("There is no picture yet that could be pinned."))
+            self.status_message.emit(self.tr("There is no picture yet that could be pinned."))
             return
         new = self._pin_of(self._snapshot)
         a, b = (new, self.pinned.b) if name == "A" else (self.pinned.a, new)
         self._put(a, b)
-        self.said.emit(self.tr("Pinned what is shown as {name}.").format(name=name))
+        self.status_message.emit(self.tr("Pinned what is shown as {name}.").format(name=name))
 
     def clear(self) -> None:
         """Forget both."""
         self._put(None, None)
-        self.said.emit(self.tr("Nothing is pinned any more."))
+        self.status_message.emit(self.tr("Nothing is pinned any more."))
 
     def go_to(self, name: str) -> None:
         """Put the scene of A or of B in place of the scene, as one step."""
         pin = self.pinned.a if name == "A" else self.pinned.b
         if pin is None:
-            self.said.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
+            self.status_message.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
             return
         self._scenes.put(pin.scene, self.tr("return to {name}").format(name=name), new_gesture())
 

@@ -22,7 +22,7 @@ class HoldBrightness(QObject):
     switched = Signal(bool)
     """Whether the brightness is held from now on."""
 
-    said = Signal(str)
+    status_message = Signal(str)
     """Why the brightness could not be held."""
 
     def __init__(self, store: SceneStore) -> None:
@@ -60,7 +60,7 @@ class HoldBrightness(QObject):
         self._asked = (time, held)
         self._store.change(gesture, **{_EXPOSURE: time, _ISO: held})
         if held != wanted:
-            self.said.emit(
+            self.status_message.emit(
                 self.tr(
                     "The brightness cannot be held: it takes ISO {wanted}; the slider goes from "
                     "{low} to {high}."

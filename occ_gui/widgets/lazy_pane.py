@@ -7,11 +7,11 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.widgets.drops import leave_drops_to_window
 
-Furnishing: TypeAlias = tuple[QWidget, Callable[[bool], None]]
+PaneContent: TypeAlias = tuple[QWidget, Callable[[bool], None]]
 """What a pane shows, and whom to tell whether it can be seen."""
 
 
-class LatePane(QWidget):
+class LazyPane(QWidget):
     """Holds a pane's place until somebody looks there: the window opens so much sooner.
 
     Parameters
@@ -22,7 +22,7 @@ class LatePane(QWidget):
         The parent widget.
     """
 
-    def __init__(self, make: Callable[[], Furnishing], parent: QWidget | None = None) -> None:
+    def __init__(self, make: Callable[[], PaneContent], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._make = make
         self._tell: Callable[[bool], None] | None = None

@@ -70,7 +70,7 @@ class MainWindow(QMainWindow):
         self.actions_by_name = self.menus.actions
         self.setAcceptDrops(True)
         leave_drops_to_window(self)
-        self._said_until = ""
+        self._message_until = ""
         self._is_arranged = False
         self._behind = {"photo": "decode"}
         self._above: dict[str, QDockWidget] = {}
@@ -157,8 +157,8 @@ class MainWindow(QMainWindow):
         """Let a pane that appears under another one take a third of the window's height."""
         wanted = self.height() // _ROOM_BELOW
         if dock.isVisible() and dock.height() < wanted:
-            rest = above.height() + dock.height() - wanted
-            self.resizeDocks([above, dock], [rest, wanted], Qt.Orientation.Vertical)
+            remainder = above.height() + dock.height() - wanted
+            self.resizeDocks([above, dock], [remainder, wanted], Qt.Orientation.Vertical)
 
     def bring_to_front(self, name: str) -> None:
         """Show a pane before those that share its place."""
@@ -195,12 +195,12 @@ class MainWindow(QMainWindow):
         until
             What :meth:`happened` will be told of.
         """
-        self._said_until = until
+        self._message_until = until
         self.statusBar().showMessage(one_line(sentence, LONGEST))
 
     def happened(self, what: str) -> None:
         """Clear the sentence that was to be shown until this happened."""
-        if self._said_until == what:
+        if self._message_until == what:
             self.statusBar().clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name

@@ -45,8 +45,8 @@ class Menus(QObject):
         self._make_photo_menu()
         menu = self._top("view", self.tr("&View"))
         self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
-        margins = self._add(menu, "margins", self.tr("Reading &margins under the sliders"))
-        margins.setCheckable(True)
+        slider_strips = self._add(menu, "margins", self.tr("Reading &margins under the sliders"))
+        slider_strips.setCheckable(True)
         menu.addSeparator()
         self._view = menu
         for dock in docks:

@@ -8,7 +8,7 @@ from occ_model.commands.options import Commands
 from occ_model.exit_codes import EXIT_FAILURE
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import DecodeResult
 from occ_model.scene.from_text import add_scene_options, scene_of
 
@@ -18,7 +18,7 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser("decode", help="read the code from a picture or photo")
     parser.add_argument("file", type=Path, help="image file")
     add_scene_options(parser)
-    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPERS)
+    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPER_DECODER)
     parser.add_argument(
         "--scan-axis",
         choices=SCAN_AXES,

@@ -9,7 +9,7 @@ from occ_model.commands.options import Commands
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results.sweep_request import MOST_IMAGES
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.units import HERTZ
@@ -66,7 +66,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
 
 
 def _ceasing(preset: str, points: list[GridPoint]) -> str:
-    mine = [p for p in points if p.preset == preset and p.decoder == PAPERS]
+    mine = [p for p in points if p.preset == preset and p.decoder == PAPER_DECODER]
     frequency = ceases_at(mine)
     if frequency is None:
         return f"{preset}: detection goes on to the highest frequency"

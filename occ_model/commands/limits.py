@@ -6,8 +6,8 @@ import sys
 
 from occ_model.commands.options import Commands
 from occ_model.exit_codes import EXIT_FAILURE
-from occ_model.receiver.decoders import DECODERS, PAPERS
-from occ_model.results import Edge, Limits, Reach, Trial
+from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
+from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.scene.from_text import add_scene_options, scene_of
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -25,7 +25,7 @@ def add_to(commands: Commands) -> None:
         "limits", help="say how fast a scene can go, and how long it can be exposed"
     )
     add_scene_options(parser)
-    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPERS)
+    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPER_DECODER)
     parser.add_argument(
         "--rate", type=float, default=99.0, metavar="PERCENT",
         help="of the bits that are to be read; default: %(default)s",
@@ -64,8 +64,8 @@ def _answer(found: Limits) -> list[str]:
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = PARAMETERS["distance"].format(scene.pose.distance)  # type: ignore[arg-type]
     who = f"the {found.decoder} decoder reads {found.rate:g} % of the bits"
-    lines = _reach(f"At an exposure of {exposure} and {distance} {who}", found.frequency)
-    lines += _reach(f"At {frequency} and {distance} {who}", found.exposure)
+    lines = _working_range(f"At an exposure of {exposure} and {distance} {who}", found.frequency)
+    lines += _working_range(f"At {frequency} and {distance} {who}", found.exposure)
     lines.append(
         f"Each value was tried with {found.images} images, seed {found.seed}; the intervals hold "
         "the rate in 95 of 100 cases if bits err independently of each other."
@@ -73,27 +73,34 @@ def _answer(found: Limits) -> list[str]:
     return lines
 
 
-def _reach(start: str, reach: Reach) -> list[str]:
-    if reach.failure is not None:
-        return [reach.failure]
-    assert reach.lowest is not None  # noqa: S101 - both ends are there where any is
-    assert reach.highest is not None  # noqa: S101
-    low, high = _written(reach, reach.lowest.value), _written(reach, reach.highest.value)
-    own = PARAMETERS[reach.parameter].label.lower()
+def _working_range(start: str, working_range: WorkingRange) -> list[str]:
+    if working_range.failure is not None:
+        return [working_range.failure]
+    assert working_range.lowest is not None  # noqa: S101 - both ends are there where any is
+    assert working_range.highest is not None  # noqa: S101
+    low, high = (
+        _written(working_range, working_range.lowest.value),
+        _written(working_range, working_range.highest.value),
+    )
+    own = PARAMETERS[working_range.parameter].label.lower()
     lines = [f"{start} at any {own} from {low} to {high}."]
-    lines += _edge(reach, reach.lowest, "below") + _edge(reach, reach.highest, "above")
+    lines += _range_end(working_range, working_range.lowest, "below") + _range_end(
+        working_range, working_range.highest, "above"
+    )
     return lines
 
 
-def _edge(reach: Reach, edge: Edge, side: str) -> list[str]:
-    works = f"at {_written(reach, edge.value)} {_counted(edge.works)}"
-    if edge.fails is None:
+def _range_end(working_range: WorkingRange, range_end: RangeEnd, side: str) -> list[str]:
+    works = f"at {_written(working_range, range_end.value)} {_counted(range_end.works)}"
+    if range_end.fails is None:
         return [f"  {works}; {side} it was not searched."]
-    return [f"  {works}, at {_written(reach, edge.fails.value)} {_counted(edge.fails)}."]
+    return [
+        f"  {works}, at {_written(working_range, range_end.fails.value)} {_counted(range_end.fails)}."
+    ]
 
 
-def _written(reach: Reach, value: float) -> str:
-    return PARAMETERS[reach.parameter].format(value, _DIGITS)  # type: ignore[arg-type, call-arg]
+def _written(working_range: WorkingRange, value: float) -> str:
+    return PARAMETERS[working_range.parameter].format(value, _DIGITS)  # type: ignore[arg-type, call-arg]
 
 
 def _counted(trial: Trial) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from occ_model.commands.files import SCENE_FILE
 from occ_model.commands.options import Commands
 from occ_model.errors import one_line
-from occ_model.photo.match import ESTIMATES, SENT, match_photo
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.results import Match
 from occ_model.scene.from_text import add_scene_options, scene_of, write_scene_file
@@ -30,7 +30,7 @@ def add_to(commands: Commands) -> None:
     )
     parser.add_argument(
         "--sent",
-        choices=SENT,
+        choices=PATTERN_SOURCES,
         default="auto",
         help="scene: what the scene sends; read: read it from the stripes; auto: what fits "
         "(default)",
@@ -119,5 +119,5 @@ def _with_uncertainty(match: Match, name: str) -> str:
     deviation = match.uncertainties.get(name)
     if deviation is None:
         return f"{quantity.format(value)} (known)"
-    symbol, worth = quantity.unit.display(value)
-    return f"{value / worth:.6g} ± {deviation / worth:.2g} {symbol}".rstrip()
+    symbol, factor = quantity.unit.display(value)
+    return f"{value / factor:.6g} ± {deviation / factor:.2g} {symbol}".rstrip()

@@ -15,9 +15,9 @@ from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.exit_codes import EXIT_INTERRUPTED
-from occ_model.receiver.decoders import DECODERS, PAPERS
+from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import RateSettings, SweepRequest, SweepTable
-from occ_model.results.sweep_request import MOST_JOBS, WAYS
+from occ_model.results.sweep_request import MOST_JOBS, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.from_text import add_scene_options, scene_of
 from occ_model.scene.simulation_settings import TOLERANCE
@@ -46,7 +46,7 @@ def add_to(commands: Commands) -> None:
     parser.add_argument("--images", type=int, default=5, help="a point; default: %(default)s")
     parser.add_argument(
         "--decoder", action="append", choices=(*DECODERS, BOTH),
-        help=f"may be repeated; {BOTH}: all there are; default: {PAPERS}",
+        help=f"may be repeated; {BOTH}: all there are; default: {PAPER_DECODER}",
     )  # fmt: skip
     parser.add_argument("--seed", type=int, default=1, help="default: %(default)s")
     parser.add_argument(
@@ -59,7 +59,7 @@ def add_to(commands: Commands) -> None:
             help=f"{meaning} whatever its bound; may be repeated",
         )  # fmt: skip
     parser.add_argument(
-        "--path", choices=WAYS, default="auto",
+        "--path", choices=SIGNAL_PATHS, default="auto",
         help="by whole images, by the column means alone, or as the plan allows; "
         "default: %(default)s",
     )  # fmt: skip
@@ -87,7 +87,7 @@ def _run(options: argparse.Namespace) -> int:
         )
     settings = RateSettings(
         options.images,
-        _decoders(options.decoder or [PAPERS]),
+        _decoders(options.decoder or [PAPER_DECODER]),
         options.seed,
         options.tolerance,
         {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},

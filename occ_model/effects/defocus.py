@@ -17,9 +17,9 @@ from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import (
     contrast,
     just_white,
+    paper_view_of,
     reachable_luminances,
     shown_change,
-    sight_of,
 )
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
@@ -52,14 +52,14 @@ class Defocus(OpticsEffect):
         blur = blur_of(scene)
         if blur == 0.0:
             return 0.0
-        sight = sight_of(scene)
-        region, largest = sight.region, contrast(scene)
-        sides = sight.sides
-        if not sight.is_seen and not _reaches(sight.corners, scene, blur):
+        paper_view = paper_view_of(scene)
+        region, largest = paper_view.region, contrast(scene)
+        sides = paper_view.sides
+        if not paper_view.is_seen and not _reaches(paper_view.corners, scene, blur):
             return 0.0
         if _REACH * blur > min(region.rows, region.columns) / 2.0:
             return largest
-        both = sides is None or scene.lens.distorts or not sight.is_seen
+        both = sides is None or scene.lens.distorts or not paper_view.is_seen
         energy, loss = _rim(scene, both)
         if sides is None:
             length = 2.0 * (region.rows + region.columns)

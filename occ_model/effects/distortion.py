@@ -15,7 +15,7 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.effects.defocus import blur_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import contrast, sight_of
+from occ_model.effects.paper_view import contrast, paper_view_of
 from occ_model.effects.polygon import clipped, subdivided
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Camera, Lens, Scene
@@ -61,7 +61,7 @@ class Distortion(OpticsEffect):
             straight, bent = _outlines(scene)
         except ProjectionError:  # refused where it is to be simulated
             return math.inf
-        region = sight_of(scene).region
+        region = paper_view_of(scene).region
         reach = 4.0 * blur_of(scene) + 1.0
         seen = _within(straight, scene.camera, reach) | _within(bent, scene.camera, reach)
         seen |= np.roll(seen, -1)  # a part is seen where either of its ends is
@@ -73,7 +73,7 @@ class Distortion(OpticsEffect):
         length = np.minimum(parts[seen].sum(axis=0), [2.0 * region.columns, 2.0 * region.rows])
         area = float(length[0] * moved[1] + length[1] * moved[0])
         share = math.sqrt(min(area / (region.rows * region.columns), 1.0))
-        if observable == "profile" and sight_of(scene).sides is not None:
+        if observable == "profile" and paper_view_of(scene).sides is not None:
             ends = math.sqrt(min(2.0 * moved[0] / region.columns, 1.0))
             share = min(share, ends + min(2.0 * moved[1] / region.rows, 1.0))
         return contrast(scene) * share
@@ -119,7 +119,7 @@ def _outlines(scene: Scene) -> tuple[FloatArray, FloatArray]:
     the equations need not make sense.
     """
     camera = scene.camera
-    rays = image_rays(sight_of(scene).corners, camera)
+    rays = image_rays(paper_view_of(scene).corners, camera)
     focal = camera.focal_length_pixels
     corner = (math.hypot(camera.rows, camera.columns) / 2 + 1.0) / focal
     needed = corner + 4.0 * blur_of(scene) / focal

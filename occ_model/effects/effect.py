@@ -148,7 +148,7 @@ class FileEffect(Effect):
         """Return the picture as it is read back from the file."""
 
     @abstractmethod
-    def passed_on(self, scene: Scene, change: float, dithered: bool) -> float:
+    def propagated_change(self, scene: Scene, change: float, dithered: bool) -> float:
         """Say how much a change of the picture can change what is read back.
 
         Rounding makes steps of the smallest changes: what comes out can differ more than what went

@@ -8,7 +8,12 @@ from occ_model.arrays import Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import just_white, largest_change, reachable_luminances, sight_of
+from occ_model.effects.paper_view import (
+    just_white,
+    largest_change,
+    paper_view_of,
+    reachable_luminances,
+)
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -31,7 +36,7 @@ class Emission(OpticsEffect):
         order = scene.transmitter.lambertian_order
         if order == 1.0:
             return 0.0
-        x, y = sight_of(scene).corner_rays.T
+        x, y = paper_view_of(scene).corner_rays.T
         cosines = _cosine(scene, x, y)
         # Where the panel's plane is seen edge-on between the corners, none of them is the least.
         is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())

@@ -9,7 +9,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import FileEffect
-from occ_model.effects.paper_view import sight_of
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.errors import ParameterError
 from occ_model.files.writing import LONGEST_SIDE
 from occ_model.results import Region
@@ -51,16 +51,18 @@ class Jpeg(FileEffect):
         """
         if scene.camera.jpeg_quality == 0:
             return 0.0
-        error = _step(scene.camera.jpeg_quality) / 2.0 * _crowding(sight_of(scene).region)
+        error = (
+            _step(scene.camera.jpeg_quality) / 2.0 * _block_dilution(paper_view_of(scene).region)
+        )
         return min(error + 2.0 * _ROUNDING, WHITE)
 
-    def passed_on(self, scene: Scene, change: float, dithered: bool) -> float:
+    def propagated_change(self, scene: Scene, change: float, dithered: bool) -> float:
         """Add the steps that a change makes: as often as it is large against a step.
 
         Of dithered pixels that change by c, c / 1 round to another level; of coefficients that
         change by c, c / q round to another step q. Without noise all may do so at once.
         """
-        step = _step(scene.camera.jpeg_quality) * _crowding(sight_of(scene).region)
+        step = _step(scene.camera.jpeg_quality) * _block_dilution(paper_view_of(scene).region)
         if not dithered:
             return change + 2.0 * _ROUNDING + step
         rounded = math.hypot(change, math.sqrt(change))
@@ -97,7 +99,7 @@ def quantization_steps(quality: int) -> FloatArray:
     return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
 
 
-def _crowding(region: Region) -> float:
+def _block_dilution(region: Region) -> float:
     """Give how much larger the error in a region can be than in the blocks that it lies in."""
     high = (region.last_row - 1) // 8 - region.first_row // 8 + 1
     wide = (region.last_column - 1) // 8 - region.first_column // 8 + 1

@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import ColumnLight, pixel_value
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.paper_view import reachable_luminances, shown_change, sight_of
+from occ_model.effects.paper_view import paper_view_of, reachable_luminances, shown_change
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 from occ_model.transmitter.edges import EdgedWaveform, most_changes
@@ -59,7 +59,7 @@ class LedEdges(LightEffect):
 
 def _share_of_columns(scene: Scene) -> float:
     """Give the most of the observed columns in which a chip can change."""
-    columns, readout_time = sight_of(scene).region.columns, scene.camera.readout_time
+    columns, readout_time = paper_view_of(scene).region.columns, scene.camera.readout_time
     frequency = scene.transmitter.switching_frequency
     window = scene.camera.exposure_time + scene.transmitter.edge_time
     span = (columns * readout_time + window) * frequency

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE, pixel_value
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.paper_view import off_axis_factor, reachable_luminances, sight_of
+from occ_model.effects.paper_view import off_axis_factor, paper_view_of, reachable_luminances
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -36,22 +36,22 @@ def noise_bound(
     others
         The other noise there may be, with which it is cut off sooner at black and white.
     """
-    sight = sight_of(scene)
-    as_in_the_paper = sight.is_seen and sight.sides is not None and not moves_light(scene)
-    levels = sight.levels if as_in_the_paper else _all_levels(scene)
+    paper_view = paper_view_of(scene)
+    as_in_the_paper = paper_view.is_seen and paper_view.sides is not None and not moves_light(scene)
+    levels = paper_view.levels if as_in_the_paper else _all_levels(scene)
     squares = _variance(effect, scene, as_in_the_paper)
     seen = squares
     if observable == "profile":
-        rest = np.zeros(len(levels))
+        remainder = np.zeros(len(levels))
         for other in others:
-            rest += _variance(other, scene, as_in_the_paper)
-        spreads = np.sqrt(np.stack([squares, squares + rest, rest]))
+            remainder += _variance(other, scene, as_in_the_paper)
+        spreads = np.sqrt(np.stack([squares, squares + remainder, remainder]))
         alone, together, without = _cut_off(levels, spreads)
         moved = np.maximum(np.abs(alone), np.abs(together - without))
-        seen = squares / sight.region.rows + moved**2
+        seen = squares / paper_view.region.rows + moved**2
     if not as_in_the_paper:
         return math.sqrt(float(seen.max()))
-    return math.sqrt(float(np.maximum(seen[1:], seen[:-1]) @ sight.shares))
+    return math.sqrt(float(np.maximum(seen[1:], seen[:-1]) @ paper_view.shares))
 
 
 def _cut_off(levels: FloatArray, spread: FloatArray) -> FloatArray:
@@ -79,7 +79,9 @@ def _lost() -> tuple[FloatArray, FloatArray]:
     return u, lost
 
 
-def louder(effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observable) -> float:
+def noise_amplification(
+    effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observable
+) -> float:
     """Give how much more a change of the light changes what is observed, with noise in it.
 
     Another light has another noise. Where one level more makes k levels more of noise, the change
@@ -91,7 +93,7 @@ def louder(effects: tuple[NoiseEffect, ...], scene: Scene, observable: Observabl
     slope = float(np.abs(np.diff(spread) / np.diff(levels)).max())
     if observable == "image":
         return math.hypot(1.0, slope)
-    rows = sight_of(scene).region.rows
+    rows = paper_view_of(scene).region.rows
     return math.hypot(1.0 + slope / math.sqrt(2.0 * math.pi), slope / math.sqrt(rows))
 
 
@@ -112,7 +114,7 @@ def moves_light(scene: Scene) -> bool:
 @lru_cache(maxsize=32)
 def _variance(effect: NoiseEffect, scene: Scene, as_in_the_paper: bool) -> FloatArray:
     """Give the noise's variance at the levels of the columns, or at all that there can be."""
-    levels = sight_of(scene).levels if as_in_the_paper else _all_levels(scene)
+    levels = paper_view_of(scene).levels if as_in_the_paper else _all_levels(scene)
     return np.asarray(effect.spread(scene, levels) ** 2)
 
 

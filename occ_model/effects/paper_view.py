@@ -30,7 +30,7 @@ _BINS = 64
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Sight:
+class PaperView:
     """How the panel is seen.
 
     Parameters
@@ -73,7 +73,7 @@ def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
 
 
 @lru_cache(maxsize=16)
-def sight_of(scene: Scene) -> Sight:
+def paper_view_of(scene: Scene) -> PaperView:
     """Look at a scene.
 
     Raises
@@ -92,7 +92,7 @@ def sight_of(scene: Scene) -> Sight:
     levels = np.linspace(low * (1 - 1e-9), high * (1 + 1e-9) + 1e-9, _BINS + 1)
     step = levels[1] - levels[0]
     counts = np.bincount(((inside - levels[0]) / step).astype(np.int64), minlength=_BINS)
-    return Sight(
+    return PaperView(
         corners=corners,
         sides=_sides(corners),
         is_seen=seen_region is not None,
@@ -180,5 +180,5 @@ def dimmest_light(scene: Scene) -> float:
 
 def off_axis_factor(scene: Scene) -> float:
     """Give cos of the largest angle off the optical axis within the observed rectangle."""
-    x, y = np.abs(sight_of(scene).corner_rays).max(axis=0).tolist()
+    x, y = np.abs(paper_view_of(scene).corner_rays).max(axis=0).tolist()
     return 1.0 / math.sqrt(1.0 + x * x + y * y)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import Effect, FileEffect
-from occ_model.effects.noise_bound import louder, noise_bound
-from occ_model.effects.paper_view import sight_of
+from occ_model.effects.noise_bound import noise_amplification, noise_bound
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS
 from occ_model.results import Decision, Plan
 from occ_model.scene.argument_checks import check_choice, check_switches
@@ -63,7 +63,7 @@ def plan(
     check_choice("observable", observable, OBSERVABLES)
     check_scene(scene)
     forced = check_switches(force, NAMES)
-    stretch = WHITE / sight_of(scene).swing
+    stretch = WHITE / paper_view_of(scene).swing
     bounds = _bounds(scene, observable, stretch)
     if tolerance == math.inf:  # also of what a bound says to be without end
         left_out, spent, file = set(NAMES), 0.0, None
@@ -92,12 +92,12 @@ def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, f
     """Give every effect's bound in levels of the stretched profile."""
     bounds = {e.name: float(e.bound(scene, observable)) * stretch for e in OTHERS}
     for effect in NOISES:
-        rest = tuple(other for other in NOISES if other is not effect)
-        bounds[effect.name] = noise_bound(effect, scene, observable, rest) * stretch
+        remainder = tuple(other for other in NOISES if other is not effect)
+        bounds[effect.name] = noise_bound(effect, scene, observable, remainder) * stretch
     noise = tuple(effect for effect in NOISES if bounds[effect.name])
     others = [effect.name for effect in OTHERS if bounds[effect.name]]
     if noise and others:
-        more = louder(noise, scene, observable)
+        more = noise_amplification(noise, scene, observable)
         for name in others:
             bounds[name] *= more
     return bounds
@@ -116,7 +116,7 @@ class _Through:
         if not change:
             return 0.0
         levels = change / self.stretch
-        return self.file.passed_on(self.scene, levels, self.dithered) * self.stretch
+        return self.file.propagated_change(self.scene, levels, self.dithered) * self.stretch
 
 
 def _noise_that_dithers(

@@ -119,8 +119,8 @@ def _curves(table: SweepTable) -> Figure:
     ((name, values),) = table.axes.items()
     figure = Figure(figsize=(6.4, 3.6))
     ax = figure.subplots()
-    unit, worth = _shown_unit(name, values)
-    at, labels = _places(name, values, worth)
+    unit, factor = _shown_unit(name, values)
+    at, labels = _places(name, values, factor)
     for decoder, look in zip(table.decoders, _STYLES * len(table.decoders), strict=False):
         style = look if labels is None else {**look, "linestyle": ""}  # nothing is between words
         rates = table.rates(decoder)
@@ -184,14 +184,14 @@ def _draw_map(ax: Axes, grid: FloatArray) -> None:
 
 
 def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> None:
-    _, worth = _shown_unit(name, values)
+    _, factor = _shown_unit(name, values)
     axis.set_tick_params(labelsize=7)
-    at, words = _places(name, values, worth)
+    at, words = _places(name, values, factor)
     if words is None and len(at) > _TICKS and bool(np.all(np.diff(at) > 0)):
         axis.set_ticks(*_round_ticks(at, _is_log(name, at)))
         return
     step = _step(len(values))
-    labels = [_number(value, worth) for value in values]
+    labels = [_number(value, factor) for value in values]
     axis.set_ticks(range(0, len(values), step), labels[::step])
 
 
@@ -208,12 +208,12 @@ def _step(count: int) -> int:
 
 
 def _places(
-    name: str, values: tuple[ParameterValue, ...], worth: float
+    name: str, values: tuple[ParameterValue, ...], factor: float
 ) -> tuple[FloatArray, list[str] | None]:
     """Give where values stand on an axis, and their names where they are words."""
     if isinstance(PARAMETERS[name], Choice):
         return np.arange(len(values), dtype=np.float64), [str(value) for value in values]
-    return np.array([float(value) / worth for value in values]), None
+    return np.array([float(value) / factor for value in values]), None
 
 
 def _is_log(name: str, at: FloatArray) -> bool:
@@ -241,5 +241,5 @@ def _axis_label(name: str, unit: str) -> str:
     return f"{first} ({unit})" if unit else first
 
 
-def _number(value: ParameterValue, worth: float) -> str:
-    return value if isinstance(value, str) else f"{float(value) / worth:.3g}"
+def _number(value: ParameterValue, factor: float) -> str:
+    return value if isinstance(value, str) else f"{float(value) / factor:.3g}"

@@ -145,12 +145,12 @@ def profile_drawing(
         if undefined:
             axes[0].set_title(undefined, fontsize=7)
         if comparison is not None:
-            rest = shown["photo"] - frame.profile
+            residual = shown["photo"] - frame.profile
             axes[1].axhline(0.0, color="grey", linewidth=0.5)
-            axes[1].plot(column, rest[part], linewidth=0.9, color=colours.PHOTO)
+            axes[1].plot(column, residual[part], linewidth=0.9, color=colours.PHOTO)
             axes[1].set_ylabel("photo less\nsimulation")
-            said = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
-            axes[1].set_title(said, fontsize=8)
+            message = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
+            axes[1].set_title(message, fontsize=8)
         axes[-1].set_xlabel("column")
         figure.legend(loc="outside upper center", ncols=len(shown), frameon=False)
         figure.supxlabel(caption(frame.scene), fontsize=7)
@@ -182,7 +182,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     result
         What the decoder made of it.
     """
-    said = result.failure or f"code {result.code} read by the {result.decoder} decoder"
+    message = result.failure or f"code {result.code} read by the {result.decoder} decoder"
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))
@@ -192,7 +192,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
             _draw_folded(lower, result.folded, result.model)
         else:
             _draw_runs(lower, result)
-        upper.set_title(said, fontsize=8, loc="left")
+        upper.set_title(message, fontsize=8, loc="left")
         figure.supxlabel(caption(scene), fontsize=7)
         return figure
 
@@ -204,7 +204,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
         yield from zip_longest(range(len(signal)), signal, starts, chips)
 
     header = ("column of the region", "signal (grey level)", "chip from column", "chip")
-    title = f"Decoding, {said}: {caption(scene)}"
+    title = f"Decoding, {message}: {caption(scene)}"
     return Drawing(f"decoding-{result.decoder}", title, draw, header, rows)
 
 

@@ -11,7 +11,7 @@ _FLAT = 1e-9
 
 
 def compare(
-    evened: FloatArray, simulated: FloatArray, first_column: float = 0.0, scale: float = 1.0
+    flattened: FloatArray, simulated: FloatArray, first_column: float = 0.0, scale: float = 1.0
 ) -> Comparison:
     """Lay a photo's profile over a simulated one, and measure how alike they are.
 
@@ -20,7 +20,7 @@ def compare(
 
     Parameters
     ----------
-    evened : ndarray of float64, shape (columns of the photo,)
+    flattened : ndarray of float64, shape (columns of the photo,)
         The photo's profile without its uneven light; any levels.
     simulated : ndarray of float64, shape (columns,)
         The simulated profile in grey levels.
@@ -44,11 +44,11 @@ def compare(
             "numbers, and a scale above 0."
         )
     first = max(0, int(np.ceil(min(first_column, len(simulated)))))
-    last = min(len(simulated) - 1, int(np.floor(first_column + (len(evened) - 1) * scale)))
+    last = min(len(simulated) - 1, int(np.floor(first_column + (len(flattened) - 1) * scale)))
     if last <= first:
         raise MatchError("The photo lies beside the simulated picture; move it over the panel.")
     place = (np.arange(first, last + 1) - first_column) / scale
-    seen = np.interp(place, np.arange(len(evened)), evened)
+    seen = np.interp(place, np.arange(len(flattened)), flattened)
     under = simulated[first : last + 1]
     about_mean, swing = seen - seen.mean(), under - under.mean()
     if about_mean.std() < _FLAT or swing.std() < _FLAT:

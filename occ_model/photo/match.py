@@ -19,9 +19,9 @@ from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
-__all__ = ["ESTIMATES", "SENT", "match_photo"]
+__all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 
-SENT = ("auto", "scene", "read")
+PATTERN_SOURCES = ("auto", "scene", "read")
 """What is taken as sent: what the scene sends, what is read from the photo, or what fits."""
 
 _EXPLAINS = 0.9
@@ -89,7 +89,7 @@ def match_photo(
     """
     check_scene(scene)
     check_choice("estimate", estimate, ESTIMATES)
-    check_choice("sent", sent, SENT)
+    check_choice("sent", sent, PATTERN_SOURCES)
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
     tell = progress or (lambda _share: None)
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
@@ -127,7 +127,7 @@ class _Task:
         """Read the chips from the stripes, and explain the stripes by them."""
         if self.stripes.period is None:
             return None
-        read = read_pattern(self.stripes.profile, self.stripes.evened, self.stripes.period)
+        read = read_pattern(self.stripes.profile, self.stripes.flattened, self.stripes.period)
         if read is None:
             return None
         step = len(read.chips) / self.stripes.period

@@ -11,7 +11,7 @@ from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
-from occ_model.receiver.decoders import PAPERS, decoder_named
+from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Region
@@ -21,7 +21,7 @@ _LARGEST_LEVEL = 1e5
 """Beyond any grey level, of whatever bit depth: a value that is none."""
 
 
-def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPERS) -> DecodeResult:
+def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
     """Read the code that an image shows.
 
     Parameters

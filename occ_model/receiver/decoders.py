@@ -5,7 +5,7 @@ from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
 
-PAPERS = THRESHOLD.name
+PAPER_DECODER = THRESHOLD.name
 """The name of the paper's decoder, which is the default."""
 
 DECODERS: dict[str, Decoder] = {decoder.name: decoder for decoder in (THRESHOLD, MATCHED)}

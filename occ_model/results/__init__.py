@@ -3,11 +3,11 @@
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.frame import Frame
-from occ_model.results.limits import Edge, Limits, Reach, Trial
+from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.match import Comparison, Match, Stripes
 from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
-from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest, Way
+from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
 
 __all__ = [
     "ACCURACY_PARTS",
@@ -17,22 +17,22 @@ __all__ = [
     "Comparison",
     "Decision",
     "DecodeResult",
-    "Edge",
     "Frame",
     "Limits",
     "Location",
     "Match",
     "Plan",
+    "RangeEnd",
     "RateSettings",
-    "Reach",
     "Region",
     "RunHistogram",
     "Runs",
+    "SignalPath",
     "Stripes",
     "SweepPoint",
     "SweepRequest",
     "SweepRow",
     "SweepTable",
     "Trial",
-    "Way",
+    "WorkingRange",
 ]

@@ -32,7 +32,7 @@ class Trial:
 
 
 @dataclass(frozen=True, slots=True)
-class Edge:
+class RangeEnd:
     """Where reading ends on one side.
 
     Parameters
@@ -59,7 +59,7 @@ class Edge:
 
 
 @dataclass(frozen=True, slots=True)
-class Reach:
+class WorkingRange:
     """Between which values of a parameter a decoder reads a scene, all others as they are.
 
     Parameters
@@ -77,8 +77,8 @@ class Reach:
 
     parameter: str
     searched: tuple[float, float]
-    lowest: Edge | None
-    highest: Edge | None
+    lowest: RangeEnd | None
+    highest: RangeEnd | None
     failure: str | None = None
 
 
@@ -103,8 +103,8 @@ class Limits:
     rate: float
     images: int
     seed: int
-    frequency: Reach
-    exposure: Reach
+    frequency: WorkingRange
+    exposure: WorkingRange
 
     @property
     def highest_frequency(self) -> float | None:

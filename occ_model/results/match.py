@@ -39,7 +39,7 @@ class Stripes:
     saturated: float
 
     @property
-    def evened(self) -> FloatArray:
+    def flattened(self) -> FloatArray:
         """The profile without the uneven light, from 0 (dark) to 1 (bright), shape (columns,)."""
         return (self.profile - self.low) / (self.high - self.low)
 

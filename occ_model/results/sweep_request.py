@@ -10,11 +10,11 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 
-Way: TypeAlias = Literal["auto", "profile", "image"]
+SignalPath: TypeAlias = Literal["auto", "profile", "image"]
 """How a decoder gets to see a scene: by the column means alone, by the whole image, or whichever
 of them the plan allows for."""
 
-WAYS: tuple[Way, ...] = ("auto", "profile", "image")
+SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "image")
 
 MOST_POINTS = 1_000_000
 """Points of a sweep: what is counted at each is kept in memory, and written as a table at once."""
@@ -59,7 +59,7 @@ class RateSettings:
     seed: int = 1
     tolerance: float = TOLERANCE.default
     force: Mapping[str, bool] = field(default_factory=dict)
-    path: Way = "auto"
+    path: SignalPath = "auto"
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,7 +51,7 @@ class Unit:
     spellings: tuple[tuple[str, float], ...] = ()
     shown: tuple[str, float] | None = None
 
-    def worth(self, text: str) -> float | None:
+    def factor(self, text: str) -> float | None:
         """Say what the unit written ``text`` is worth in SI, None if it is not understood."""
         known = dict(self.spellings)
         if self.shown is not None:
@@ -87,7 +87,7 @@ class Unit:
         if match is None:
             return None
         number, divisor, unit = match.groups()
-        factor = plain if not unit else self.worth(unit)
+        factor = plain if not unit else self.factor(unit)
         if factor is None:
             return None
         value = float(number)

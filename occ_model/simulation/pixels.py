@@ -12,7 +12,7 @@ from occ_model.camera.optics import Optics, Panel, picture_rows
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
-from occ_model.effects.paper_view import sight_of
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import planned
 from occ_model.results import Plan
 from occ_model.scene.scene import Scene
@@ -145,7 +145,7 @@ class PixelExposure:
             ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it; ``"profile"``:
             the means of its columns.
         """
-        region = sight_of(self._scene).region
+        region = paper_view_of(self._scene).region
         camera = self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.float32)
         for exposed in self.rows(seed, source):

@@ -18,7 +18,7 @@ from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import NoiseEffect, pixel_spread
-from occ_model.effects.paper_view import sight_of
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
 from occ_model.results import AccuracyPoint, Plan
@@ -145,7 +145,7 @@ def _observed(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixel
 
 def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
     """Compare the column values alone, and the means of whole pictures, with all effects."""
-    region = sight_of(scene).region
+    region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
     seconds, columns = timed(partial(expose_columns, scene, chosen))

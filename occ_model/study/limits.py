@@ -7,8 +7,16 @@ from numbers import Real
 import numpy as np
 
 from occ_model.errors import ParameterError, shown
-from occ_model.receiver.decoders import PAPERS
-from occ_model.results import Edge, Limits, RateSettings, Reach, SweepPoint, Trial, Way
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results import (
+    Limits,
+    RangeEnd,
+    RateSettings,
+    SignalPath,
+    SweepPoint,
+    Trial,
+    WorkingRange,
+)
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
@@ -27,14 +35,14 @@ Pulse = Callable[[], object]
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     scene: Scene,
-    decoder: str = PAPERS,
+    decoder: str = PAPER_DECODER,
     *,
     rate: float = 99.0,
     images: int = 20,
     seed: int = 1,
     tolerance: float = TOLERANCE.default,
     force: Mapping[str, bool] | None = None,
-    path: Way = "auto",
+    path: SignalPath = "auto",
     pulse: Pulse = lambda: None,
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
@@ -83,7 +91,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     wanted = _checked(rate)
     found = {}
     for name in ("switching_frequency", "exposure_time"):
-        found[name] = _Search(scene, name, wanted, settings, pulse).reach()
+        found[name] = _Search(scene, name, wanted, settings, pulse).working_range()
     return Limits(
         scene, decoder, wanted, images, seed, found["switching_frequency"], found["exposure_time"]
     )
@@ -114,7 +122,7 @@ class _Search:
         low, high = parameter.slider
         self._low, self._high = min(low, self._own), max(high, self._own)
 
-    def reach(self) -> Reach:
+    def working_range(self) -> WorkingRange:
         """Find them."""
         values = self._coarse()
         own = values.index(self._own)
@@ -128,7 +136,7 @@ class _Search:
         )
         if nearest is None:
             best = max(trials, key=lambda trial: trial.right)
-            return Reach(self._name, searched, None, None, self._nowhere(searched, best))
+            return WorkingRange(self._name, searched, None, None, self._nowhere(searched, best))
         first = last = own if works[own] else nearest
         while first > 0 and works[first - 1]:
             first -= 1
@@ -136,8 +144,11 @@ class _Search:
             last += 1
         below = trials[first - 1] if first > 0 else None
         above = trials[last + 1] if last < len(works) - 1 else None
-        return Reach(
-            self._name, searched, self._edge(trials[first], below), self._edge(trials[last], above)
+        return WorkingRange(
+            self._name,
+            searched,
+            self._range_end(trials[first], below),
+            self._range_end(trials[last], above),
         )
 
     def _coarse(self) -> list[float]:
@@ -153,7 +164,7 @@ class _Search:
         # Few digits, so that a value that is reported can be typed in again.
         return [*(float(f"{value:.5g}") for value in between.tolist()), end]
 
-    def _edge(self, works: Trial, fails: Trial | None) -> Edge:
+    def _range_end(self, works: Trial, fails: Trial | None) -> RangeEnd:
         """Bring two values that lie on both sides of an edge together."""
         while fails is not None:
             middle = float(f"{math.sqrt(works.value * fails.value):.5g}")
@@ -162,7 +173,7 @@ class _Search:
                 break
             trial = self._try(middle)
             works, fails = (trial, fails) if self._reads(trial) else (works, trial)
-        return Edge(works, fails)
+        return RangeEnd(works, fails)
 
     def _try(self, value: float) -> Trial:
         scene = self._scene.replace(**{self._name: value})

@@ -55,9 +55,9 @@ def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
         before.append(before[-1] + chip)
 
     def lit_until(time: Fraction) -> Fraction:
-        period, rest = divmod(time, len(chips))
-        chip = int(rest)
-        lit: Fraction = period * before[-1] + before[chip] + (rest - chip) * chips[chip]
+        period, residual = divmod(time, len(chips))
+        chip = int(residual)
+        lit: Fraction = period * before[-1] + before[chip] + (residual - chip) * chips[chip]
         return lit
 
     shares = []

@@ -10,9 +10,9 @@ from occ_model.effects.plan import plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import PAPERS, decoder_named
-from occ_model.results import DecodeResult, RateSettings, Region, Way
-from occ_model.results.sweep_request import MOST_IMAGES, WAYS
+from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
+from occ_model.results import DecodeResult, RateSettings, Region, SignalPath
+from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
@@ -26,12 +26,12 @@ _SEEDS = 2**32
 def success_rate(
     scene: Scene,
     images: int = 5,
-    decoder: str = PAPERS,
+    decoder: str = PAPER_DECODER,
     seed: int = 1,
     *,
     tolerance: float = TOLERANCE.default,
     force: Mapping[str, bool] | None = None,
-    path: Way = "auto",
+    path: SignalPath = "auto",
 ) -> float:
     """Give the share of bits read rightly over several images, in percent.
 
@@ -153,7 +153,7 @@ def check_rate(scene: Scene, settings: RateSettings) -> None:
     """
     check_count("images", settings.images, 1, MOST_IMAGES)
     check_seed(settings.seed)
-    check_choice("path", settings.path, WAYS)
+    check_choice("path", settings.path, SIGNAL_PATHS)
     TOLERANCE.check(settings.tolerance)
     check_switches(settings.force, NAMES)
     for decoder in settings.decoders:

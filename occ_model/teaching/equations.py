@@ -83,10 +83,10 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
             Term(")"),
             Term(f")<sup>1/{scene.camera.gamma:g}</sup>", ("gamma",)),
         )
-        said = f"{value:.1f} grey levels"
+        message = f"{value:.1f} grey levels"
         if value > WHITE:
-            said += ": more than white"
-        found.append(Equation(source, meaning, symbols, numbers, said))
+            message += ": more than white"
+        found.append(Equation(source, meaning, symbols, numbers, message))
     return found[0], found[1]
 
 
@@ -114,11 +114,11 @@ def _column_value(scene: Scene) -> Equation:
         Term(") /"),
         _shown(scene, "exposure_time"),
     )
-    said = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
+    message = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
     if scene.model.averaging == "light":
-        said += "; here light is averaged, not pixel values"
+        message += "; here light is averaged, not pixel values"
     meaning = "Pixel value of a column, PV<sub>sim</sub>"
-    return Equation("(3)", meaning, symbols, numbers, said)
+    return Equation("(3)", meaning, symbols, numbers, message)
 
 
 def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:

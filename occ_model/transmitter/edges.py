@@ -122,7 +122,7 @@ def most_changes(chips: ByteArray, span: float) -> int:
         Length of time in chips.
     """
     changes = (chips != np.roll(chips, 1)).astype(np.int64)
-    periods, rest = divmod(math.ceil(span) + 1, len(chips))
+    periods, remainder = divmod(math.ceil(span) + 1, len(chips))
     before = np.concatenate([[0], np.cumsum(np.concatenate([changes, changes]))])
-    part = before[rest : rest + len(chips)] - before[: len(chips)]
+    part = before[remainder : remainder + len(chips)] - before[: len(chips)]
     return periods * int(changes.sum()) + int(part.max())

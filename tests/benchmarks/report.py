@@ -19,7 +19,7 @@ from photos import match_cost, reading_cost
 
 import occ_model as occ
 from occ_model.camera.enhancement import enhance
-from occ_model.receiver.matched.code_templates import code_book
+from occ_model.receiver.matched.code_templates import code_templates
 from occ_model.scene.scene import Scene
 
 _COLD_STARTS = 7
@@ -176,13 +176,13 @@ def matched_cost() -> Row:
     )
 
 
-def code_book_cost() -> Row:
+def code_templates_cost() -> Row:
     """Compare making the forward model of all codes, once a setting, with one decoding."""
     scene = occ.load_preset("phone-136us")
     profile = enhance(occ.column_profile(scene), scene.model.enhancement)
     exposures = (Fraction(n, 977) for n in count(1000))
     a, b = side_by_side(
-        lambda: code_book(10, next(exposures)), lambda: occ.decode(profile, scene, "matched")
+        lambda: code_templates(10, next(exposures)), lambda: occ.decode(profile, scene, "matched")
     )
     return Row(
         "forward model of all 1024 codes, once a setting, against one matched decoding",
@@ -197,14 +197,14 @@ def long_code_cost() -> Row:
     long = scene.replace(bits=16, code=54321)
     profile, long_profile = occ.column_profile(scene), occ.column_profile(long)
     exposures = (Fraction(n, 977) for n in count(1000))
-    a, b, book = side_by_side(
+    a, b, templates = side_by_side(
         lambda: occ.decode(long_profile, long, "matched"),
         lambda: occ.decode(profile, scene, "matched"),
-        lambda: code_book(16, next(exposures)),
+        lambda: code_templates(16, next(exposures)),
     )
     return Row(
         "matched decoding of a code of 16 bits, against one of 10",
-        f"{a / b:.0f} ({1e3 * a:.0f} ms; forward model of all 65,536 codes {1e3 * book:.0f} ms)",
+        f"{a / b:.0f} ({1e3 * a:.0f} ms; forward model of all 65,536 codes {1e3 * templates:.0f} ms)",
         "under 0.5 s",
     )
 
@@ -241,7 +241,7 @@ _ALL = (
     profile_cost_with_reading,
     profile_path_cost,
     matched_cost,
-    code_book_cost,
+    code_templates_cost,
     long_code_cost,
     match_cost,
     reading_cost,

@@ -144,7 +144,7 @@ class User:
         self._qtbot = qtbot
         self._application = application
 
-    def rest(self) -> None:
+    def wait_until_idle(self) -> None:
         """Wait until all that was asked of the application is shown."""
         self._qtbot.waitUntil(lambda: self._application.is_idle)
 
@@ -161,12 +161,12 @@ class User:
         field.selectAll()
         self._qtbot.keyClicks(field, text)
         self._qtbot.keyClick(field, Qt.Key.Key_Return)
-        self.rest()
+        self.wait_until_idle()
 
     def choose(self, text: str) -> None:
         """Choose the menu entry whose text starts like this, and wait."""
         self.entry(text).trigger()
-        self.rest()
+        self.wait_until_idle()
 
     def entry(self, text: str) -> QAction:
         """Find the menu entry whose text starts like this."""
@@ -177,7 +177,7 @@ class User:
     def choose_next_preset(self) -> str:
         """Move on in the list of presets, wait, and return the name that it shows."""
         self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)
-        self.rest()
+        self.wait_until_idle()
         return self._application.controls.preset.currentText()
 
     @property

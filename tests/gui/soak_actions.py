@@ -106,7 +106,7 @@ class Monkey:
             self.resize: 20,
             self.zoom_every_plot: 4,
             self.hold_the_brightness: 20,
-            self.toggle_the_margins: 10,
+            self.toggle_the_slider_strips: 10,
             self.pin: 20,
             self.go_to_what_is_pinned: 10,
             self.clear_the_pins: 6,
@@ -244,7 +244,7 @@ class Monkey:
         slider = self._application.controls.main_rows()["exposure_time"].slider
         slider.setValue(self._random.randint(slider.minimum(), slider.maximum()))
 
-    def toggle_the_margins(self) -> None:
+    def toggle_the_slider_strips(self) -> None:
         self._trigger("margins")
 
     def choose_a_theme(self) -> None:

@@ -75,21 +75,23 @@ class ExactTimes:
         return seconds * self.frequency
 
     def lit_until(self, x: Fraction) -> Fraction:
-        periods, rest = divmod(x, len(self.chips))
+        periods, remainder = divmod(x, len(self.chips))
         lit, _ = self._tables
-        chip = int(rest)
-        return periods * lit[-1] + lit[chip] + (rest - chip) * self.chips[chip % len(self.chips)]
+        chip = int(remainder)
+        return (
+            periods * lit[-1] + lit[chip] + (remainder - chip) * self.chips[chip % len(self.chips)]
+        )
 
     def lit_until_integrated(self, x: Fraction) -> Fraction:
         """The integral of :meth:`lit_until` from 0 to ``x``."""
         length = len(self.chips)
-        periods, rest = divmod(x, length)
+        periods, remainder = divmod(x, length)
         lit, doubled = self._tables
-        chip = int(rest)
-        part = rest - chip
+        chip = int(remainder)
+        part = remainder - chip
         whole = periods * doubled[-1] + lit[-1] * length * periods * (periods - 1)
         within = doubled[chip] + part * (2 * lit[chip] + part * self.chips[chip])
-        return (whole + within) / 2 + lit[-1] * periods * rest
+        return (whole + within) / 2 + lit[-1] * periods * remainder
 
     def share(self, column: int) -> Fraction:
         """The lit share of a column's exposure, the LED's edges sharp."""

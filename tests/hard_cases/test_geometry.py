@@ -57,16 +57,18 @@ def poses(draw: st.DrawFn) -> Scene:
         enhancement="none",
         iso=4e6,
     )
-    return draw(st.just(scene) | decades(1e-10, 1.0).map(lambda rest: grazed(scene, rest)))
+    return draw(
+        st.just(scene) | decades(1e-10, 1.0).map(lambda remainder: grazed(scene, remainder))
+    )
 
 
-def grazed(scene: Scene, rest: float) -> Scene:
+def grazed(scene: Scene, remainder: float) -> Scene:
     """Move a panel so near that hardly a corner of it is before the camera, on its axis."""
     half = np.array([scene.transmitter.panel_width, scene.transmitter.panel_height]) / 2
     signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     corners = signs * [*half, 0.0] @ rotation_of(scene.pose).T
     nearest = corners[corners[:, 2].argmin()]
-    distance = within("distance", -nearest[2] * (1.0 + rest))
+    distance = within("distance", -nearest[2] * (1.0 + remainder))
     return scene.replace(distance=distance, offset_x=-nearest[0], offset_y=-nearest[1])
 
 

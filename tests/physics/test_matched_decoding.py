@@ -11,8 +11,8 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
 from occ_model.receiver.matched.code_templates import (
     BINS_PER_CHIP,
-    CodeBook,
-    code_book,
+    CodeTemplates,
+    code_templates,
     codes_by_levels,
     sums_of_halves,
 )
@@ -68,7 +68,7 @@ def test_no_tone_curve_needs_to_be_known(enhancement: str, averaging: str) -> No
 
 def test_the_code_book_holds_the_forward_model_of_every_code() -> None:
     frequency, exposure = 10e3, 237e-6
-    book = code_book(10, Fraction(exposure) * Fraction(frequency))
+    templates = code_templates(10, Fraction(exposure) * Fraction(frequency))
     for code in (0, 3, 718, 1023):
         scene = Scene().replace(
             code=code,
@@ -78,17 +78,17 @@ def test_the_code_book_holds_the_forward_model_of_every_code() -> None:
             columns=packet_length(10) * BINS_PER_CHIP,
         )
         np.testing.assert_allclose(
-            book.profiles(np.array([code]))[0], lit_fraction(scene), atol=1e-9
+            templates.profiles(np.array([code]))[0], lit_fraction(scene), atol=1e-9
         )
         about_mean = lit_fraction(scene) - lit_fraction(scene).mean()
-        assert book.energy[code] == pytest.approx(about_mean @ about_mean)
+        assert templates.energy[code] == pytest.approx(about_mean @ about_mean)
 
 
-def _correlations(signal: FloatArray, book: CodeBook, codes: IndexArray) -> FloatArray:
+def _correlations(signal: FloatArray, templates: CodeTemplates, codes: IndexArray) -> FloatArray:
     """Correlate a signal with each code's profile at each phase, shape (codes, phases)."""
-    profiles = book.profiles(codes)
+    profiles = templates.profiles(codes)
     profiles -= profiles.mean(axis=1, keepdims=True)
-    norms = np.where(np.isfinite(book.energy[codes]), np.linalg.norm(profiles, axis=1), np.inf)
+    norms = np.where(np.isfinite(templates.energy[codes]), np.linalg.norm(profiles, axis=1), np.inf)
     spectrum = np.fft.rfft(signal - signal.mean()) * np.conj(np.fft.rfft(profiles, axis=1))
     return np.fft.irfft(spectrum, len(signal), axis=1) / norms[:, None]
 
@@ -100,10 +100,10 @@ def _exposures(bits: int) -> list[Fraction]:
     return [Fraction(1, 10), Fraction(13, 7), Fraction(2), Fraction(packet, 2), *null]
 
 
-def _signals(book: CodeBook, rng: np.random.Generator) -> list[FloatArray]:
+def _signals(templates: CodeTemplates, rng: np.random.Generator) -> list[FloatArray]:
     """Give signals: some code's profile at some phase, alone and under noise, and noise alone."""
-    bins = len(book.levels)
-    profile = book.profiles(rng.integers(0, len(book.energy), 1))[0]
+    bins = len(templates.levels)
+    profile = templates.profiles(rng.integers(0, len(templates.energy), 1))[0]
     profile = np.roll(profile, int(rng.integers(bins)))
     noise = rng.normal(0.0, 1.0, bins)
     return [profile, profile + np.ptp(profile) * noise, noise]
@@ -114,10 +114,10 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
     rng = np.random.default_rng(bits)
     every = np.arange(2**bits)
     for exposure in _exposures(bits):
-        book = code_book(bits, exposure)
-        for signal in _signals(book, rng):
-            found, phases = most_likely(signal, book)
-            correlations = _correlations(signal, book, every)
+        templates = code_templates(bits, exposure)
+        for signal in _signals(templates, rng):
+            found, phases = most_likely(signal, templates)
+            correlations = _correlations(signal, templates, every)
             largest = correlations.max(axis=1)
             # Codes that tie may be exchanged, but none that correlates better is left out.
             assert len(set(found.tolist())) == len(found) == min(16, len(every))
@@ -131,17 +131,19 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
 @pytest.mark.parametrize("exposure", _exposures(16))
 def test_no_code_of_sixteen_bits_that_correlates_better_is_left_out(exposure: Fraction) -> None:
     rng = np.random.default_rng(16)
-    book = code_book(16, exposure)
+    templates = code_templates(16, exposure)
     sample = rng.integers(0, 2**16, 2000)
-    for signal in _signals(book, rng):
-        found, phases = most_likely(signal, book)
-        correlations = _correlations(signal, book, found)
+    for signal in _signals(templates, rng):
+        found, phases = most_likely(signal, templates)
+        correlations = _correlations(signal, templates, found)
         limit = 1e-7 * abs(correlations).max()
         np.testing.assert_allclose(
             correlations[range(16), phases], correlations.max(axis=1), atol=limit
         )
         others = sample[~np.isin(sample, found)]
-        assert _correlations(signal, book, others).max() <= correlations.max(axis=1).min() + limit
+        assert (
+            _correlations(signal, templates, others).max() <= correlations.max(axis=1).min() + limit
+        )
 
 
 @pytest.mark.parametrize("bits", range(2, 12))
@@ -155,12 +157,12 @@ def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
 @pytest.mark.parametrize("bits", range(2, 12))
 def test_energies_are_those_of_the_profiles(bits: int) -> None:
     for exposure in _exposures(bits):
-        book = code_book(bits, exposure)
-        profiles = book.profiles(np.arange(2**bits))
-        energies = len(book.levels) * profiles.var(axis=1)
-        known = np.isfinite(book.energy)
-        np.testing.assert_allclose(book.energy[known], energies[known], rtol=1e-5)
-        assert (energies[~known] <= 2e-12 * len(book.levels)).all()
+        templates = code_templates(bits, exposure)
+        profiles = templates.profiles(np.arange(2**bits))
+        energies = len(templates.levels) * profiles.var(axis=1)
+        known = np.isfinite(templates.energy)
+        np.testing.assert_allclose(templates.energy[known], energies[known], rtol=1e-5)
+        assert (energies[~known] <= 2e-12 * len(templates.levels)).all()
 
 
 def test_codes_of_sixteen_bits_take_little_memory() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.paper_view import sight_of
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
@@ -17,7 +17,7 @@ COLUMNS_ONLY = {"sensor-noise": False, "fixed-pattern": False}
 def close_up() -> Scene:
     """A bright panel that fills more than 3,000 rows."""
     scene = occ.load_preset("phone-68us").replace(distance=0.6)
-    assert sight_of(scene).region.rows > 3000
+    assert paper_view_of(scene).region.rows > 3000
     return scene
 
 
@@ -33,7 +33,7 @@ def test_a_bright_close_panel_needs_no_noise_for_its_profile() -> None:
 
 def test_a_far_panel_of_twenty_rows_needs_noise() -> None:
     far = close_up().replace(panel_height=0.02, distance=3.4)
-    assert sight_of(far).region.rows == 20
+    assert paper_view_of(far).region.rows == 20
     assert "sensor-noise" in noises(far)
 
 

@@ -90,4 +90,4 @@ def test_the_fitted_scene_shows_the_photo(square_wave: occ.Match, led: occ.Photo
     assert frame.image.shape == led.samples.shape
     region = square_wave.region
     simulated = frame.profile[region.first_column : region.last_column]
-    assert occ.compare(square_wave.stripes.evened, simulated).correlation > 0.99
+    assert occ.compare(square_wave.stripes.flattened, simulated).correlation > 0.99

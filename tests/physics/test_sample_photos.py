@@ -5,7 +5,7 @@ from io import BytesIO
 import numpy as np
 import pytest
 from PIL import Image
-from sample_photos import FOLDER, QUALITY, SAID, SCENES, as_jpeg, taken
+from sample_photos import FOLDER, KNOWN, QUALITY, SCENES, as_jpeg, taken
 
 import occ_model as occ
 
@@ -36,7 +36,7 @@ def test_every_sample_has_its_scene_and_no_other_file_lies_there() -> None:
 def test_a_sample_says_that_it_is_simulated_and_how_it_was_taken(name: str) -> None:
     path = FOLDER / f"{name}.jpg"
     with Image.open(path) as opened:
-        assert opened.getexif()[0x010E] == SAID
+        assert opened.getexif()[0x010E] == KNOWN
     photo, camera = occ.load_photo(path), SCENES[name].camera
     assert photo.camera is not None
     assert photo.camera.startswith("Simulated")

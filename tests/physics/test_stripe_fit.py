@@ -37,7 +37,7 @@ def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     profile = 40.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), 2000)
     candidates = Search(profile, CHIPS).candidates(Search(profile, CHIPS).steps(), 2.22)
     model = StripeModel(profile, Waveform(CHIPS), identity, step)
-    fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.rest)
+    fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.residual)
     assert fit.timing.step == pytest.approx(step, rel=1e-6)
     assert fit.timing.exposure == pytest.approx(exposure, rel=1e-3)
     late = (fit.timing.middle - middle + 12.0) % 24.0 - 12.0

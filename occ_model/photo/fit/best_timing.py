@@ -108,16 +108,16 @@ def explain(
     candidates = _candidates(without_trend(stripes.profile), chips, steps, gamma)
     if candidates[0].correlation < _SURELY:
         # Chips that are mostly on, or mostly off, swing about no mean: their levels tell more.
-        others = _candidates(stripes.evened, chips, steps, gamma)
+        others = _candidates(stripes.flattened, chips, steps, gamma)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     starts = _promising(candidates)
     best: tuple[StripeModel, list[StripeFit], CameraTone] | None = None
     for camera in cameras:
         model = StripeModel(
-            stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.grain
+            stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.rank_resolution
         )
         fits = _apart([model.fit(start, with_gamma) for start in starts])
-        if fits and (best is None or fits[0].rest < best[1][0].rest):
+        if fits and (best is None or fits[0].residual < best[1][0].residual):
             best = model, fits, camera
     if best is None:
         return None
@@ -147,7 +147,7 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
 def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
     """Keep one possible fit of each exposure, the best first."""
     kept: list[StripeFit] = []
-    for fit in sorted((one for one in fits if one.is_possible), key=lambda fit: fit.rest):
+    for fit in sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual):
         exposures = [other.timing.exposure for other in kept]
         if all(abs(fit.timing.exposure - other) > _SAME_EXPOSURE for other in exposures):
             kept.append(fit)
@@ -162,8 +162,8 @@ def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit
     """
     around = [replace(fit.timing, exposure=share * fit.timing.exposure) for share in _AROUND]
     fits = [fit, *(model.fit(timing, with_gamma) for timing in around)]
-    best = min(fits, key=lambda one: one.rest)
-    exposures = [one.timing.exposure for one in fits if one.rest <= best.likely]
+    best = min(fits, key=lambda one: one.residual)
+    exposures = [one.timing.exposure for one in fits if one.residual <= best.likely]
     spread = 0.5 * (max(exposures) - min(exposures))
     if spread < _VALLEY:
         return best
@@ -173,6 +173,6 @@ def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit
 
 def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
     """Keep the best fit and those as good with another exposure, from the shortest exposure."""
-    least = min(fit.rest for fit in fits)
-    good = [fit for fit in fits if fit.rest <= _AS_GOOD * least]
+    least = min(fit.residual for fit in fits)
+    good = [fit for fit in fits if fit.residual <= _AS_GOOD * least]
     return sorted(good, key=lambda fit: fit.timing.exposure)

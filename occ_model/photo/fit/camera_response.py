@@ -21,7 +21,7 @@ _DARKEST = 0.5
 _STEADY = np.ones(1)
 
 
-_GRAIN = 0.5
+_RANK_RESOLUTION = 0.5
 
 AVERAGINGS = ("pixel-value", "light")
 
@@ -36,14 +36,14 @@ class CameraTone:
         In the words of the scene's parameters.
     tone
         What comes of it.
-    grain
+    rank_resolution
         Columns within which it does not follow a change of the timing, as ranks do not.
     """
 
     averaging: str
     enhancement: str
     tone: Tone
-    grain: float = 0.0
+    rank_resolution: float = 0.0
 
 
 def camera_tones(
@@ -65,7 +65,7 @@ def camera_tones(
         tone = _camera_tone(scene.replace(averaging=averaging), low, high)
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
-            tones.append(CameraTone(averaging, "equalization", _equalized(tone), _GRAIN))
+            tones.append(CameraTone(averaging, "equalization", _equalized(tone), _RANK_RESOLUTION))
     return tones
 
 

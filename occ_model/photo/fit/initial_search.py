@@ -46,15 +46,15 @@ class Search:
 
     Parameters
     ----------
-    evened : ndarray of float64, shape (columns,)
+    flattened : ndarray of float64, shape (columns,)
         The profile without uneven light.
     chips : ndarray of uint8, shape (chips,)
         One period of what is sent.
     """
 
-    def __init__(self, evened: FloatArray, chips: ByteArray) -> None:
-        about = evened - evened.mean()
-        self._columns, self._period = len(evened), len(chips)
+    def __init__(self, flattened: FloatArray, chips: ByteArray) -> None:
+        about = flattened - flattened.mean()
+        self._columns, self._period = len(flattened), len(chips)
         size = _PADDING * self._columns
         # Phases are counted from the middle column, where a step's error moves them least: half a
         # column off a whole one, which two rounds of the spectrum make whole.

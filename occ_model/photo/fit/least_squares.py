@@ -104,7 +104,7 @@ class StripeFit:
         The model in grey levels.
     correlation
         Of data and model, both without the uneven light.
-    rest
+    residual
         Sum of the squares of what the model leaves unexplained.
     likely
         A rest up to which another timing is about as likely: by two standard deviations.
@@ -118,7 +118,7 @@ class StripeFit:
     swing: FloatArray
     profile: FloatArray
     correlation: float
-    rest: float
+    residual: float
     likely: float
     is_possible: bool
 
@@ -136,7 +136,7 @@ class StripeModel:
         The camera's tone.
     step
         Chips a column, roughly: the levels get the freedom that as many chips can bear.
-    grain
+    rank_resolution
         Columns within which the tone does not follow a change of the timing.
     """
 
@@ -146,12 +146,12 @@ class StripeModel:
         waveform: Waveform,
         tone: Tone,
         step: float,
-        grain: float = 0.0,
+        rank_resolution: float = 0.0,
     ) -> None:
         self._profile = profile
         self._waveform = waveform
         self._tone = tone
-        self._change = max(_SMALL, grain) * step
+        self._change = max(_SMALL, rank_resolution) * step
         chips = step * len(profile)
         freedom = int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
         # Both levels alike: or a faint tone would have more shapes for the mean than a clear one.
@@ -214,11 +214,11 @@ class StripeModel:
             values[free] = scaled * scale
             return Timing(*values.tolist())
 
-        def rest(scaled: FloatArray) -> FloatArray:
+        def residual(scaled: FloatArray) -> FloatArray:
             return self._profile - self.levels(timing_of(scaled))[2]
 
         found = least_squares(
-            rest,
+            residual,
             first[free] / scale,
             bounds=(low[free] / scale, high[free] / scale),
             diff_step=change / np.maximum(np.abs(first[free]), 1e-12),
@@ -236,10 +236,10 @@ class StripeModel:
         possible = usual > 0.0 and float(np.median(low)) > _DARKEST * usual
         # Never so faint that evening the light out would blow up what is left of it.
         swing = np.maximum(swing, _LEAST_SWING * max(float(swing.max()), FLAT))
-        correlation = _evened_correlation(self._profile, profile, low, swing)
-        rest = self._profile - profile
-        power = float(rest @ rest)
-        likely = power * (1.0 + 4.0 * correlated_columns(rest) / len(rest))
+        correlation = _flattened_correlation(self._profile, profile, low, swing)
+        residual = self._profile - profile
+        power = float(residual @ residual)
+        likely = power * (1.0 + 4.0 * correlated_columns(residual) / len(residual))
         return StripeFit(
             timing, covariance, low, swing, profile, correlation, power, likely, possible
         )
@@ -255,17 +255,17 @@ def _blur_deviation(timing: Timing) -> float:
     return min(6.0 * blur**2 / timing.exposure, math.sqrt(12.0) * blur)
 
 
-def _covariance(slopes: FloatArray, rest: FloatArray) -> FloatArray:
+def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
     """Give the covariance of fitted parameters from the model's slopes and the residual."""
-    variance = float(rest @ rest) / max(1, len(rest) - slopes.shape[1])
-    variance *= correlated_columns(rest)
+    variance = float(residual @ residual) / max(1, len(residual) - slopes.shape[1])
+    variance *= correlated_columns(residual)
     products = slopes.T @ slopes
     # What no column sees a change of is not known for sure, but not known at all.
     products[np.diag_indices_from(products)] += _UNSEEN * max(variance, 1e-12)
     return np.asarray(np.linalg.inv(products) * variance)
 
 
-def _evened_correlation(
+def _flattened_correlation(
     data: FloatArray, model: FloatArray, low: FloatArray, swing: FloatArray
 ) -> float:
     """Correlate data and model without their uneven light; a column counts as its light swings."""

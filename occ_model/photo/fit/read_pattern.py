@@ -65,14 +65,14 @@ class ReadPattern:
     explained: float
 
 
-def read_pattern(profile: FloatArray, evened: FloatArray, period: float) -> ReadPattern | None:
+def read_pattern(profile: FloatArray, flattened: FloatArray, period: float) -> ReadPattern | None:
     """Read the shortest repeating sequence of chips that explains the stripes.
 
     Parameters
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
-    evened : ndarray of float64, shape (columns,)
+    flattened : ndarray of float64, shape (columns,)
         The same without uneven light, from 0 (dark) to 1 (bright).
     period
         Columns after which it repeats.
@@ -89,7 +89,7 @@ def read_pattern(profile: FloatArray, evened: FloatArray, period: float) -> Read
     """
     lines = _harmonics(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
-    count = _chips_by_edges(evened, period, most)
+    count = _chips_by_edges(flattened, period, most)
     read = None if count is None else _coarsest(lines, count)
     if read is None:
         read = _chips_by_lines(lines, most)
@@ -109,13 +109,13 @@ def _coarsest(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
     return None
 
 
-def _chips_by_edges(evened: FloatArray, period: float, most: int) -> int | None:
+def _chips_by_edges(flattened: FloatArray, period: float, most: int) -> int | None:
     """Count the chips of a period by the coarsest lattice that all edges lie on."""
-    above = evened > 0.5
+    above = flattened > 0.5
     before = np.flatnonzero(above[1:] != above[:-1])
     if before.size < _LEAST_CROSSINGS:
         return None
-    low, high = evened[before], evened[before + 1]
+    low, high = flattened[before], flattened[before + 1]
     edges = before + (0.5 - low) / (high - low)
     count = np.arange(2, most + 1)
     turns = np.exp(2j * np.pi / period * np.outer(count, edges))

@@ -22,12 +22,12 @@ _HARMONICS = 24
 _STEPS = 8
 
 
-def repeat_period(evened: FloatArray) -> tuple[float, float] | None:
+def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
     """Find the shortest number of columns after which stripes repeat.
 
     Parameters
     ----------
-    evened : ndarray of float64, shape (columns,)
+    flattened : ndarray of float64, shape (columns,)
         The profile without uneven light.
 
     Returns
@@ -35,13 +35,13 @@ def repeat_period(evened: FloatArray) -> tuple[float, float] | None:
     period, uncertainty : float
         Columns, and the period's standard deviation; None where nothing repeats.
     """
-    rough = _rough_period(evened)
-    return None if rough is None else _refined(evened, rough)
+    rough = _rough_period(flattened)
+    return None if rough is None else _refined(flattened, rough)
 
 
-def _rough_period(evened: FloatArray) -> float | None:
+def _rough_period(flattened: FloatArray) -> float | None:
     """Find the shortest lag after which the profile is as like itself as it gets."""
-    alike = self_likeness(evened)
+    alike = self_likeness(flattened)
     count = int(_SEEN * len(alike))
     negative = np.flatnonzero(alike[:count] < 0.0)
     start = max(_SHORTEST, int(negative[0]) if negative.size else _SHORTEST)
@@ -83,31 +83,31 @@ def self_likeness(values: FloatArray) -> FloatArray:
     return np.where(flat, 0.0, products / np.where(flat, 1.0, energy))
 
 
-def _refined(evened: FloatArray, period: float) -> tuple[float, float]:
+def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
     """Fit harmonics of the period, by Gauss-Newton steps."""
-    count = len(evened)
+    count = len(flattened)
     harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 6)))
     change = 0.1 * period / count  # small against a column at the last stripe
-    best, best_rest = period, np.inf
-    slope = rest = np.zeros(count)
+    best, best_residual = period, np.inf
+    slope = residual = np.zeros(count)
     for _ in range(_STEPS):
-        rest = _rest(evened, period, harmonics)
-        power = float(rest @ rest)
-        if power >= best_rest * (1.0 - 1e-9):
+        residual = _residual(flattened, period, harmonics)
+        power = float(residual @ residual)
+        if power >= best_residual * (1.0 - 1e-9):
             break
-        best, best_rest = period, power
-        slope = (_rest(evened, period + change, harmonics) - rest) / change
-        step = -float(slope @ rest) / max(float(slope @ slope), 1e-300)
+        best, best_residual = period, power
+        slope = (_residual(flattened, period + change, harmonics) - residual) / change
+        step = -float(slope @ residual) / max(float(slope @ slope), 1e-300)
         period += float(np.clip(step, -0.5 * period**2 / count, 0.5 * period**2 / count))
-    rest = _rest(evened, best, harmonics)
+    residual = _residual(flattened, best, harmonics)
     freedom = max(1, count - 2 * harmonics - 2)
-    variance = float(rest @ rest) / freedom * correlated_columns(rest)
+    variance = float(residual @ residual) / freedom * correlated_columns(residual)
     return best, float(np.sqrt(variance / max(float(slope @ slope), 1e-300)))
 
 
-def _rest(evened: FloatArray, period: float, harmonics: int) -> FloatArray:
+def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
     """Give what harmonics of a period leave unexplained."""
-    count = len(evened)
+    count = len(flattened)
     turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
     waves = np.hstack([np.cos(turn), np.sin(turn)])
     shapes = smooth_shapes(count, 2)
@@ -115,4 +115,4 @@ def _rest(evened: FloatArray, period: float, harmonics: int) -> FloatArray:
     parts = np.hstack([shapes, waves])
     products = parts.T @ parts
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
-    return np.asarray(evened - parts @ np.linalg.solve(products, parts.T @ evened))
+    return np.asarray(flattened - parts @ np.linalg.solve(products, parts.T @ flattened))

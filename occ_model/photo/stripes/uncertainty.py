@@ -5,7 +5,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 
-def correlated_columns(rest: FloatArray) -> float:
+def correlated_columns(residual: FloatArray) -> float:
     """Say how many columns of what a fit leaves unexplained make one independent number.
 
     1 + 2 times the sum of the autocorrelations up to the first that is not positive: what a model
@@ -13,13 +13,13 @@ def correlated_columns(rest: FloatArray) -> float:
 
     Parameters
     ----------
-    rest : ndarray of float64, shape (columns,)
+    residual : ndarray of float64, shape (columns,)
         Data less model.
     """
-    power = float(rest @ rest)
+    power = float(residual @ residual)
     if power <= 0.0:
         return 1.0
-    spectrum = np.abs(np.fft.rfft(rest, 2 * len(rest))) ** 2
-    alike = np.fft.irfft(spectrum)[1 : len(rest)] / power
+    spectrum = np.abs(np.fft.rfft(residual, 2 * len(residual))) ** 2
+    alike = np.fft.irfft(spectrum)[1 : len(residual)] / power
     ends = np.flatnonzero(alike <= 0.0)
     return 1.0 + 2.0 * float(alike[: ends[0] if ends.size else None].sum())

@@ -21,7 +21,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class CodeBook:
+class CodeTemplates:
     """What a packet of each code looks like through an exposure.
 
     A profile is a sum of the chips' responses: that of code c at bin b is the sum over its lit
@@ -52,7 +52,7 @@ class CodeBook:
 
 
 @lru_cache(maxsize=16)
-def code_book(bits: int, exposure: Fraction) -> CodeBook:
+def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     """Make the forward model of every code.
 
     Parameters
@@ -73,10 +73,10 @@ def code_book(bits: int, exposure: Fraction) -> CodeBook:
     some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
     shares = (bins + 0.5) / len(bins)
     levels = np.quantile(_profiles(some, bits, response), shares)
-    book = CodeBook(bits, response, _energies(bits, response), levels)
-    for array in (book.response, book.energy, book.levels):
+    templates = CodeTemplates(bits, response, _energies(bits, response), levels)
+    for array in (templates.response, templates.energy, templates.levels):
         array.flags.writeable = False  # it is kept, and given to everyone
-    return book
+    return templates
 
 
 def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:

@@ -15,8 +15,8 @@ from occ_model.camera.exposure import column_phases
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.matched.code_templates import (
     BINS_PER_CHIP,
-    CodeBook,
-    code_book,
+    CodeTemplates,
+    code_templates,
     codes_by_levels,
     sums_of_halves,
 )
@@ -71,14 +71,14 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure=f"Less than one packet: {int(chips_seen)} of {packet_length(bits)} chips fit "
             "the panel's image; come closer or raise the frequency.",
         )
-    book = code_book(bits, Fraction(scene.camera.exposure_time) * Fraction(frequency))
-    if not np.isfinite(book.energy).any():
+    templates = code_templates(bits, Fraction(scene.camera.exposure_time) * Fraction(frequency))
+    if not np.isfinite(templates.energy).any():
         return replace(
             result,
             failure="All codes look alike: the exposure time is a whole number of packets, or so "
             "many that their mean is all it leaves.",
         )
-    return _best_code(result, _fold(signal, scene, packet_length(bits)), book, bits)
+    return _best_code(result, _fold(signal, scene, packet_length(bits)), templates, bits)
 
 
 def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
@@ -94,13 +94,15 @@ def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
     return np.interp(np.arange(bins), seen, sums[seen] / counts[seen], period=bins)
 
 
-def _best_code(result: DecodeResult, folded: FloatArray, book: CodeBook, bits: int) -> DecodeResult:
+def _best_code(
+    result: DecodeResult, folded: FloatArray, templates: CodeTemplates, bits: int
+) -> DecodeResult:
     """Compare the folded signal with every code, and with the most likely ones more closely."""
     # What the camera did to the grey levels kept their order. So a bin's rank says which lit
     # fraction it stands for, and no gamma or enhancement needs to be known.
     rank = folded.argsort(kind="stable").argsort()
-    likely, shifts = most_likely(book.levels[rank], book)
-    models = book.profiles(likely)
+    likely, shifts = most_likely(templates.levels[rank], templates)
+    models = templates.profiles(likely)
     # Each code has levels of its own, which say so more exactly than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
     places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
@@ -122,7 +124,7 @@ def _best_code(result: DecodeResult, folded: FloatArray, book: CodeBook, bits: i
     return replace(result, code=code, bits=np.array(bits_of(code, bits), dtype=np.uint8))
 
 
-def most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexArray]:
+def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
     """Find the codes that correlate best with the signal over all phases, and their phases.
 
     Returns
@@ -130,14 +132,14 @@ def most_likely(signal: FloatArray, book: CodeBook) -> tuple[IndexArray, IndexAr
     codes, phases : ndarray of int64, shape (_LIKELY,) or fewer
         A phase is the bin at which a code's packet starts.
     """
-    bins, period = len(signal), packet_length(book.bits)
+    bins, period = len(signal), packet_length(templates.bits)
     about_mean = signal - signal.mean()
-    spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(book.response))
+    spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(templates.response))
     with_response = np.fft.irfft(spectrum, bins)
     places = np.arange(period)[:, None] * BINS_PER_CHIP + np.arange(bins)
-    first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], book.bits)
-    codes = codes_by_levels(book.bits)
-    scores = _largest_sums(first, second).ravel() / np.sqrt(book.energy[codes])
+    first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], templates.bits)
+    codes = codes_by_levels(templates.bits)
+    scores = _largest_sums(first, second).ravel() / np.sqrt(templates.energy[codes])
     count = min(_LIKELY, len(scores))
     likely = np.argpartition(scores, -count)[-count:]
     of_first, of_second = np.divmod(likely, len(second))

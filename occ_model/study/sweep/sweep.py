@@ -13,8 +13,8 @@ from typing import TypeAlias
 import numpy as np
 
 from occ_model.errors import one_line
-from occ_model.receiver.decoders import PAPERS
-from occ_model.results import RateSettings, SweepPoint, SweepRequest, SweepTable, Way
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results import RateSettings, SignalPath, SweepPoint, SweepRequest, SweepTable
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -37,14 +37,14 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     scene: Scene,
     axes: Mapping[str, Iterable[ParameterValue]],
     images: int = 5,
-    decoder: str | Sequence[str] = PAPERS,
+    decoder: str | Sequence[str] = PAPER_DECODER,
     seed: int = 1,
     *,
     executor: Executor | None = None,
     jobs: int = 1,
     progress: Progress | None = None,
     results: str | Path | None = None,
-    path: Way = "auto",
+    path: SignalPath = "auto",
     tolerance: float = TOLERANCE.default,
     force: Mapping[str, bool] | None = None,
 ) -> SweepTable:
@@ -104,25 +104,25 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
     request = checked_request(scene, axes, settings)
     check_count("jobs", jobs, 1, MOST_JOBS)
-    ledger = _Ledger(request)
+    counts = _Counts(request)
     clock = _Clock(request.points, progress)
     with ExitStack() as stack:
         file = None
         if results is not None:
             file = stack.enter_context(ResultsFile(Path(results), request, rate_intervals))
             for point in file.points_there():
-                ledger.enter(point)
-            clock.start(ledger.entered)
-        rest = (index for index in request.in_order_of_work() if not ledger.has(index))
-        jobs = processes_for(jobs, request.points - ledger.entered)
-        points = measure(request, rest, executor=executor, jobs=jobs, pulse=clock.pulse)
+                counts.enter(point)
+            clock.start(counts.entered)
+        remainder = (index for index in request.in_order_of_work() if not counts.has(index))
+        jobs = processes_for(jobs, request.points - counts.entered)
+        points = measure(request, remainder, executor=executor, jobs=jobs, pulse=clock.pulse)
         # Closed at once, and not when nobody remembers what ended it: workers wait for that.
         for point in stack.enter_context(closing(points)):
             if file is not None:
                 file.append(point)
-            ledger.enter(point)
+            counts.enter(point)
             clock.count()
-        table = ledger.table()
+        table = counts.table()
         if file is not None:
             file.finish(table)
     return table
@@ -185,7 +185,7 @@ def _interval(right: int, sent: int) -> tuple[float, float]:
     return 100.0 * low, 100.0 * high
 
 
-class _Ledger:
+class _Counts:
     """What was counted so far, a few bytes a point."""
 
     def __init__(self, request: SweepRequest) -> None:

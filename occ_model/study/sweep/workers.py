@@ -69,13 +69,13 @@ def measure_by(
     are measured again, by new ones, or here where there are none: a point depends on nothing but
     itself.
     """
-    shift = _Shift(workers, request, indices)
+    in_flight = _InFlight(workers, request, indices)
     failures = 0
     try:
-        while shift.fill():
+        while in_flight.fill():
             pulse()
             try:
-                for point in shift.delivered():
+                for point in in_flight.delivered():
                     failures = 0
                     yield point
             except WorkersLostError as loss:
@@ -87,13 +87,13 @@ def measure_by(
                         stacklevel=2,
                     )
                     break
-        yield from measure_here(request, shift.left(), pulse)
+        yield from measure_here(request, in_flight.left(), pulse)
     finally:
-        shift.cancel()
+        in_flight.cancel()
         workers.close()
 
 
-class _Shift:
+class _InFlight:
     """The parcels in flight, and the points that are still to be sent."""
 
     def __init__(self, workers: Workers, request: SweepRequest, indices: Iterator[int]) -> None:

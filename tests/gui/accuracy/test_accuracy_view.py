@@ -18,7 +18,7 @@ User = Any  # the fixture of that name
 @pytest.fixture
 def in_front(application: Application, monkeypatch: pytest.MonkeyPatch) -> Application:
     """Bring the pane to the front, and let no study begin."""
-    monkeypatch.setattr(controller, "REST_MS", 3_600_000)
+    monkeypatch.setattr(controller, "IDLE_MS", 3_600_000)
     application.window.docks["accuracy"].raise_()
     return application
 
@@ -38,12 +38,12 @@ def test_an_effect_that_a_slider_calls_for_is_marked_and_said_with_its_cost(
     assert not row(in_front, "led-edges").included
     slider = user.row("edge_time").slider
     slider.setValue(200)
-    user.rest()
+    user.wait_until_idle()
     shown = row(in_front, "led-edges")
     assert (shown.included, shown.new, shown.texts[DECISION]) == (True, True, "● in, new")
     assert in_front.accuracy.summary.toolTip().startswith("Switched in: LED rise and fall, +")
     slider.setValue(205)  # the mark stays while the slider goes on
-    user.rest()
+    user.wait_until_idle()
     assert row(in_front, "led-edges").new
 
 
@@ -74,7 +74,7 @@ def test_a_higher_tolerance_leaves_effects_out(
     assert row(in_front, "sensor-noise").included
     tolerance = in_front.accuracy.tolerance
     tolerance.slider.setValue(tolerance.slider.maximum())
-    user.rest()
+    user.wait_until_idle()
     assert in_front.settings.settings.tolerance == 100.0
     assert not row(in_front, "sensor-noise").included
 
@@ -86,11 +86,11 @@ def test_a_switch_forces_its_effect_and_the_picture_changes(
     in_front.simulation.shown.connect(lambda shown: pictures.append(shown.frame.image))
     for _ in range(2):  # auto, on, off
         choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Down)
-        user.rest()
+        user.wait_until_idle()
     assert in_front.settings.settings.force == {"sensor-noise": False}
     assert "by hand" in row(in_front, "sensor-noise").texts[-1]
     choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Home)
-    user.rest()
+    user.wait_until_idle()
     assert in_front.settings.settings.force == {}
     assert not np.array_equal(pictures[-2], pictures[-1])
 
@@ -98,7 +98,7 @@ def test_a_switch_forces_its_effect_and_the_picture_changes(
 def test_observable_and_noise_are_chosen(qtbot: QtBot, in_front: Application, user: User) -> None:
     for control in (in_front.accuracy.observable, in_front.accuracy.noise):
         qtbot.keyClick(control, Qt.Key.Key_Down)
-    user.rest()
+    user.wait_until_idle()
     settings = in_front.settings.settings
     assert (settings.observable, settings.noise) == ("profile", "exact")
 
@@ -131,7 +131,7 @@ def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Applicatio
 def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(controller, "REST_MS", 1)
+    monkeypatch.setattr(controller, "IDLE_MS", 1)
     title = application.accuracy.plot.title
     application.window.docks["accuracy"].raise_()
     qtbot.waitUntil(lambda: " of " in title.toolTip())
@@ -145,7 +145,7 @@ def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
 def test_behind_another_pane_no_study_is_made(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(controller, "REST_MS", 1)
+    monkeypatch.setattr(controller, "IDLE_MS", 1)
     application.window.docks["accuracy"].raise_()
     qtbot.waitUntil(lambda: application.study.runner.is_running)
     application.window.docks["profile"].raise_()

@@ -68,7 +68,7 @@ class Bench:
     def wait_for(self, told: str) -> None:
         self._qtbot.waitUntil(lambda: told in self.pane.told)
 
-    def rest(self) -> None:
+    def wait_until_idle(self) -> None:
         self._qtbot.waitUntil(lambda: self.simulation.runner.is_idle and self.controller.is_idle)
 
     def stop(self) -> None:
@@ -79,7 +79,7 @@ class Bench:
 
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
-    monkeypatch.setattr(module, "REST_MS", 20)
+    monkeypatch.setattr(module, "IDLE_MS", 20)
     bench = Bench(small_scene, qtbot)
     monkeypatch.setattr(module, "accuracy", bench.study)
     monkeypatch.setattr(module, "point_count", lambda scene, settings: TOTAL)
@@ -93,7 +93,7 @@ def test_at_rest_and_seen_the_points_come_one_by_one(bench: Bench) -> None:
     bench.wait_for("point 0 1/3")
     assert "finished" not in bench.pane.told
     bench.allow(2)
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.pane.told == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
     assert bench.measured == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
 
@@ -120,7 +120,7 @@ def test_a_change_cancels_the_study_at_once_and_the_next_is_of_what_is_now(
     assert not bench.controller.runner.is_running
     assert bench.pane.told[-1] == "outdated"
     bench.allow(1 + TOTAL)
-    bench.rest()
+    bench.wait_until_idle()
     after = bench.pane.told[bench.pane.told.index("outdated") + 1 :]
     assert after == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
     assert bench.measured[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
@@ -135,7 +135,7 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench) -> No
     assert bench.pane.told[-1] == "outdated"
     bench.controller.set_seen(True)
     bench.allow(1 + TOTAL)
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.pane.told[-1] == "finished"
 
 
@@ -172,7 +172,7 @@ def test_a_study_that_fails_tells_why_and_is_not_tried_again(
 
     monkeypatch.setattr(module, "accuracy", refuse)
     bench.controller.set_seen(True)
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.pane.told == ["begun", "The panel is behind the camera."]
 
 

@@ -30,7 +30,7 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture(
     assert isinstance(row, QuantityRow)
     before = grey_picture(application.image)
     qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
-    user.rest()
+    user.wait_until_idle()
     assert application.store.scene.pose.distance == row.field.value() > 1.2
     assert not np.array_equal(grey_picture(application.image), before)
 
@@ -54,7 +54,7 @@ def test_bits_typed_arrive_in_the_decode_result(
     bits.clear()
     qtbot.keyClicks(bits, "0000000101")
     qtbot.keyClick(bits, Qt.Key.Key_Return)
-    user.rest()
+    user.wait_until_idle()
     assert application.controls.code.number.value() == 5
     assert application.decode.strip.accessibleDescription().startswith("sent 0000000101")
 
@@ -67,7 +67,7 @@ def test_a_drag_of_a_slider_is_undone_as_one_step(
     for position in range(200, 700, 100):
         slider.setValue(position)
     slider.setSliderDown(False)
-    user.rest()
+    user.wait_until_idle()
     assert application.store.scene != small_scene
     user.choose("&Undo")
     assert application.store.scene == small_scene
@@ -115,7 +115,7 @@ def test_quick_steps_of_a_field_are_undone_at_once(
     before = application.store.scene
     for _ in range(3):
         qtbot.keyClick(user.row("distance").field, Qt.Key.Key_Up)
-        user.rest()
+        user.wait_until_idle()
     assert application.store.scene.pose.distance > 1.2
     user.choose("&Undo")
     assert application.store.scene == before

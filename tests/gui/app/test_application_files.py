@@ -20,7 +20,7 @@ def test_an_open_photo_stands_in_the_title_until_it_is_closed(
     assert application.window.windowTitle() == TITLE
     assert not close.isEnabled()
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     assert application.window.windowTitle() == f"stripes.png – {TITLE}"  # noqa: RUF001
     assert application.image.photo.isVisible()
     close.trigger()
@@ -33,7 +33,7 @@ def test_the_menu_turns_the_photo_and_lays_it_over_the_simulation(
     application: Application, user: User, photo_file: Path
 ) -> None:
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     user.choose("&Line by line")
     assert "its lines shown as columns" in application.image.photo.caption.toolTip()
     assert application.photo.facts.scan_axis.key() == "lines"
@@ -47,7 +47,7 @@ def test_the_photos_profile_is_drawn_beside_the_simulations_with_what_is_left(
 ) -> None:
     assert not application.profile.residual.isVisible()
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     columns, levels = application.profile.photo.getOriginalDataset()
     _, residual = application.profile.residual.curve.getOriginalDataset()
     profile = application.profile.simulation.getOriginalDataset()[1]
@@ -72,5 +72,5 @@ def test_a_saved_scene_is_opened_again_with_its_controls(
     application.files.save_scene(tmp_path / "scene.toml")
     user.enter("distance", "3 m")
     application.files.open_scene(tmp_path / "scene.toml")
-    user.rest()
+    user.wait_until_idle()
     assert user.row("distance").field.value() == 2.0

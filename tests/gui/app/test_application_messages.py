@@ -42,7 +42,7 @@ def test_a_scene_without_a_picture_says_why_and_the_last_picture_stays(
 ) -> None:
     before = grey_picture(application.image)
     application.store.change(**BEHIND_THE_CAMERA)
-    user.rest()
+    user.wait_until_idle()
     assert "behind the camera" in user.message
     assert np.array_equal(grey_picture(application.image), before)
 
@@ -51,7 +51,7 @@ def test_the_sentence_goes_as_soon_as_the_scene_has_a_picture_again(
     application: Application, user: User
 ) -> None:
     application.store.change(**BEHIND_THE_CAMERA)
-    user.rest()
+    user.wait_until_idle()
     user.choose("&Undo")
     assert user.message == ""
 
@@ -61,7 +61,7 @@ def test_a_scene_without_a_picture_that_was_passed_through_leaves_no_sentence(
 ) -> None:
     application.store.change(**BEHIND_THE_CAMERA)
     application.store.change(distance=1.0, yaw=0.0)
-    user.rest()
+    user.wait_until_idle()
     assert user.message == ""
 
 
@@ -92,7 +92,7 @@ def test_what_was_opened_is_still_said_when_its_picture_is_there(
     path = tmp_path / "mine.toml"
     path.write_text(small_scene.replace(iso=200.0).to_toml(), encoding="utf-8")
     application.files.open_scene(path)
-    user.rest()
+    user.wait_until_idle()
     assert user.message == "Opened mine.toml"
 
 
@@ -101,7 +101,7 @@ def test_a_photo_that_cannot_be_read_is_answered_by_a_sentence(
 ) -> None:
     title = application.window.windowTitle()
     application.open_photo(tmp_path / "missing.png")
-    user.rest()
+    user.wait_until_idle()
     assert "missing.png" in user.message
     assert application.window.windowTitle() == title
 

@@ -43,7 +43,7 @@ def taken(tmp_path: Path, camera_scene: Scene) -> Path:
 @pytest.fixture
 def matched(application: Application, user: User, taken: Path) -> Application:
     application.open_photo(taken)
-    user.rest()
+    user.wait_until_idle()
     application.photo.form.sent.show_key("square")
     application.photo.form.square.set_value(SENT["switching_frequency"] / 2)
     user.choose("&Match photo")
@@ -55,7 +55,7 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
 ) -> None:
     docks = application.window.docks
     application.open_photo(taken)
-    user.rest()
+    user.wait_until_idle()
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
     docks["decode"].raise_()
     user.choose("&Line by line")
@@ -84,7 +84,7 @@ def test_the_reading_of_a_photo_is_shown_with_a_way_out_until_it_has_ended(
     assert application.desk.is_idle
     go_on.set()
     application.open_photo(taken)
-    user.rest()
+    user.wait_until_idle()
     assert not bar.isVisible()
     assert application.desk.matching.photo is not None
     assert application.desk.matching.match is None
@@ -111,7 +111,7 @@ def test_after_applying_the_simulated_picture_lies_on_the_photo_pixel_on_pixel(
     corner = matched.desk.placements.placement
     assert corner != Placement()
     matched.photo.result.apply.click()
-    user.rest()
+    user.wait_until_idle()
     assert matched.desk.placements.placement == Placement()
     found = matched.desk.matching.match
     assert found is not None
@@ -125,7 +125,7 @@ def test_after_applying_the_simulated_picture_lies_on_the_photo_pixel_on_pixel(
 
 def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> None:
     matched.photo.result.apply.click()
-    user.rest()
+    user.wait_until_idle()
     told = matched.profile.residual.numbers.toolTip()
     user.enter("exposure_time", "40 us")
     assert matched.profile.residual.numbers.toolTip() != told
@@ -155,7 +155,7 @@ def test_a_photo_that_shows_no_stripes_is_answered_by_a_sentence_everywhere(
     path = tmp_path / "flat.png"
     Image.fromarray(np.full((60, 100), 90, dtype=np.uint8)).save(path)
     application.open_photo(path)
-    user.rest()
+    user.wait_until_idle()
     sentence = application.profile.residual.numbers.toolTip()
     assert sentence.endswith(".")
     user.choose("&Match photo")
@@ -171,7 +171,7 @@ def test_what_a_match_needs_is_offered_with_a_photo_and_what_uses_it_with_a_matc
     actions = application.window.actions_by_name
     with_photo, with_match = ("match", "use_settings"), ("apply_match", "save_match")
     application.open_photo(taken)
-    user.rest()
+    user.wait_until_idle()
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
     application.photo.form.sent.show_key("square")
@@ -187,8 +187,8 @@ def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
 ) -> None:
     application.store.change(pattern="10", switching_frequency=SENT["switching_frequency"])
     application.open_photo(taken, match=True)
-    user.rest()
-    user.rest()
+    user.wait_until_idle()
+    user.wait_until_idle()
     readout = application.store.scene.camera.readout_time
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
@@ -206,15 +206,15 @@ def test_files_that_were_opened_are_listed_and_opened_again(
     scene.write_text(Scene().to_toml(), encoding="utf-8")
     for path in (taken, photo_file):
         application.open_photo(path)
-        user.rest()
+        user.wait_until_idle()
     application.files.open_scene(scene)
-    user.rest()
+    user.wait_until_idle()
     assert entries(recent) == ["a&&b.toml", "stripes.png", "taken.png", "&Clear this list"]
     application.store.change(iso=321.0)
     for place, text in ((0, "a&&b.toml"), (2, "taken.png")):
         assert entries(recent)[place] == text
         recent.actions()[place].trigger()
-        user.rest()
+        user.wait_until_idle()
     assert application.store.scene == Scene()
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
@@ -241,7 +241,7 @@ def test_a_recent_file_that_has_gone_is_told_and_dropped(
     application: Application, user: User, photo_file: Path
 ) -> None:
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     photo_file.unlink()
     application.window.menus.recent.actions()[0].trigger()
     assert user.message == f"{photo_file} is no longer there."
@@ -252,7 +252,7 @@ def test_a_photo_that_could_not_be_read_is_not_remembered(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     application.open_photo(tmp_path / "missing.png")
-    user.rest()
+    user.wait_until_idle()
     assert application.memory.files == ()
 
 
@@ -262,7 +262,7 @@ def test_a_dropped_photo_and_scene_are_opened(
     scene = tmp_path / "mine.toml"
     scene.write_text(Scene().to_toml(), encoding="utf-8")
     application.window.dropped.emit([photo_file, scene])
-    user.rest()
+    user.wait_until_idle()
     assert application.store.scene == Scene()
     assert application.window.windowTitle().startswith("stripes.png")
 
@@ -272,7 +272,7 @@ def test_what_was_dropped_but_is_not_shown_is_told(
 ) -> None:
     application.window.dropped.emit([photo_file, taken])
     assert "only stripes.png" in user.message
-    user.rest()
+    user.wait_until_idle()
 
 
 @pytest.mark.parametrize("what", ["nothing", "folder"])
@@ -290,7 +290,7 @@ def test_a_dropped_file_that_is_no_photo_is_answered_by_a_sentence(
     path = tmp_path / "letter.txt"
     path.write_text("no photo")
     application.window.dropped.emit([path])
-    user.rest()
+    user.wait_until_idle()
     assert "letter.txt" in user.message
     assert user.message.endswith(".")
 
@@ -312,7 +312,7 @@ def test_a_sample_is_opened_with_its_scene_and_not_remembered(
     menu = application.window.menus.samples
     assert entries(menu) == ["LED 1 kHz panel (simulated)"]
     menu.actions()[0].trigger()
-    user.rest()
+    user.wait_until_idle()
     assert application.store.scene == camera_scene
     assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
     assert application.memory.files == ()
@@ -331,7 +331,7 @@ def test_of_a_real_camera_that_saw_a_led_of_1_khz_the_readout_time_is_measured(
     application: Application, user: User, photos: Path
 ) -> None:
     application.open_photo(photos / "led_1khz_frame.png")
-    user.rest()
+    user.wait_until_idle()
     assert application.photos.reading.scan_axis == "auto"
     application.photo.form.sent.show_key("square")
     user.choose("&Match photo")

@@ -176,10 +176,10 @@ def test_the_status_line_tells_column_row_and_level_under_the_mouse(
 @pytest.fixture
 def held(qtbot: QtBot) -> tuple[SceneStore, HoldBrightness, list[str]]:
     store = SceneStore(Scene().replace(exposure_time=100e-6, iso=200.0))
-    held, said = HoldBrightness(store), []
-    held.said.connect(said.append)
+    held, messages = HoldBrightness(store), []
+    held.status_message.connect(messages.append)
     held.switch(True)
-    return store, held, said
+    return store, held, messages
 
 
 def product(store: SceneStore) -> float:
@@ -187,7 +187,7 @@ def product(store: SceneStore) -> float:
 
 
 def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> None:
-    store, holder, said = held
+    store, holder, messages = held
     before, light = store.scene, product(store)
     gesture = new_gesture()
     for time in (90e-6, 50e-6, 60e-6):
@@ -196,14 +196,14 @@ def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> No
     assert store.undo_stack.count() == 1
     store.undo_stack.undo()
     assert store.scene == before
-    assert said == []
+    assert messages == []
 
 
 def test_at_the_sliders_end_iso_stops_with_a_sentence_and_comes_back(held: Any) -> None:
-    store, holder, said = held
+    store, holder, messages = held
     light = product(store)
     holder.change(new_gesture(), "exposure_time", 1e-9)
-    assert "cannot be held" in said[-1]
+    assert "cannot be held" in messages[-1]
     assert product(store) < light
     holder.change(new_gesture(), "exposure_time", 100e-6)
     assert product(store) == pytest.approx(light, rel=1e-12)

@@ -59,14 +59,14 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
 
 
 def test_an_exception_that_comes_again_and_again_is_told_of_once(faults: Faults) -> None:
-    said: list[str] = []
-    faults.happened.connect(said.append)
+    messages: list[str] = []
+    faults.happened.connect(messages.append)
     for _ in range(50):
         try:
             broken()
         except ZeroDivisionError as error:
             sys.excepthook(type(error), error, error.__traceback__)
-    assert len(said) == 1
+    assert len(messages) == 1
 
 
 def test_an_exception_in_a_thread_is_a_sentence(
@@ -87,7 +87,7 @@ def test_an_exception_in_the_simulation_is_a_sentence_and_the_last_picture_stays
     with monkeypatch.context() as patched:
         patched.setattr("occ_gui.simulation.controller.simulate", broken)
         application.store.change(iso=333.0)
-        user.rest()
+        user.wait_until_idle()
         assert user.message == "The simulation failed: ZeroDivisionError: a mistake."
     assert application.store.scene.camera.iso == 333.0
     assert application.image.simulation.level_at(10, 10) == shown
@@ -101,7 +101,7 @@ def test_an_exception_while_a_picture_is_painted_is_a_sentence(
         patched.setattr(AveragedImage, "_averaged", broken)
         application.image.simulation.fit()
         application.store.change(iso=222.0)
-        user.rest()
+        user.wait_until_idle()
         application.window.grab()
         assert STILL_THERE in user.message
     application.window.statusBar().clearMessage()

@@ -86,7 +86,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     window = application.window
     application.presets._update()
     application.files.open_file(hostile_photo)
-    user.rest()
+    user.wait_until_idle()
     facts = application.photo.facts
     assert seen(facts.name.toolTip()).endswith(f"{SHOWN}.png")
     assert seen(facts.size_line.toolTip()).startswith(f"{TAG}, ")
@@ -135,7 +135,7 @@ def test_a_name_that_is_no_utf_8_is_shown_and_remembered(
     path = Path(os.fsdecode(os.fsencode(photo_file.parent) + b"/caf\xe9.png"))
     photo_file.rename(path)
     application.open_photo(path)
-    user.rest()
+    user.wait_until_idle()
     assert application.photo.facts.name.text().endswith("caf\\udce9.png")
     application.files.save_scene(path.with_suffix(".toml"))
     assert application.window.statusBar().currentMessage() == "Saved caf\\udce9.toml"

@@ -18,7 +18,7 @@ def test_a_value_out_of_range_is_told_by_its_label(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("sentence", "said"),
+    ("sentence", "messages"),
     [
         ("There is no picture.", "There is no picture."),
         ("code is 7; bits says 2.", "Code is 7; bits says 2."),
@@ -27,8 +27,8 @@ def test_a_value_out_of_range_is_told_by_its_label(name: str) -> None:
         ("", ""),
     ],
 )
-def test_only_names_of_parameters_are_replaced(sentence: str, said: str) -> None:
-    assert spoken(sentence) == said
+def test_only_names_of_parameters_are_replaced(sentence: str, messages: str) -> None:
+    assert spoken(sentence) == messages
 
 
 def test_no_label_is_a_name_itself() -> None:

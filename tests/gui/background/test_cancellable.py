@@ -53,7 +53,7 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
     bench.task.stop()
 
 
-def rest(qtbot: QtBot, bench: Bench) -> None:
+def wait_until_idle(qtbot: QtBot, bench: Bench) -> None:
     bench.go_on.set()
     qtbot.waitUntil(lambda: not bench.task.is_running)
 
@@ -61,7 +61,7 @@ def rest(qtbot: QtBot, bench: Bench) -> None:
 def test_the_result_arrives_and_before_it_how_far_the_work_was(qtbot: QtBot, bench: Bench) -> None:
     bench.task.start(4)
     assert bench.task.is_running
-    rest(qtbot, bench)
+    wait_until_idle(qtbot, bench)
     assert bench.results == [40]
     assert bench.shares == [0.0, 0.25, 0.5, 1.0]
     assert bench.failures == []
@@ -77,7 +77,7 @@ def test_cancelled_work_ends_at_its_next_step_and_nothing_of_it_arrives(
     bench.go_on.set()
     assert bench.ended.wait(PATIENCE_S)
     bench.task.start(2)
-    rest(qtbot, bench)
+    wait_until_idle(qtbot, bench)
     assert bench.results == [20]
     assert {request for request, _ in bench.steps} == {2}
     assert bench.failures == []
@@ -88,14 +88,14 @@ def test_the_next_start_cancels_the_one_before(qtbot: QtBot, bench: Bench) -> No
     assert bench.begun.wait(PATIENCE_S)
     for request in (2, 3):
         bench.task.start(request)
-    rest(qtbot, bench)
+    wait_until_idle(qtbot, bench)
     assert bench.results == [30]
     assert {request for request, _ in bench.steps} == {3}
 
 
 def test_a_refusal_of_the_model_arrives_as_its_sentence(qtbot: QtBot, bench: Bench) -> None:
     bench.task.start(-1)
-    rest(qtbot, bench)
+    wait_until_idle(qtbot, bench)
     assert bench.failures == ["There are no stripes."]
     assert bench.results == []
 
@@ -105,12 +105,12 @@ def test_a_mistake_of_ours_is_a_sentence_and_goes_to_the_log(
 ) -> None:
     with caplog.at_level(logging.ERROR):
         bench.task.start(0)
-        rest(qtbot, bench)
+        wait_until_idle(qtbot, bench)
     (sentence,) = bench.failures
     assert sentence.startswith("The test work failed: ZeroDivisionError")
     assert "Traceback" in caplog.text
     bench.task.start(5)
-    rest(qtbot, bench)
+    wait_until_idle(qtbot, bench)
     assert bench.results == [50]
 
 

@@ -13,7 +13,7 @@ from occ_gui.detection_map.advice import Advice, TheoryNumbers
 from occ_gui.detection_map.advice_sentences import AdviceWords
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results import Edge, Limits, Reach, Trial
+from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.scene.scene import Scene
 
 THEORY = TheoryNumbers(7353.0, 14706.0, 3468.0, 100e-6, 200e-6, 1.17e-3)
@@ -25,8 +25,12 @@ TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4)
 
 
 def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
-    frequency = Reach("switching_frequency", (500.0, 100e3), Edge(GOOD, None), Edge(GOOD, BAD))
-    exposure = Reach("exposure_time", (1e-5, 2e-3), Edge(SHORT, None), Edge(LONG, TOO_LONG))
+    frequency = WorkingRange(
+        "switching_frequency", (500.0, 100e3), RangeEnd(GOOD, None), RangeEnd(GOOD, BAD)
+    )
+    exposure = WorkingRange(
+        "exposure_time", (1e-5, 2e-3), RangeEnd(SHORT, None), RangeEnd(LONG, TOO_LONG)
+    )
     return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
 
 
@@ -49,9 +53,9 @@ def advised(
     monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
     monkeypatch.setattr(worker, "limits", found)
     application.window.docks["map"].raise_()
-    application.reach.map.set_seen(False)  # it is not what is looked at here
+    application.detection_map.map.set_seen(False)  # it is not what is looked at here
     application.detection.advise.click()
-    qtbot.waitUntil(lambda: application.reach.advisor.is_idle)
+    qtbot.waitUntil(lambda: application.detection_map.advisor.is_idle)
     return application
 
 
@@ -75,11 +79,11 @@ def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
 
 
 def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scene) -> None:
-    nowhere = Reach("switching_frequency", (500.0, 100e3), None, None, "It reads nowhere.")
+    nowhere = WorkingRange("switching_frequency", (500.0, 100e3), None, None, "It reads nowhere.")
     limits = Limits(small_scene, "threshold", 99.0, 20, 1, nowhere, nowhere)
     lines = AdviceWords().lines(Advice(limits, THEORY))
     assert [line.text for line in lines].count("It reads nowhere.") == 2
-    assert all(line.way is None for line in lines)
+    assert all(line.destination is None for line in lines)
 
 
 def test_every_decoder_is_asked_and_each_edge_has_its_way(advised: Application) -> None:
@@ -87,7 +91,7 @@ def test_every_decoder_is_asked_and_each_edge_has_its_way(advised: Application) 
     titles = [text for text in advice.sentences() if text.startswith("The ")]
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
-    assert len(advice.ways) == 3 * len(DECODERS)
+    assert len(advice.destinations) == 3 * len(DECODERS)
     assert advice.again.isVisible()
 
 
@@ -99,7 +103,7 @@ def test_a_way_takes_the_scene_there_in_one_step(
     advised: Application, place: int, name: str, value: float
 ) -> None:
     before = advised.store.scene
-    advised.detection.advice.ways[place].click()
+    advised.detection.advice.destinations[place].click()
     assert advised.store.scene == before.replace(**{name: value})
     assert advised.detection.advice.state.toolTip() == "This is of the scene as it was."
     advised.store.undo_stack.undo()
@@ -112,7 +116,7 @@ def test_a_refusal_of_the_model_is_said(
     monkeypatch.undo()
     advised.store.change(pattern="1100")
     advised.detection.advice.again.click()
-    qtbot.waitUntil(lambda: advised.reach.advisor.is_idle)
+    qtbot.waitUntil(lambda: advised.detection_map.advisor.is_idle)
     assert "A raw pattern holds no code" in advised.detection.advice.state.toolTip()
 
 
@@ -141,14 +145,14 @@ def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
     monkeypatch.setattr(module, "_LOOK_MS", 5)
     application.detection.advise.click()
     advice = application.detection.advice
-    assert not application.reach.advisor.is_idle
+    assert not application.detection_map.advisor.is_idle
     if how == "cancel":
         advice.cancel.click()
     else:
         application.store.change(iso=200.0)
-    assert application.reach.advisor.is_idle
-    said = {"cancel": "Cancelled.", "change": "The scene has changed; ask again."}
-    assert advice.state.toolTip() == said[how]
+    assert application.detection_map.advisor.is_idle
+    messages = {"cancel": "Cancelled.", "change": "The scene has changed; ask again."}
+    assert advice.state.toolTip() == messages[how]
 
 
 def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:

@@ -72,14 +72,14 @@ class Bench:
             self.scenes, self.settings, self.crew.lanes[0], self.pane
         )
 
-    def rest(self) -> RateMap:
+    def wait_until_idle(self) -> RateMap:
         self._qtbot.waitUntil(lambda: self.controller.is_idle)
         assert self.controller.map is not None
         return self.controller.map
 
     def look(self) -> RateMap:
         self.controller.set_seen(True)
-        return self.rest()
+        return self.wait_until_idle()
 
 
 @pytest.fixture
@@ -166,7 +166,7 @@ def test_what_the_map_does_not_depend_on_measures_nothing_anew(
     bench.look()
     before = len(bench.workers.tasks)
     bench.scenes.change(-1, **change)
-    bench.rest()
+    bench.wait_until_idle()
     assert len(bench.workers.tasks) == before
     assert bench.controller.is_full
 
@@ -177,7 +177,7 @@ def test_a_change_of_the_scene_gives_the_map_of_the_new_one(
     bench = bench_of()
     before = bench.look()
     bench.scenes.change(exposure_time=136e-6)
-    after = bench.rest()
+    after = bench.wait_until_idle()
     assert bench.controller.is_full
     assert not np.array_equal(after.rates("threshold"), before.rates("threshold"))
 
@@ -233,7 +233,7 @@ def test_image_effects_are_left_out_said_and_taken_in_when_asked(
     assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
     bench.workers.tasks.clear()
     bench.controller.use_image_effects(True)
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.pane.left_out == ()
     settings = bench.workers.tasks[0].parcel.arguments[1]
     assert (settings.force, settings.path) == ({}, "auto")
@@ -248,7 +248,7 @@ def test_a_failure_is_said_and_the_last_map_stays(bench_of: Callable[..., Bench]
 
     bench.workers.outcome = refuse
     bench.scenes.change(iso=200.0)
-    assert bench.rest() is before
+    assert bench.wait_until_idle() is before
     assert bench.pane.failures == ["The work in the background failed: MemoryError: no room."]
 
 
@@ -264,7 +264,7 @@ def test_the_map_of_other_parameters_is_theirs(bench_of: Callable[..., Bench]) -
     bench = bench_of()
     bench.look()
     bench.controller.choose_axes("exposure_time", "iso")
-    found = bench.rest()
+    found = bench.wait_until_idle()
     assert (found.x, found.y) == ("exposure_time", "iso")
     assert bench.controller.is_full
 

@@ -165,8 +165,8 @@ def test_the_status_says_values_rate_bits_and_interval_or_why_there_are_none(
 ) -> None:
     counts = (("threshold", 45, 78.6, 95.7),)
     view.show_facts(PointFacts(10e3, 1.2, counts, 50, 5, ""))
-    said = "10 kHz, 1.2 m: threshold 90 %, 45 of 50 bits (79 to 96 %)"
-    assert view.status.toolTip() == said
+    messages = "10 kHz, 1.2 m: threshold 90 %, 45 of 50 bits (79 to 96 %)"
+    assert view.status.toolTip() == messages
     view.show_facts(PointFacts(10e3, 1.2, (("threshold", 0, 0.0, 0.0),), 0, 1, "It cannot be."))
     assert view.status.toolTip() == "10 kHz, 1.2 m: It cannot be."
     view.show_progress(7, 91, 0)
@@ -185,7 +185,7 @@ def test_every_control_has_a_name_and_says_what_it_does(view: MapView) -> None:
 def test_a_click_in_the_window_is_undone_as_one_step(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    controller = application.reach.map
+    controller = application.detection_map.map
     controller.map = whole((10, 10))
     before = application.store.scene
     application.detection.picked.emit((2, 3))
@@ -204,7 +204,7 @@ def test_closing_the_window_ends_its_processes(
     application = Application(small_scene)
     application.window.show()
     application.window.docks["map"].raise_()
-    qtbot.waitUntil(lambda: bool(application.reach.map.map), timeout=20_000)
+    qtbot.waitUntil(lambda: bool(application.detection_map.map.map), timeout=20_000)
     processes = workers.processes
     assert processes
     application.window.close()

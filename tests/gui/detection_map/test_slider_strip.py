@@ -15,8 +15,8 @@ from occ_gui.app.application import Application
 from occ_gui.background.crew import Crew
 from occ_gui.detection_map import slider_strip_controller as module
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import MarginStrip
-from occ_gui.detection_map.slider_strip_controller import MarginController
+from occ_gui.detection_map.slider_strip import SliderStrip
+from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.files.preferences import Memory
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.scene_store import SceneStore
@@ -46,11 +46,11 @@ class Bench:
         self.workers, self.strips = workers, RecordingStrips()
         self.crew = Crew(1, lambda: workers)
         self.scenes = SceneStore(scene)
-        self.controller = MarginController(
+        self.controller = SliderStripController(
             self.scenes, SettingsStore(), self.crew.lanes[0], self.strips, NAMES
         )
 
-    def rest(self) -> dict[str, Shares]:
+    def wait_until_idle(self) -> dict[str, Shares]:
         self._qtbot.waitUntil(lambda: self.controller.is_idle)
         return dict(self.strips.shares)
 
@@ -75,7 +75,7 @@ def bench(
 def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench, decoder: str) -> None:
     bench.controller.choose_decoder(decoder)
     bench.controller.set_seen(True)
-    shares = bench.rest()
+    shares = bench.wait_until_idle()
     scene = bench.scenes.scene
     for name in NAMES:
         rates = [
@@ -90,7 +90,7 @@ def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: 
     qtbot.wait(30)
     assert bench.measured() == []
     bench.controller.set_seen(True)
-    bench.rest()
+    bench.wait_until_idle()
     assert set(bench.measured()) == set(NAMES)
     bench.controller.set_seen(False)
     bench.scenes.change(exposure_time=68e-6)
@@ -100,10 +100,10 @@ def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: 
 
 def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
     bench.controller.set_seen(True)
-    before = bench.rest()
+    before = bench.wait_until_idle()
     bench.measured()
     bench.scenes.change(switching_frequency=40e3)
-    after = bench.rest()
+    after = bench.wait_until_idle()
     assert set(bench.measured()) == {"iso"}
     assert after["switching_frequency"] == before["switching_frequency"]
     assert after["iso"] != before["iso"]
@@ -112,7 +112,7 @@ def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
 def test_a_scene_that_the_model_refuses_is_unknown(bench: Bench) -> None:
     bench.scenes.change(pattern="10")
     bench.controller.set_seen(True)
-    assert set(bench.rest()["iso"]) == {None}
+    assert set(bench.wait_until_idle()["iso"]) == {None}
 
 
 def handle_middle(slider: QSlider) -> float:
@@ -124,7 +124,7 @@ def handle_middle(slider: QSlider) -> float:
 
 
 def test_a_strip_begins_and_ends_where_the_handle_does(application: Application) -> None:
-    strips = application.margins.strips
+    strips = application.slider_strips.strips
     assert tuple(strips) == MAIN
     for name, row in application.controls.main_rows().items():
         strip = strips[name]
@@ -139,7 +139,7 @@ def test_a_strip_begins_and_ends_where_the_handle_does(application: Application)
 def test_good_and_bad_positions_look_different_and_unknown_ones_like_none(
     application: Application, grey_picture: Callable[..., Any]
 ) -> None:
-    strip = application.margins.strips["iso"]
+    strip = application.slider_strips.strips["iso"]
     strip.show_shares((0.0, 0.0, None, 1.0, 1.0))
     first, last = strip.span()
     row = grey_picture(strip)[3].astype(int)
@@ -150,7 +150,7 @@ def test_good_and_bad_positions_look_different_and_unknown_ones_like_none(
 
 
 def test_every_strip_says_what_it_is(application: Application) -> None:
-    for strip in application.margins.strips.values():
+    for strip in application.slider_strips.strips.values():
         assert strip.accessibleName().startswith("Reading along ")
         assert "grey not known" in strip.toolTip()
 
@@ -164,22 +164,22 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     kept = settings()
     application = Application(small_scene, memory=kept)
     application.window.show()
-    strips = application.margins.strips.values()
+    strips = application.slider_strips.strips.values()
     assert all(strip.isVisible() for strip in strips)
     application.window.actions_by_name["margins"].trigger()
     QApplication.processEvents()
     assert not any(strip.isVisible() for strip in strips)
-    assert application.reach.margins.is_idle
+    assert application.detection_map.slider_strips.is_idle
     application.window.close()
     application.window.deleteLater()
     kept.sync()
-    assert not Memory(settings()).margins
-    assert Memory(None).margins
+    assert not Memory(settings()).slider_strips
+    assert Memory(None).slider_strips
 
 
 def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
-    strip = application.margins.strips["iso"]
-    assert isinstance(strip, MarginStrip)
+    strip = application.slider_strips.strips["iso"]
+    assert isinstance(strip, SliderStrip)
     colours = strip._colours(np.array([0.0, np.nan, 1.0]))
     assert colours.shape == (3, 4)
     assert colours[:, 3].tolist() == [255, 0, 255]

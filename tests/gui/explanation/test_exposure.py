@@ -47,8 +47,10 @@ def test_chips_window_and_time_on_are_drawn_in_microseconds(
     assert plot.lit.opts["x1"] == pytest.approx(parts[:, 1])
     assert plot.lit.opts["brush"].style() == Qt.BrushStyle.BDiagPattern
     share = 100 * window.on_time / 68e-6
-    said = f"Column 1003: 68 µs exposure, LED on for {window.on_time * 1e6:.4g} µs ({share:.0f} %)"
-    assert plot.sentence.text() == f"{said} → 42.2 grey levels"
+    messages = (
+        f"Column 1003: 68 µs exposure, LED on for {window.on_time * 1e6:.4g} µs ({share:.0f} %)"
+    )
+    assert plot.sentence.text() == f"{messages} → 42.2 grey levels"
     first, last = plot.plot.getViewBox().viewRange()[0]
     assert first <= 0.0 < x[-1] <= last
 
@@ -221,10 +223,10 @@ def test_the_mark_is_in_the_profile_only_while_the_exposure_is_seen(
     assert picker.marker.isVisible()
     seen.window.bring_to_front("decode")
     qtbot.waitUntil(lambda: not picker.marker.isVisible())
-    said = seen.teaching.explanation.pane.exposure.sentence.text()
+    messages = seen.teaching.explanation.pane.exposure.sentence.text()
     move_mouse(seen, seen.profile.plot.getViewBox().viewRange()[0][0] + 50.0)
     qtbot.keyClick(seen.profile.plot, Qt.Key.Key_Right)
-    assert seen.teaching.explanation.pane.exposure.sentence.text() == said
+    assert seen.teaching.explanation.pane.exposure.sentence.text() == messages
 
 
 def test_the_exposure_follows_the_scene(seen: Application, user: User) -> None:

@@ -53,7 +53,7 @@ def test_a_step_sets_its_scene_as_one_step_shows_its_pane_and_its_question(
 ) -> None:
     exploration = explorations()[0]
     guide.choices[0].click()
-    user.rest()
+    user.wait_until_idle()
     step = exploration.steps[0]
     assert application.store.scene == step.scene
     assert application.store.undo_stack.count() == 1
@@ -77,7 +77,7 @@ def test_the_answer_is_shown_on_demand_and_hidden_again_by_the_next_step(
     guide.next.click()
     assert not guide.answer.isVisible()
     assert guide.reveal.text() == "Show the answer"
-    user.rest()
+    user.wait_until_idle()
 
 
 def test_back_next_and_again_move_and_set_the_scene(
@@ -96,7 +96,7 @@ def test_back_next_and_again_move_and_set_the_scene(
     guide.next.click()
     assert guide.next.text() == "Done"
     assert application.store.scene == steps[2].scene
-    user.rest()
+    user.wait_until_idle()
 
 
 def test_progress_is_kept_and_what_is_done_is_ticked(
@@ -116,7 +116,7 @@ def test_progress_is_kept_and_what_is_done_is_ticked(
     assert "steps" in guide.choices[1].text()
     guide.choices[0].click()
     assert "step 1 of 3" in guide.place.text()
-    user.rest()
+    user.wait_until_idle()
 
 
 def test_a_sample_photo_is_opened_kept_while_it_is_wanted_and_closed_afterwards(
@@ -125,17 +125,17 @@ def test_a_sample_photo_is_opened_kept_while_it_is_wanted_and_closed_afterwards(
     opened: list[str] = []
     application.photos.opened.connect(lambda p: opened.append("" if p is None else p.path.stem))
     guide.choices[4].click()
-    user.rest()
+    user.wait_until_idle()
     qtbot.waitUntil(lambda: in_front(application, "photo"))
     assert application.store.scene == explorations()[4].steps[0].scene
     guide.again.click()
-    user.rest()
+    user.wait_until_idle()
     guide.next.click()
-    user.rest()
+    user.wait_until_idle()
     assert opened == ["led-1khz", "packets-6khz"]
     guide.all.click()
     guide.choices[1].click()
-    user.rest()
+    user.wait_until_idle()
     assert opened == ["led-1khz", "packets-6khz", ""]
 
 
@@ -143,9 +143,9 @@ def test_a_photo_of_the_users_own_stays_open(
     application: Application, guide: ExplorationView, user: User, photo_file: Any
 ) -> None:
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     guide.choices[1].click()
-    user.rest()
+    user.wait_until_idle()
     assert application.window.actions_by_name["close_photo"].isEnabled()
 
 
@@ -153,14 +153,14 @@ def test_what_a_student_finds_with_the_photos_is_what_the_answers_say(
     application: Application, guide: ExplorationView, user: User
 ) -> None:
     guide.choices[4].click()
-    user.rest()
+    user.wait_until_idle()
     for expected in ("12.8", "8.90"):
         user.choose("&Match photo")
         found = application.photo.result.values["readout_time"].text()
         assert found.startswith(expected), found
         if expected == "12.8":
             guide.next.click()
-            user.rest()
+            user.wait_until_idle()
     user.choose("&Apply to the scene")
     assert application.store.scene.transmitter.code == 345
     assert application.controls.code.number.value() == 345
@@ -188,7 +188,7 @@ def test_a_photo_that_is_missing_is_told(
     monkeypatch.setattr(explorations_room, "sample_photos", list)
     guide.choices[4].click()
     assert user.message == "The photo led-1khz is missing."
-    user.rest()
+    user.wait_until_idle()
 
 
 def test_the_explorations_come_with_room_to_be_read_and_keep_what_the_user_gives_them(

@@ -24,7 +24,7 @@ User = Any  # the fixture of that name
 
 def export(application: Application, user: User, name: str, path: Path) -> str:
     application.desktop.export.controller.export(name, path)
-    user.rest()
+    user.wait_until_idle()
     return str(user.message)
 
 
@@ -37,8 +37,8 @@ def test_what_is_shown_is_exported_with_its_scene_settings_version_and_date_insi
             assert export(application, user, name, path) == f"Exported {path.name}"
             assert scene_inside(path) == application.store.scene
         text = (tmp_path / f"{name}.csv").read_text(encoding="utf-8")
-        for said in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
-            assert said in text
+        for messages in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
+            assert messages in text
     assert len(list(tmp_path.iterdir())) == 4 * len(ENDINGS)
 
 
@@ -68,7 +68,7 @@ def test_the_map_is_exported_once_it_is_complete(
     rates = RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), ("threshold",))
     rates.enter([SweepPoint(index, 10, (4,)) for index in range(rates.images.size)], 2)
     asked = MapRequest(scene, x, y, settings, with_image_effects=False)
-    map_pane = type(application.reach.map)
+    map_pane = type(application.detection_map.map)
     monkeypatch.setattr(map_pane, "full", property(lambda _: (rates, asked)))
     assert export(application, user, "map", path) == "Exported map.csv"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
@@ -83,7 +83,7 @@ def test_the_photo_is_drawn_beside_the_simulation(
 ) -> None:
     export(application, user, "profile", tmp_path / "alone.csv")
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     export(application, user, "profile", tmp_path / "both.csv")
     headers = [
         next(line for line in (tmp_path / name).read_text().splitlines() if line[0] != "#")
@@ -97,7 +97,7 @@ def test_all_figures_go_into_a_folder_in_all_formats(
 ) -> None:
     folder = tmp_path / "new" / "report"
     application.desktop.export.controller.export_all(folder)
-    user.rest()
+    user.wait_until_idle()
     names = ("picture", "profile", "decoding-threshold", "decoding-matched")
     assert {path.name for path in folder.iterdir()} == {
         f"{name}{ending}" for name in names for ending in ENDINGS
@@ -136,7 +136,7 @@ def test_a_dropped_figure_restores_its_scene_as_one_step(
     user.enter("distance", "3 m")
     before = application.store.scene
     application.window.dropped.emit([tmp_path / "figure.png"])
-    user.rest()
+    user.wait_until_idle()
     assert application.store.scene == shown
     assert user.message == "Opened the scene inside figure.png"
     application.store.undo_stack.undo()
@@ -147,7 +147,7 @@ def test_a_picture_without_a_scene_inside_is_opened_as_a_photo(
     application: Application, user: User, photo_file: Path
 ) -> None:
     application.window.dropped.emit([photo_file])
-    user.rest()
+    user.wait_until_idle()
     assert application.image.photo.isVisible()
 
 
@@ -185,12 +185,12 @@ def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
     monkeypatch.setattr(Path, "write_bytes", full)
     folder = tmp_path / "report"
     application.desktop.export.controller.export_all(folder)
-    user.rest()
+    user.wait_until_idle()
     assert "No space left on device" in user.message
     assert len(written) > 5
     assert not folder.exists()
     application.desktop.export.controller.export("profile", tmp_path / "one.pdf")
-    user.rest()
+    user.wait_until_idle()
     assert "No space left on device" in user.message
     assert list(tmp_path.iterdir()) == []
 
@@ -199,13 +199,13 @@ def test_a_write_protected_figure_is_not_replaced_nor_any_other_then(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     application.desktop.export.controller.export_all(tmp_path)
-    user.rest()
+    user.wait_until_idle()
     files = sorted(tmp_path.iterdir())
     for file in files:
         file.write_bytes(b"kept")
     files[-1].chmod(0o444)
     application.desktop.export.controller.export_all(tmp_path)
-    user.rest()
+    user.wait_until_idle()
     assert f"{files[-1].name} is write-protected" in user.message
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == dict.fromkeys(files, b"kept")
 
@@ -218,8 +218,8 @@ def test_a_mistake_of_ours_while_drawing_is_a_sentence_and_the_next_export_works
 
     with monkeypatch.context() as patched:
         patched.setattr("occ_gui.export.export_controller.export", broken)
-        said = export(application, user, "profile", tmp_path / "a.png")
-    assert said == "The export failed: ZeroDivisionError: a mistake."
+        messages = export(application, user, "profile", tmp_path / "a.png")
+    assert messages == "The export failed: ZeroDivisionError: a mistake."
     assert export(application, user, "profile", tmp_path / "a.png") == "Exported a.png"
 
 
@@ -229,7 +229,7 @@ def test_exports_that_come_quickly_are_all_written(
     paths = [tmp_path / f"{place}.csv" for place in range(4)]
     for path in paths:
         application.desktop.export.controller.export("profile", path)
-    user.rest()
+    user.wait_until_idle()
     assert sorted(tmp_path.iterdir()) == paths
 
 
@@ -248,7 +248,7 @@ def test_the_ending_comes_from_the_name_or_from_the_kind_that_is_chosen(
     answer = (str(tmp_path / chosen), kind)
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: answer)
     application.window.actions_by_name["export_profile"].trigger()
-    user.rest()
+    user.wait_until_idle()
     assert [path.name for path in tmp_path.iterdir()] == [written]
     if written.endswith(".png"):
         with Image.open(tmp_path / written) as image:

@@ -36,8 +36,8 @@ def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     autosave, store = Autosave(tmp_path), SceneStore(Scene())
-    said: list[str] = []
-    autosave.failed.connect(said.append)
+    messages: list[str] = []
+    autosave.failed.connect(messages.append)
     autosave.follow(store)
     write = Path.write_bytes
 
@@ -51,8 +51,8 @@ def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
             autosave.write()
             autosave.write()
         autosave.write()
-    assert len(said) == 2
-    assert "No space left on device" in said[0]
+    assert len(messages) == 2
+    assert "No space left on device" in messages[0]
     autosave.end()
 
 
@@ -61,11 +61,11 @@ def test_a_folder_that_cannot_be_made_is_told_of_and_the_window_works(
 ) -> None:
     (tmp_path / "file").write_text("")
     autosave = Autosave(tmp_path / "file" / "folder")
-    said: list[str] = []
-    autosave.failed.connect(said.append)
+    messages: list[str] = []
+    autosave.failed.connect(messages.append)
     autosave.follow(SceneStore(Scene()))
     autosave.write()
-    assert len(said) == 1
+    assert len(messages) == 1
     autosave.end()
 
 

@@ -149,7 +149,7 @@ def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path,
     sections = (f"[{key.split('/')[0]}]\n{key.split('/')[1]}={value}\n" for key in keys)
     path.write_text("".join(sections), "ascii")
     memory = Memory(QSettings(str(path), QSettings.Format.IniFormat))
-    assert (memory.folder, memory.files, memory.margins) == ("", (), True)
+    assert (memory.folder, memory.files, memory.slider_strips) == ("", (), True)
     assert recall_session(memory, NAMES) == Session()
 
 

@@ -26,8 +26,8 @@ class Bench:
         self.photos = PhotoController([])
         self.memory = Memory()
         self.files = FileController(None, self.store, self.photos, self.memory)  # type: ignore[arg-type]
-        self.said: list[str] = []
-        self.files.said.connect(self.said.append)
+        self.status_message: list[str] = []
+        self.files.status_message.connect(self.status_message.append)
 
 
 @pytest.fixture
@@ -45,7 +45,7 @@ def test_a_saved_scene_is_opened_exactly_as_it_was(bench: Bench, tmp_path: Path)
     bench.store.put(Scene(), "something else")
     bench.files.open_scene(path)
     assert bench.store.scene == saved
-    assert bench.said == ["Saved mine.toml", "Opened mine.toml"]
+    assert bench.status_message == ["Saved mine.toml", "Opened mine.toml"]
 
 
 def test_opening_a_scene_is_one_step_that_can_be_undone(bench: Bench, tmp_path: Path) -> None:
@@ -76,7 +76,7 @@ def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
     if content is not None:
         path.write_bytes(content)
     bench.files.open_scene(path)
-    (sentence,) = bench.said
+    (sentence,) = bench.status_message
     assert sentence.endswith((".", "?"))
     assert "Opened" not in sentence
     assert bench.store.scene == small_scene
@@ -88,8 +88,8 @@ def test_a_scene_that_cannot_be_written_says_so_and_leaves_nothing(
 ) -> None:
     for path in (tmp_path, tmp_path / "nowhere" / "scene.toml"):
         bench.files.save_scene(path)
-        assert str(path) in bench.said[-1]
-        assert "Saved" not in bench.said[-1]
+        assert str(path) in bench.status_message[-1]
+        assert "Saved" not in bench.status_message[-1]
     assert list(tmp_path.iterdir()) == []
 
 
@@ -98,7 +98,7 @@ def test_a_scene_is_not_saved_where_it_would_not_open_again(
     bench: Bench, tmp_path: Path, name: str
 ) -> None:
     bench.files.save_scene(tmp_path / name)
-    assert bench.said == [f"{tmp_path / name} has no ending of a scene file; use .toml."]
+    assert bench.status_message == [f"{tmp_path / name} has no ending of a scene file; use .toml."]
     assert list(tmp_path.iterdir()) == []
 
 
@@ -110,7 +110,7 @@ def test_a_scene_file_of_another_name_is_opened_and_saved_to_a_new_one(
     with qtbot.assertNotEmitted(bench.files.scene_opened):
         bench.files.open_scene(path)
     assert bench.store.scene == Scene()
-    assert bench.said == ["Opened the scene inside scene.txt"]
+    assert bench.status_message == ["Opened the scene inside scene.txt"]
 
 
 @pytest.mark.parametrize("ending", ["png", "bmp", "tif"])
@@ -122,7 +122,7 @@ def test_a_saved_picture_is_exactly_the_one_shown(
     bench.files.show_snapshot(shown)
     path = tmp_path / f"picture.{ending}"
     bench.files.save_picture(path)
-    assert bench.said == [f"Saved picture.{ending}"]
+    assert bench.status_message == [f"Saved picture.{ending}"]
     assert np.array_equal(cv2.imread(str(path), cv2.IMREAD_UNCHANGED), shown.frame.image)
 
 
@@ -132,14 +132,14 @@ def test_a_picture_that_cannot_be_written_says_so_and_leaves_nothing(
     bench.files.show_snapshot(snapshot_of())
     for path in (tmp_path / "p", tmp_path / "p.toml", tmp_path / "nowhere" / "p.png"):
         bench.files.save_picture(path)
-        assert path.name in bench.said[-1]
-        assert "Saved" not in bench.said[-1]
+        assert path.name in bench.status_message[-1]
+        assert "Saved" not in bench.status_message[-1]
     assert list(tmp_path.iterdir()) == []
 
 
 def test_before_the_first_picture_there_is_none_to_save(bench: Bench, tmp_path: Path) -> None:
     bench.files.save_picture(tmp_path / "picture.png")
-    assert bench.said == ["There is no picture yet."]
+    assert bench.status_message == ["There is no picture yet."]
     assert list(tmp_path.iterdir()) == []
 
 
@@ -159,7 +159,7 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     bench.files.ask_to_save_scene()
     bench.files.ask_to_save_picture()
     bench.files.ask_for_scene()
-    assert bench.said == ["Saved a.toml", "Saved b.png", "Opened a.toml"]
+    assert bench.status_message == ["Saved a.toml", "Saved b.png", "Opened a.toml"]
     with qtbot.waitSignal(bench.photos.opened) as opened:
         bench.files.ask_for_photo()
     assert opened.args[0].path == photo_file
@@ -192,7 +192,7 @@ def test_a_cancelled_dialog_does_nothing(
         bench.files.ask_to_save_picture,
     ):
         ask_user()
-    assert bench.said == []
+    assert bench.status_message == []
     assert not bench.photos.runner.is_running
     assert bench.store.scene == small_scene
 

@@ -50,10 +50,10 @@ def answer(monkeypatch: pytest.MonkeyPatch) -> Answer:
 def matched(application: Application, user: User, photo_file: Path) -> Application:
     """Open a photo and match it, as if with a known LED."""
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     application.photo.form.sent.show_key("square")
     application.desk.match()
-    user.rest()
+    user.wait_until_idle()
     assert application.desk.matching.match is not None, application.photo.failure.text()
     return application
 
@@ -112,7 +112,7 @@ def test_a_saved_match_is_listed_after_the_programs_presets_and_loaded(
     assert user.message == "Saved the preset my phone"
     assert preset_named("my phone").title == "Measured from stripes.png"
     matched.controls.preset_chosen.emit("my phone")
-    user.rest()
+    user.wait_until_idle()
     assert matched.desk.matching.match is not None
     assert matched.store.scene == matched.desk.matching.match.scene
     assert matched.controls.preset.currentText() == "my phone"

@@ -59,7 +59,7 @@ class Bench:
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
         self.shown.append(profile)
 
-    def rest(self) -> None:
+    def residual(self) -> None:
         self.go_on.set()
         self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
 
@@ -100,7 +100,7 @@ def test_the_photo_is_drawn_as_it_is_until_its_stripes_are_found(
     assert bench.last.comparison is None
     assert bench.last.sentence == ""
     assert bench.last.raw is photo.profile
-    bench.rest()
+    bench.residual()
     assert bench.comparison.correlation != 0.0
 
 
@@ -110,12 +110,12 @@ def test_what_is_compared_is_the_photo_without_its_uneven_light_from_its_region_
     snapshot = snapshot_of()
     bench.controller.show_snapshot(snapshot)
     bench.controller.show_photo(photo)
-    bench.rest()
-    evened = stripes_of(photo).evened
+    bench.residual()
+    flattened = stripes_of(photo).flattened
     for placement in (Placement(300.0, 5.0), Placement(200.25, 0.0, 2.5)):
         bench.placements.move(placement)
         first = placement.column + 10 * placement.scale
-        expected = compare(evened, snapshot.frame.profile, first, placement.scale)
+        expected = compare(flattened, snapshot.frame.profile, first, placement.scale)
         assert bench.comparison.first_column == expected.first_column
         assert bench.comparison.photo.tolist() == expected.photo.tolist()
         assert bench.comparison.rmse == expected.rmse
@@ -129,7 +129,7 @@ def test_every_simulation_is_compared_and_the_stripes_are_searched_for_once(
     for changes in ({}, {"exposure_time": 30e-6}, {"iso": 50.0}):
         snapshot = snapshot_of(**changes)
         bench.controller.show_snapshot(snapshot)
-        bench.rest()
+        bench.residual()
         first = bench.comparison.first_column
         length = len(bench.comparison.simulated)
         levels = snapshot.frame.profile[first : first + length]
@@ -143,7 +143,7 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
     snapshot = snapshot_of()
     bench.controller.show_photo(photo)
     bench.controller.show_snapshot(snapshot)
-    bench.rest()
+    bench.residual()
     for enhanced, profile in ((True, snapshot.frame.enhanced), (False, snapshot.frame.profile)):
         bench.controller.set_enhanced(enhanced)
         first = bench.comparison.first_column
@@ -156,7 +156,7 @@ def test_where_there_are_no_stripes_the_sentence_says_so_and_the_photo_is_drawn(
     bench.stripes = refuse
     bench.controller.show_snapshot(snapshot_of())
     bench.controller.show_photo(photo)
-    bench.rest()
+    bench.residual()
     assert bench.last.comparison is None
     assert bench.last.sentence == SENTENCE
     assert bench.last.raw is photo.profile
@@ -167,7 +167,7 @@ def test_a_photo_moved_beside_the_picture_is_answered_by_a_sentence(
 ) -> None:
     bench.controller.show_snapshot(snapshot_of())
     bench.controller.show_photo(photo)
-    bench.rest()
+    bench.residual()
     bench.placements.move(Placement(1e5))
     assert bench.last.comparison is None
     assert bench.last.sentence.endswith(".")
@@ -182,7 +182,7 @@ def test_the_stripes_of_a_photo_that_is_gone_are_forgotten(
     bench.go_on.clear()
     bench.controller.show_photo(photo)
     bench.controller.show_photo(None)
-    bench.rest()
+    bench.residual()
     assert bench.shown[-1] is None
 
 
@@ -191,7 +191,7 @@ def test_a_matchs_own_levels_take_the_place_of_those_found(
 ) -> None:
     bench.controller.show_snapshot(snapshot_of())
     bench.controller.show_photo(photo)
-    bench.rest()
+    bench.residual()
     before = bench.comparison.correlation
     found = stripes_of(photo)
     fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
@@ -207,7 +207,7 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
     bench.go_on.clear()
     bench.controller.show_photo(photo)
     bench.controller.show_match(match_with(photo, stripes_of(photo)))
-    bench.rest()
+    bench.residual()
     assert bench.last.sentence == ""
     assert bench.comparison is not None
 
@@ -216,7 +216,7 @@ def test_where_the_simulation_has_no_stripes_there_is_nothing_to_compare(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.controller.show_photo(photo)
-    bench.rest()
+    bench.residual()
     bench.controller.show_snapshot(snapshot_of(exposure_time=5.0))  # white from rim to rim
     assert bench.last.comparison is None
     assert bench.last.sentence == "The simulation has no stripes there to compare."
@@ -251,7 +251,7 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
     bench.controller.show_snapshot(snapshot)
     bench.controller.show_photo(occ.load_photo(tmp_path / "a.png", "columns"))
     assert bench.placements.placement == Placement()
-    bench.rest()
+    bench.residual()
 
 
 def test_another_photo_does_not_lie_where_the_last_one_was_put(
@@ -263,4 +263,4 @@ def test_another_photo_does_not_lie_where_the_last_one_was_put(
     bench.placements.move(Placement(1.0, 2.0, 3.0))
     bench.controller.show_photo(photo)
     assert bench.placements.placement == Placement(*snapshot.panel_origin)
-    bench.rest()
+    bench.residual()

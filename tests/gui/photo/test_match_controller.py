@@ -280,4 +280,4 @@ def test_without_a_match_nothing_is_saved(bench: Bench, own: Path) -> None:
 
 def test_the_words_of_the_choice_are_those_of_the_model(bench: Bench) -> None:
     assert occ.photo.match.ESTIMATES == ("readout_time", "switching_frequency")
-    assert set(occ.photo.match.SENT) == {"auto", "scene", "read"}
+    assert set(occ.photo.match.PATTERN_SOURCES) == {"auto", "scene", "read"}

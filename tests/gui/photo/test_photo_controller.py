@@ -46,13 +46,13 @@ class Bench:
     def show_photo(self, photo: Photo | None) -> None:
         self.shown.append(photo)
 
-    def rest(self) -> None:
+    def wait_until_idle(self) -> None:
         self.go_on.set()
         self._qtbot.waitUntil(lambda: not self.controller.runner.is_running)
 
     def open(self, path: Path) -> None:
         self.controller.open(path)
-        self.rest()
+        self.wait_until_idle()
 
     def open_and_hold(self, path: Path) -> None:
         """Ask for a photo and come back while it is being read."""
@@ -116,7 +116,7 @@ def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
 ) -> None:
     bench.open_and_hold(photo_file)
     bench.controller.close()
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.shown == [None]
 
 
@@ -141,7 +141,7 @@ def test_a_cancelled_reading_is_given_up_at_once_and_the_last_photo_stays(
     assert ended == [True]
     bench.go_on.set()
     bench.controller.scan_along("lines")
-    bench.rest()
+    bench.wait_until_idle()
     assert [photo.path for photo in bench.shown if photo] == [photo_file, photo_file]
     assert np.array_equal(bench.image, stripes.T)
     assert bench.failures == []
@@ -152,7 +152,7 @@ def test_opening_another_photo_while_one_is_read_shows_the_other(
 ) -> None:
     bench.open_and_hold(photo_file)
     bench.controller.open(other_file)
-    bench.rest()
+    bench.wait_until_idle()
     assert [photo.path for photo in bench.shown if photo] == [other_file]
 
 
@@ -162,7 +162,7 @@ def test_another_scan_axis_turns_the_open_photo(
     bench.open(photo_file)
     for axis, expected in (("lines", stripes.T), ("columns", stripes), ("auto", stripes)):
         bench.controller.scan_along(axis)
-        bench.rest()
+        bench.wait_until_idle()
         assert np.array_equal(bench.image, expected)
 
 
@@ -170,7 +170,7 @@ def test_the_scan_axis_holds_for_the_next_photo(
     bench: Bench, photo_file: Path, stripes: Grey
 ) -> None:
     bench.controller.scan_along("lines")
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.shown == []
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes.T)
@@ -181,7 +181,7 @@ def test_the_scan_axis_chosen_while_a_photo_is_read_holds_for_it(
 ) -> None:
     bench.open_and_hold(photo_file)
     bench.controller.scan_along("lines")
-    bench.rest()
+    bench.wait_until_idle()
     assert np.array_equal(bench.image, stripes.T)
 
 
@@ -191,7 +191,7 @@ def test_after_a_failure_another_scan_axis_turns_the_photo_that_stayed(
     bench.open(photo_file)
     bench.open(tmp_path / "missing.png")
     bench.controller.scan_along("lines")
-    bench.rest()
+    bench.wait_until_idle()
     assert np.array_equal(bench.image, stripes.T)
     assert len(bench.failures) == 1
 
@@ -200,7 +200,7 @@ def test_after_closing_another_scan_axis_opens_nothing(bench: Bench, photo_file:
     bench.open(photo_file)
     bench.controller.close()
     bench.controller.scan_along("lines")
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.shown[-1] is None
 
 
@@ -219,7 +219,7 @@ def test_another_channel_is_taken_of_the_open_photo_and_of_the_next(
     bench.open(coloured_file)
     assert bench.image.max() == 30
     bench.controller.take_channel("green")
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.image.max() == 20
     bench.open(photo_file)
     bench.open(coloured_file)

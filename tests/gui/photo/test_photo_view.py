@@ -15,7 +15,7 @@ from occ_gui.photo.match_form import SQUARE_FREQUENCY
 from occ_gui.photo.match_result import with_uncertainty
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.placement import Placement
-from occ_model.photo.match import ESTIMATES, SENT
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 from occ_model.results import Match, Region, Stripes
 from occ_model.scene.parameter_kinds import Quantity
@@ -111,7 +111,7 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
 def test_everything_that_the_model_can_be_asked_for_can_be_chosen(view: PhotoView) -> None:
     sent = [view.form.sent.itemData(place) for place in range(view.form.sent.count())]
     estimates = [view.form.estimate.itemData(p) for p in range(view.form.estimate.count())]
-    assert set(sent) == {*SENT, "square"}
+    assert set(sent) == {*PATTERN_SOURCES, "square"}
     assert estimates == list(ESTIMATES)
 
 

@@ -209,7 +209,7 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     slider.setSliderDown(True)
     for position in (500, 600, 700):
         slider.setValue(position)
-        user.rest()
+        user.wait_until_idle()
     slider.setSliderDown(False)
     _, then = application.profile.before.getOriginalDataset()
     assert np.array_equal(then, start)

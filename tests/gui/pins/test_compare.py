@@ -118,12 +118,12 @@ def test_a_pin_holds_no_picture(
 
 
 def test_what_cannot_be_done_is_answered_in_a_sentence(pins: PinController) -> None:
-    said: list[str] = []
-    pins.said.connect(said.append)
+    messages: list[str] = []
+    pins.status_message.connect(messages.append)
     pins.pin("A")
     pins.go_to("B")
-    assert len(said) == 2
-    assert all(sentence.endswith(".") for sentence in said)
+    assert len(messages) == 2
+    assert all(sentence.endswith(".") for sentence in messages)
 
 
 @pytest.fixture
@@ -198,7 +198,7 @@ def test_states_are_pinned_by_key_compared_and_gone_back_to_in_one_step(
     assert ["ISO speed", "100", "200"] in texts(compare.table)
     steps = application.store.undo_stack.count()
     compare.returns["A"].click()
-    user.rest()
+    user.wait_until_idle()
     assert application.store.scene == small_scene
     assert application.store.undo_stack.count() == steps + 1
     user.choose("&Undo")

@@ -44,7 +44,7 @@ class Bench:
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
 
-    def rest(self) -> None:
+    def wait_until_idle(self) -> None:
         self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
 
     @property
@@ -55,7 +55,7 @@ class Bench:
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
     bench = Bench(small_scene, qtbot)
-    bench.rest()
+    bench.wait_until_idle()
     yield bench
     bench.controller.stop()
 
@@ -68,7 +68,7 @@ def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None
     for iso in (50.0, 100.0, 200.0):
         for frequency in (2e3, 5e3, 9e3):
             bench.store.change(iso=iso, switching_frequency=frequency)
-        bench.rest()
+        bench.wait_until_idle()
         assert bench.scenes[-1] == bench.store.scene
     assert bench.failures == []
 
@@ -77,20 +77,20 @@ def test_every_change_of_the_settings_ends_with_a_picture_made_by_them(bench: Be
     bench.settings.set_tolerance(50.0)
     bench.settings.set_observable("profile")
     bench.settings.force("jpeg", True)
-    bench.rest()
+    bench.wait_until_idle()
     frame = bench.views[0].shown[-1].frame
     assert (frame.plan.tolerance, frame.plan.observable) == (50.0, "profile")
     assert frame.plan.included == ("jpeg",)
     bench.settings.force("jpeg", None)
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.views[0].shown[-1].frame.plan.included == ()
 
 
 def test_undo_shows_the_scene_before(bench: Bench, small_scene: Scene) -> None:
     bench.store.change(iso=200.0)
-    bench.rest()
+    bench.wait_until_idle()
     bench.store.undo_stack.undo()
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.scenes[-1] == small_scene
 
 
@@ -109,7 +109,7 @@ def test_a_scene_without_a_picture_tells_why_and_the_views_keep_the_last(
     bench: Bench, small_scene: Scene
 ) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
-    bench.rest()
+    bench.wait_until_idle()
     (sentence,) = bench.failures
     assert "behind the camera" in sentence
     assert sentence.endswith(".")
@@ -118,16 +118,16 @@ def test_a_scene_without_a_picture_tells_why_and_the_views_keep_the_last(
 
 def test_after_a_scene_without_a_picture_the_next_one_is_shown(bench: Bench) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
-    bench.rest()
+    bench.wait_until_idle()
     bench.store.change(distance=1.0, yaw=0.2)
-    bench.rest()
+    bench.wait_until_idle()
     assert bench.scenes[-1] == bench.store.scene
     assert len(bench.failures) == 1
 
 
 def test_an_image_too_large_to_make_is_refused_with_a_sentence(bench: Bench) -> None:
     bench.store.change(rows=100_000, columns=1_000_000)
-    bench.rest()
+    bench.wait_until_idle()
     (sentence,) = bench.failures
     assert "million pixels" in sentence
 

@@ -44,7 +44,7 @@ def test_right_after_a_value_is_entered_undo_takes_it_back_from_the_scene(
     field.setFocus()
     qtbot.keyClick(field, Qt.Key.Key_Z, CTRL)
     assert application.store.scene == small_scene
-    user.rest()
+    user.wait_until_idle()
 
 
 def test_while_something_is_typed_undo_takes_back_the_letters_alone(

@@ -148,11 +148,11 @@ def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
         assert_faultless(qtbot, application.window, page)
     for changes in STATES:
         application.store.change(**changes)
-        user.rest()
+        user.wait_until_idle()
         assert_faultless(qtbot, application.window, changes)
     application.open_photo(photo_file)
     application.profile.enhanced.setChecked(True)
-    user.rest()
+    user.wait_until_idle()
     assert_faultless(qtbot, application.window, "photo beside")
     for mode in MODES:
         application.show_mode(mode)
@@ -169,7 +169,7 @@ def test_the_accuracy_pane_is_whole_at_every_size_and_its_plot_can_be_read(
     application.window.resize(size)
     application.window.docks["accuracy"].raise_()
     application.store.change(**MISREAD, edge_time=5e-6)
-    user.rest()
+    user.wait_until_idle()
     assert_faultless(qtbot, application.window, "accuracy")
     assert axis_labels_cut_off(application.window) == []
 
@@ -185,7 +185,7 @@ def test_the_panes_that_explain_and_compare_are_whole_at_every_size(
         window.bring_to_front("equations")
         window.bring_to_front("compare")
         application.store.change(**changes)
-        user.rest()
+        user.wait_until_idle()
         teaching.pins.pin("B")
         application.image.before.chosen.setChecked(True)
         assert_faultless(qtbot, window, changes)
@@ -195,7 +195,7 @@ def test_the_panes_that_explain_and_compare_are_whole_at_every_size(
     for place in (0, 2):
         teaching.guide.pane.choices[place].click()
         teaching.guide.pane.reveal.click()
-        user.rest()
+        user.wait_until_idle()
         assert_faultless(qtbot, window, "answer")
         teaching.guide.pane.all.click()
     assert window.size() == size
@@ -210,7 +210,7 @@ def test_the_window_keeps_the_size_that_the_user_gave_it(
     application.profile.enhanced.setChecked(True)
     for changes in STATES:
         application.store.change(**changes)
-        user.rest()
+        user.wait_until_idle()
         QApplication.processEvents()
         least = application.window.minimumSizeHint()
         assert least.boundedTo(size) == least, changes
@@ -221,7 +221,7 @@ def test_the_window_keeps_the_size_that_the_user_gave_it(
 def test_every_axis_label_fits_its_axis(application: Application, user: User, size: QSize) -> None:
     application.window.resize(size)
     application.store.change(**MISREAD)
-    user.rest()
+    user.wait_until_idle()
     QApplication.processEvents()
     for decoder in range(application.decode.decoders.count()):
         application.decode.decoders.setCurrentIndex(decoder)
@@ -262,7 +262,7 @@ def test_both_steps_of_the_decoder_get_their_share_of_the_room(
 ) -> None:
     application.window.resize(SIZES[-1])
     application.store.change(**MISREAD)
-    user.rest()
+    user.wait_until_idle()
     QApplication.processEvents()
     heights = [
         plot.height() for plot in (application.decode.signal, application.decode.run_lengths)

@@ -78,7 +78,7 @@ def with_photo(qtbot: QtBot, application: Application, user: User, photo_file: P
         window.bring_to_front(name)
         qtbot.waitUntil(lambda dock=dock: not dock.visibleRegion().isEmpty())
     application.open_photo(photo_file)
-    user.rest()
+    user.wait_until_idle()
     return application
 
 
@@ -231,12 +231,12 @@ def test_each_entry_of_the_menus_does_something(
         if place >= len(found):
             application.store.change(iso=100.0 + place)
             application.window.docks["decode"].raise_()
-            user.rest()
+            user.wait_until_idle()
         application.image.simulation.box.setRange(xRange=(3, 9), yRange=(3, 9))
         application.window.statusBar().clearMessage()
         before = looks(application, dialogs)
         action.trigger()
-        user.rest()
+        user.wait_until_idle()
         QApplication.processEvents()
         if looks(application, dialogs) == before:
             idle.add(name)

@@ -23,10 +23,10 @@ def test_a_photo_that_is_moved_and_scaled_is_compared_where_it_lies(
     first: int, scale: float
 ) -> None:
     columns = np.arange(500)
-    evened = np.sin((first + columns * scale) / 9.0)
+    flattened = np.sin((first + columns * scale) / 9.0)
     if first + 499 * scale < 2:
         return
-    found = occ.compare(evened, SIMULATED, first, scale)
+    found = occ.compare(flattened, SIMULATED, first, scale)
     assert found.first_column == max(first, 0)
     assert len(found.photo) == len(found.simulated)
     assert found.correlation > 0.995

@@ -193,6 +193,6 @@ def test_where_a_prefix_fits_the_number_shown_is_from_1_to_1000(
     value = 10.0**exponent
     assume(value < (1e3 if unit is SECOND else 1e12))
     assume(value >= (1e-9 if unit is SECOND else 1.0))
-    symbol, worth = unit.display(value)
+    symbol, factor = unit.display(value)
     assert symbol.endswith(unit.symbol)
-    assert 1 - 1e-9 <= value / worth < 1000
+    assert 1 - 1e-9 <= value / factor < 1000

@@ -9,7 +9,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.effects.paper_view import sight_of
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.results import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -76,7 +76,7 @@ def test_the_current_setting_is_marked_once_a_part(points: list[AccuracyPoint]) 
 def test_both_noise_sources_have_the_sensors_noise() -> None:
     scene = small("phone-68us")
     drawn, reused = of(list(accuracy(scene)), "noise")
-    region = sight_of(scene).region
+    region = paper_view_of(scene).region
     size = sum(decision.bound for decision in occ.plan(scene).decisions)
     # The standard error of the root mean square of n numbers is its 1 / sqrt(2 n).
     for point in (drawn, reused):

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
-from occ_model.results import Edge, RateSettings
+from occ_model.results import RangeEnd, RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import limits as module
 from occ_model.study import theory
@@ -32,10 +32,10 @@ def reads_where(good: Callable[[float], bool], name: str = "switching_frequency"
     return right_bits
 
 
-def ends(edge: Edge | None) -> tuple[float, float]:
-    assert edge is not None
-    assert edge.fails is not None
-    return edge.works.value, edge.fails.value
+def ends(range_end: RangeEnd | None) -> tuple[float, float]:
+    assert range_end is not None
+    assert range_end.fails is not None
+    return range_end.works.value, range_end.fails.value
 
 
 @hypothesis_settings(max_examples=60)
@@ -47,12 +47,12 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "right_bits", reads_where(lambda f: low <= f <= high))
         found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
-    for edge, truth in ((found.lowest, low), (found.highest, high)):
-        works, fails = ends(edge)
+    for range_end, truth in ((found.lowest, low), (found.highest, high)):
+        works, fails = ends(range_end)
         assert min(works, fails) <= truth <= max(works, fails)
         assert max(works, fails) / min(works, fails) <= NEAR
-        assert edge is not None
-        assert edge.width == abs(works - fails)
+        assert range_end is not None
+        assert range_end.width == abs(works - fails)
 
 
 @pytest.mark.parametrize(
@@ -81,11 +81,11 @@ def test_an_interval_to_the_end_of_what_is_searched_is_told_as_such(
     found = occ.limits(far, images=1)
     assert found.frequency.searched == (500.0, 3e6)
     assert found.highest_frequency == 3e6
-    for reach in (found.frequency, found.exposure):
-        for edge in (reach.lowest, reach.highest):
-            assert edge is not None
-            assert (edge.fails, edge.width) == (None, 0.0)
-            assert edge.value in reach.searched
+    for working_range in (found.frequency, found.exposure):
+        for range_end in (working_range.lowest, working_range.highest):
+            assert range_end is not None
+            assert (range_end.fails, range_end.width) == (None, 0.0)
+            assert range_end.value in working_range.searched
     assert (found.shortest_exposure, found.longest_exposure) == found.exposure.searched
 
 
@@ -117,15 +117,15 @@ def test_the_papers_decoder_reads_up_to_the_null_and_down_to_two_packets(preset:
 
 def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     scene = occ.load_preset("phone-136us")
-    edge = occ.limits(scene, rate=90.0, images=2, seed=5).frequency.highest
-    assert edge is not None
-    assert edge.fails is not None
-    for trial in (edge.works, edge.fails):
+    range_end = occ.limits(scene, rate=90.0, images=2, seed=5).frequency.highest
+    assert range_end is not None
+    assert range_end.fails is not None
+    for trial in (range_end.works, range_end.fails):
         at = scene.replace(switching_frequency=trial.value)
         assert occ.success_rate(at, 2, seed=5) == trial.rate
         low, high = occ.wilson_interval(trial.right, trial.sent)
         assert (trial.low, trial.high) == (100 * low, 100 * high)
-    assert edge.fails.rate < 90.0 <= edge.works.rate
+    assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
 
 def test_where_the_scene_itself_is_too_slow_the_answer_lies_above_it() -> None:

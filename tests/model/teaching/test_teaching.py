@@ -80,8 +80,8 @@ def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> No
 
 def test_at_the_null_of_the_equations_an_alternating_pattern_has_no_stripes() -> None:
     scene = Scene().replace(pattern="10", exposure_time=136e-6)
-    said = by_meaning(scene)["no str"].result
-    null = PARAMETERS["switching_frequency"].parse(said.split(";")[0])
+    messages = by_meaning(scene)["no str"].result
+    null = PARAMETERS["switching_frequency"].parse(messages.split(";")[0])
     assert isinstance(null, float)
     at_null = occ.column_profile(scene.replace(switching_frequency=null))
     assert np.ptp(at_null) < 1e-3 * np.ptp(occ.column_profile(scene))

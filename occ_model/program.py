@@ -12,11 +12,19 @@ from io import TextIOWrapper
 from types import FrameType, TracebackType
 
 from occ_model.errors import OccError, OutputError, one_line
-from occ_model.exit_codes import EXIT_FAILURE, EXIT_INTERRUPTED, EXIT_MISUSE
 
 TYPE_CHECKING = False  # as typing has it, which is slow to import
 if TYPE_CHECKING:
     from typing import NoReturn, TextIO
+
+EXIT_FAILURE = 1
+"""Nothing was wrong with the command, but no code could be read, or it could not be finished."""
+
+EXIT_MISUSE = 2
+"""The command asked for something that cannot be."""
+
+EXIT_INTERRUPTED = 130
+"""Ctrl-C ended it: 128 and the signal's number, as shells have it."""
 
 INTERRUPTED = "interrupted."
 """What is said of a program that Ctrl-C ended, where there is no more to say."""

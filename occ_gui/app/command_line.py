@@ -13,17 +13,16 @@ from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
-from occ_model.errors import one_line, shown
-from occ_model.exit_codes import EXIT_MISUSE
-from occ_model.files.writing import write_whole
-from occ_model.program import run_program, say
-from occ_model.scene.from_text import (
-    DEFAULT_PRESET,
+from occ_model.commands.options import (
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
 )
+from occ_model.errors import one_line, shown
+from occ_model.files.writing import write_whole
+from occ_model.program import EXIT_MISUSE, run_program, say
+from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -5,16 +5,16 @@ import sys
 from pathlib import Path
 
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands
-from occ_model.errors import one_line
-from occ_model.files.writing import make_folder
-from occ_model.results import AccuracyPoint
-from occ_model.scene.from_text import (
+from occ_model.commands.options import (
+    Commands,
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
 )
+from occ_model.errors import one_line
+from occ_model.files.writing import make_folder
+from occ_model.results import AccuracyPoint
 from occ_model.study.accuracy import accuracy, point_count
 
 

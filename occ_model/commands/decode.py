@@ -4,13 +4,12 @@ import argparse
 import sys
 from pathlib import Path
 
-from occ_model.commands.options import Commands
-from occ_model.exit_codes import EXIT_FAILURE
+from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
+from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import DecodeResult
-from occ_model.scene.from_text import add_scene_options, scene_of
 
 
 def add_to(commands: Commands) -> None:

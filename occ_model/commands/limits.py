@@ -4,11 +4,10 @@ import argparse
 import math
 import sys
 
-from occ_model.commands.options import Commands
-from occ_model.exit_codes import EXIT_FAILURE
+from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
-from occ_model.scene.from_text import add_scene_options, scene_of
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
@@ -94,9 +93,8 @@ def _range_end(working_range: WorkingRange, range_end: RangeEnd, side: str) -> l
     works = f"at {_written(working_range, range_end.value)} {_counted(range_end.works)}"
     if range_end.fails is None:
         return [f"  {works}; {side} it was not searched."]
-    return [
-        f"  {works}, at {_written(working_range, range_end.fails.value)} {_counted(range_end.fails)}."
-    ]
+    fails = _written(working_range, range_end.fails.value)
+    return [f"  {works}, at {fails} {_counted(range_end.fails)}."]
 
 
 def _written(working_range: WorkingRange, value: float) -> str:

@@ -5,12 +5,12 @@ import sys
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE
-from occ_model.commands.options import Commands
+from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.errors import one_line
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
 from occ_model.results import Match
-from occ_model.scene.from_text import add_scene_options, scene_of, write_scene_file
+from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS, parameter_named
 from occ_model.scene.scene import Scene

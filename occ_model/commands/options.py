@@ -1,10 +1,22 @@
-"""The parser of the command line, and what the commands are added to."""
+"""The options that commands share: the scene, the effects that are simulated, the noise."""
 
 import argparse
 import sys
+from pathlib import Path
 from typing import IO, TYPE_CHECKING, NoReturn, TypeAlias
 
-from occ_model.errors import one_line
+from occ_model.effects.registry import NAMES
+from occ_model.errors import ParameterError, one_line, shown
+from occ_model.scene.argument_checks import check_choice, check_seed
+from occ_model.scene.from_text import DEFAULT_PRESET, read_scene_file, with_settings
+from occ_model.scene.presets import load_preset
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import (
+    NOISE_SOURCES,
+    OBSERVABLES,
+    TOLERANCE,
+    SimulationSettings,
+)
 
 if TYPE_CHECKING:  # argparse's own class cannot be subscripted when it runs
     Commands: TypeAlias = argparse._SubParsersAction[argparse.ArgumentParser]
@@ -26,3 +38,101 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """End with the usage and a message, in which a word of the command line may be long."""
         super().error(one_line(message, _LONGEST_MESSAGE))
+
+
+def add_scene_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say which scene is meant; :func:`scene_of` reads it."""
+    start = parser.add_mutually_exclusive_group()
+    start.add_argument("--preset", default=DEFAULT_PRESET, help="default: %(default)s")
+    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
+    parser.add_argument(
+        "--set",
+        dest="settings",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
+    )
+
+
+def scene_of(options: argparse.Namespace) -> Scene:
+    """Make the scene that a command line asks for.
+
+    Raises
+    ------
+    OccError
+        There is no such preset, file or parameter, or a value is out of range.
+    """
+    scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
+    return with_settings(scene, options.settings)
+
+
+def add_plan_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say which effects are simulated."""
+    own = SimulationSettings()
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=own.tolerance,
+        metavar="LEVELS",
+        help="what effects left out may change, in levels of the stretched profile; "
+        "0: simulate all, inf: none; default: %(default)s",
+    )
+    parser.add_argument(
+        "--observable",
+        choices=OBSERVABLES,
+        default=own.observable,
+        help="what the tolerance is of; default: %(default)s",
+    )
+    for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
+        parser.add_argument(
+            f"--{switch}",
+            action="append",
+            default=[],
+            metavar="EFFECT",
+            help=f"{meaning} whatever its bound, one of {', '.join(NAMES)}; may be repeated",
+        )
+
+
+def add_noise_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say where noise comes from."""
+    own = SimulationSettings()
+    parser.add_argument(
+        "--noise",
+        choices=NOISE_SOURCES,
+        default=own.noise,
+        help="exact: drawn for each pixel; reused: many times faster; default: %(default)s",
+    )
+    parser.add_argument("--seed", type=int, default=own.seed, help="default: %(default)s")
+
+
+def add_simulation_options(parser: argparse.ArgumentParser) -> None:
+    """Let a command line say how a scene is simulated; :func:`simulation_settings_of` reads it."""
+    add_plan_options(parser)
+    add_noise_options(parser)
+
+
+def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
+    """Read how a scene is to be simulated.
+
+    Raises
+    ------
+    ParameterError
+        There is no such effect, one is switched both on and off, or the tolerance or the seed
+        cannot be.
+    """
+    TOLERANCE.check(options.tolerance)
+    check_seed(options.seed)
+    for name in (*options.on, *options.off):
+        check_choice("effect", name, NAMES)
+    for name in set(options.on) & set(options.off):
+        raise ParameterError(
+            f"effect {shown(name)} is switched both on and off; allowed: one of them."
+        )
+    return SimulationSettings(
+        tolerance=options.tolerance,
+        observable=options.observable,
+        force={**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
+        noise=options.noise,
+        seed=options.seed,
+    )

@@ -2,14 +2,14 @@
 
 import argparse
 
-from occ_model.commands.options import Commands
-from occ_model.effects.plan import plan
-from occ_model.scene.from_text import (
+from occ_model.commands.options import (
+    Commands,
     add_plan_options,
     add_scene_options,
     scene_of,
     simulation_settings_of,
 )
+from occ_model.effects.plan import plan
 from occ_model.scene.simulation_settings import SimulationSettings
 
 

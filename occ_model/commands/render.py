@@ -4,16 +4,16 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE
-from occ_model.commands.options import Commands
-from occ_model.errors import one_line
-from occ_model.files.writing import write_image
-from occ_model.scene.from_text import (
+from occ_model.commands.options import (
+    Commands,
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
-    write_scene_file,
 )
+from occ_model.errors import one_line
+from occ_model.files.writing import write_image
+from occ_model.scene.from_text import write_scene_file
 from occ_model.simulation.render import render
 
 

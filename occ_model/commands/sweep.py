@@ -10,16 +10,15 @@ from typing import Any
 
 from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
-from occ_model.commands.options import Commands
+from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError, one_line, shown
-from occ_model.exit_codes import EXIT_INTERRUPTED
+from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import RateSettings, SweepRequest, SweepTable
 from occ_model.results.sweep_request import MOST_JOBS, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count
-from occ_model.scene.from_text import add_scene_options, scene_of
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.request_check import checked_request
 from occ_model.study.sweep.sweep import sweep

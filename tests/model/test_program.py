@@ -143,6 +143,5 @@ def test_nothing_slow_is_imported_before_interruptions_are_answered() -> None:
     loaded = {name for name in done.stdout.split() if name.startswith("occ_model")}
     assert loaded == {
         "occ_model", "occ_model.version", "occ_model.cli", "occ_model.program", "occ_model.errors",
-        "occ_model.exit_codes",
     }  # fmt: skip
     assert {"numpy", "cv2", "argparse"} & set(done.stdout.split()) == set()

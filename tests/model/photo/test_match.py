@@ -10,8 +10,8 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.exit_codes import EXIT_MISUSE
 from occ_model.files.writing import write_image
+from occ_model.program import EXIT_MISUSE
 
 SCENE = random_scene(6)
 PHOTO = take(SCENE)

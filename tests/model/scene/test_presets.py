@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from occ_model import resource_files
 from occ_model.cli import main
 from occ_model.errors import OccError, OutputError, ParameterError, PresetError, SceneFileError
+from occ_model.files import resources
 from occ_model.receiver.decoders import decoder_named
 from occ_model.scene import toml_format
 from occ_model.scene.parameters import PARAMETERS
@@ -131,7 +131,7 @@ def test_the_papers_camera_looks_straight_at_the_panels_centre(name: str) -> Non
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder of presets of our own; names that are used nowhere else, since presets are kept."""
-    monkeypatch.setattr(resource_files, "_resource", tmp_path.joinpath)
+    monkeypatch.setattr(resources, "_resource", tmp_path.joinpath)
     (tmp_path / "presets").mkdir()
     return tmp_path / "presets"
 

@@ -7,11 +7,10 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import MatchError
-from occ_model.photo.description import ESTIMATES, described
 from occ_model.photo.fit.best_timing import Explanation, explain
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
 from occ_model.photo.fit.read_pattern import read_pattern
-from occ_model.photo.fitted_scene import with_notes
+from occ_model.photo.fitted_scene import ESTIMATES, described, with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results import Match, Stripes

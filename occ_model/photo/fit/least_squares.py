@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.photo.stripes.envelope import smooth_shapes
-from occ_model.photo.stripes.uncertainty import correlated_columns
+from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.transmitter.waveform import Duration, Phases, Waveform

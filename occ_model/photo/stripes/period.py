@@ -4,7 +4,6 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
-from occ_model.photo.stripes.uncertainty import correlated_columns
 
 _SHORTEST = 3
 """Columns: anything faster is noise."""
@@ -116,3 +115,23 @@ def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArra
     products = parts.T @ parts
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
     return np.asarray(flattened - parts @ np.linalg.solve(products, parts.T @ flattened))
+
+
+def correlated_columns(residual: FloatArray) -> float:
+    """Say how many columns of what a fit leaves unexplained make one independent number.
+
+    1 + 2 times the sum of the autocorrelations up to the first that is not positive: what a model
+    does not know, such as a lens's blur, is alike in neighbouring columns, and says so once only.
+
+    Parameters
+    ----------
+    residual : ndarray of float64, shape (columns,)
+        Data less model.
+    """
+    power = float(residual @ residual)
+    if power <= 0.0:
+        return 1.0
+    spectrum = np.abs(np.fft.rfft(residual, 2 * len(residual))) ** 2
+    alike = np.fft.irfft(spectrum)[1 : len(residual)] / power
+    ends = np.flatnonzero(alike <= 0.0)
+    return 1.0 + 2.0 * float(alike[: ends[0] if ends.size else None].sum())

@@ -19,7 +19,7 @@ from occ_model.results import AccuracyPoint, Comparison, DecodeResult
 from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from occ_model.figures.drawn import Drawing
+    from occ_model.figures.drawing import Drawing
 
 
 class NothingToDraw(OccError):  # noqa: N818 - no error: it is only too early

@@ -13,7 +13,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:
-    from occ_model.figures.drawn import Drawing
+    from occ_model.figures.drawing import Drawing
 
 # matplotlib takes half a second to import: nothing here imports the export before it is used.
 
@@ -39,7 +39,7 @@ class FigureRequest:
 
     def provenance(self, drawing: "Drawing") -> Provenance:
         """Say where the figure's numbers come from."""
-        from occ_model.figures.notes import settings_notes
+        from occ_model.figures.drawing import settings_notes
 
         scenes, settings = {"at hand": self.scene}, self.settings
         notes = settings_notes(settings)
@@ -113,7 +113,7 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     OutputError
         A figure cannot be written.
     """
-    from occ_model.figures.drawn import write_all
+    from occ_model.figures.drawing import write_all
 
     is_new = not folder.exists()
     make_folder(folder)

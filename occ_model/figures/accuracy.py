@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterMathtext
 
 from occ_model import colours
-from occ_model.figures.drawn import Drawing
-from occ_model.figures.notes import settings_notes
+from occ_model.figures.drawing import Drawing, settings_notes
 from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene

@@ -1,6 +1,8 @@
-"""What all figures share: their look, and how they become files."""
+"""A drawing, which is a figure with its table of numbers: its style, and writing it to files."""
 
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -10,8 +12,10 @@ from matplotlib.figure import Figure
 
 from occ_model import colours
 from occ_model.errors import OutputError
-from occ_model.files.writing import write_whole
+from occ_model.figures.table import write_table
+from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
+from occ_model.scene.simulation_settings import SimulationSettings
 
 # The styles tell the lines apart in grey print, too.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
@@ -19,7 +23,10 @@ BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
 
 FORMATS = ("png", "svg", "pdf")
-"""What figures are written in."""
+"""The file formats of a figure."""
+
+ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")
+"""The endings of the files that a drawing is written to."""
 
 _LOOK: dict[Any, Any] = {
     "font.size": 9,
@@ -91,3 +98,91 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
     """
     for ending in ("pdf", "png"):
         write_figure(folder / f"{name}.{ending}", figure, provenance)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Drawing:
+    """A figure and the numbers in it.
+
+    Parameters
+    ----------
+    name
+        The file's name without ending.
+    title
+        What it shows.
+    draw
+        Draws it, to be called in the house style.
+    header
+        Names of the table's columns, with units.
+    rows
+        Gives the table's rows.
+    """
+
+    name: str
+    title: str
+    draw: Callable[[], Figure]
+    header: Sequence[str]
+    rows: Callable[[], Iterable[Sequence[object]]]
+
+    def write(self, path: Path, provenance: Provenance) -> None:
+        """Write it in the format that the file's ending names, its provenance inside.
+
+        Raises
+        ------
+        OutputError
+            The ending names none, or the file cannot be written.
+        """
+        ending = path.suffix.lower()
+        if ending not in ENDINGS:
+            raise OutputError(
+                f"{path.name} has no ending of a figure or table; use {', '.join(ENDINGS)}."
+            )
+        if ending == ".csv":
+            write_table(path, self.header, self.rows(), provenance)
+            return
+        with house_style():
+            write_figure(path, self.draw(), provenance)
+
+
+def write_all(
+    folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
+) -> list[Path]:
+    """Write drawings in all formats into a folder, which is made where there is none.
+
+    Parameters
+    ----------
+    folder
+        Where to.
+    drawings
+        The drawings.
+    provenance
+        Gives the provenance of each.
+
+    Returns
+    -------
+    list of Path
+        The files.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be made, or a file cannot be written.
+    """
+    make_folder(folder)
+    written = []
+    for drawing in drawings:
+        for ending in ENDINGS:
+            path = folder / f"{drawing.name}{ending}"
+            drawing.write(path, provenance(drawing))
+            written.append(path)
+    return written
+
+
+def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
+    """Write a simulation's settings as lines of a provenance; the seed has a line of its own."""
+    forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
+    return (
+        f"tolerance {settings.tolerance:g} levels of the {settings.observable}",
+        f"noise {settings.noise}",
+        f"by hand: {forced or 'nothing'}",
+    )

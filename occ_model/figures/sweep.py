@@ -15,8 +15,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
-from occ_model.figures.drawing import figure_format, house_style, write_figure
-from occ_model.figures.drawn import Drawing
+from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
 from occ_model.results import SweepTable
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS

@@ -12,8 +12,7 @@ from matplotlib.patches import Rectangle
 
 from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.figures.drawing import BAND, PHOTO, SIMULATION
-from occ_model.figures.drawn import Drawing
+from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, Drawing
 from occ_model.results import Comparison, DecodeResult, Frame, Region
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene

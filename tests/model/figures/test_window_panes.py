@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 import occ_model as occ
-from occ_model.figures.drawn import ENDINGS, Drawing, write_all
+from occ_model.figures.drawing import ENDINGS, Drawing, write_all
 from occ_model.figures.window_panes import decode_drawing, picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene_inside import scene_inside

@@ -21,7 +21,7 @@ from occ_model.results.sweep_request import MOST_JOBS, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.request_check import checked_request
-from occ_model.study.sweep.sweep import sweep
+from occ_model.study.sweep.sweep import run_sweep
 
 BOTH = "both"
 
@@ -134,7 +134,6 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
     """Measure with a bar that shows the time left; None where Ctrl-C ended it."""
     from tqdm import tqdm
 
-    settings = request.settings
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
     reached = 0
     with ExitStack() as stack:
@@ -150,19 +149,12 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
         try:
             stack.enter_context(_warnings_as_sentences())
             executor = stack.enter_context(workers)
-            return sweep(
-                request.scene,
-                request.axes,
-                settings.images,
-                settings.decoders,
-                settings.seed,
+            return run_sweep(
+                request,
                 executor=executor,
                 jobs=options.jobs,
                 progress=progress,
                 results=options.out,
-                path=settings.path,
-                tolerance=settings.tolerance,
-                force=settings.force,
             )
         except KeyboardInterrupt:
             pass

@@ -1,4 +1,4 @@
-"""Success rates over any parameters, at as many points as it takes."""
+"""Measure success rates at all combinations of some parameters' values."""
 
 import math
 import warnings
@@ -27,10 +27,10 @@ from occ_model.study.sweep.results_file import ResultsFile
 from occ_model.study.sweep.workers import GivenWorkers, measure_by
 
 Progress: TypeAlias = Callable[[int, int, float], object]
-"""Is told how many points are done, of how many, and how many seconds are left."""
+"""Called with the number of points done, of all points, and of seconds left."""
 
 _BEAT = 0.2
-"""Seconds between two signs of life while a point takes long."""
+"""Seconds between two calls of the progress while a point takes long."""
 
 
 def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -50,81 +50,117 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> SweepTable:
     """Measure the success rate at all combinations of some parameters' values.
 
-    Every point can be had again by itself: its rate is exactly
+    Every point can be measured again by itself: its rate is exactly
     ``success_rate(scene.replace(**point), images, decoder, seed)``. All points have the same seed,
     and so start times at the same shares of a packet, whichever other points there are.
 
     Parameters
     ----------
     scene
-        What is not varied.
+        The scene, which gives the parameters that are not varied.
     axes
-        The values of each parameter that is, by name and in SI units.
+        The values of each parameter that is varied, by name and in SI units.
     images
-        Images a point.
+        Images at each point.
     decoder
         A decoder's name, or several: they read the same images.
     seed
-        Of start times and noise.
-    executor
-        Any executor of ``concurrent.futures`` whose workers can import this package, such as
-        ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
-        process finishes the sweep, with a ``RuntimeWarning`` that says so. None: ``jobs``.
-    jobs
-        How many processes of its own the sweep starts, and starts again where they die; 1: none, it
-        runs in this process, which it does with a ``RuntimeWarning`` also where the system has no
-        processes to give. No more are started than there are points to measure, and a few for
-        each core. As with all processes of Python, the module that starts them must not
-        do so when it is imported (``if __name__ == "__main__":``).
-    progress
-        Called after each point, and several times a second while a point takes longer, with the
-        number of points done, of all, and of seconds left (not a number before the first). Whatever
-        it raises, ``KeyboardInterrupt`` or an exception of its own, ends the sweep and is passed
-        on; what is done is kept in the file ``results``.
-    results
-        A CSV file that each point is appended to as it comes. Where it holds a part of this same
-        sweep, also one that was killed, only the rest is measured; complete, it is in the order of
-        the axes. See :class:`occ_model.study.sweep.results_file.ResultsFile`.
+        Seed of the start times and the noise.
+    executor, jobs, progress, results
+        As for :func:`run_sweep`.
     path, tolerance, force
         As for :func:`occ_model.success_rate`.
 
     Returns
     -------
     SweepTable
-        In the order of the axes. A point whose scene the model refuses has no rate but a note.
+        In the order of the axes. A point whose scene the model refuses has a note and no rate.
+
+    Raises
+    ------
+    ParameterError, OutputError
+        An argument is not allowed, or the file cannot be written, as for :func:`run_sweep`.
+    """
+    settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
+    request = checked_request(scene, axes, settings)
+    return run_sweep(request, executor=executor, jobs=jobs, progress=progress, results=results)
+
+
+def run_sweep(
+    request: SweepRequest,
+    *,
+    executor: Executor | None = None,
+    jobs: int = 1,
+    progress: Progress | None = None,
+    results: str | Path | None = None,
+) -> SweepTable:
+    """Measure a sweep that has been requested.
+
+    Parameters
+    ----------
+    request
+        A request as :func:`occ_model.study.sweep.request_check.checked_request` makes it.
+    executor
+        Any executor of ``concurrent.futures`` whose workers can import this package, such as
+        ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
+        process finishes the sweep, with a ``RuntimeWarning``. None: ``jobs`` processes.
+    jobs
+        Number of processes to start, and to start again where they die; 1: none, the sweep runs in
+        this process, as it does with a ``RuntimeWarning`` where the system has no processes to
+        give. At most one a point and a few a core are started. The module that calls this must not
+        do so when it is imported (``if __name__ == "__main__":``).
+    progress
+        Called after each point, and several times a second while a point takes longer, with the
+        number of points done, of all points, and of seconds left (not a number before the first).
+        Whatever it raises ends the sweep and is passed on; the file ``results`` keeps what is done.
+    results
+        A CSV file to which each point is appended as it comes. Where it holds a part of this same
+        sweep, also one that was killed, only the remainder is measured; a complete file is in the
+        order of the axes. See :class:`occ_model.study.sweep.results_file.ResultsFile`.
 
     Raises
     ------
     ParameterError
-        An axis names no parameter, has no values, one out of range or one twice; or another
-        argument cannot be. Nothing has been measured or written then.
+        ``jobs`` is not allowed. Nothing has been measured or written then.
     OutputError
         The file cannot be written, is in use by another sweep, or holds something else.
     """
-    settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
-    request = checked_request(scene, axes, settings)
     check_count("jobs", jobs, 1, MOST_JOBS)
-    counts = _Counts(request)
-    clock = _Clock(request.points, progress)
     with ExitStack() as stack:
         file = None
         if results is not None:
             file = stack.enter_context(ResultsFile(Path(results), request, rate_intervals))
-            for point in file.points_there():
-                counts.enter(point)
-            clock.start(counts.entered)
-        remainder = (index for index in request.in_order_of_work() if not counts.has(index))
-        jobs = processes_for(jobs, request.points - counts.entered)
-        points = measure(request, remainder, executor=executor, jobs=jobs, pulse=clock.pulse)
-        # Closed at once, and not when nobody remembers what ended it: workers wait for that.
-        for point in stack.enter_context(closing(points)):
+        return _measured_table(request, file, executor, jobs, progress)
+
+
+def _measured_table(
+    request: SweepRequest,
+    file: ResultsFile | None,
+    executor: Executor | None,
+    jobs: int,
+    progress: Progress | None,
+) -> SweepTable:
+    """Measure the points that the file does not hold yet, append them, and give all of them."""
+    counts = _Counts(request)
+    clock = _Clock(request.points, progress)
+    if file is not None:
+        for point in file.points_there():
+            counts.enter(point)
+        clock.start(counts.entered)
+    remainder = (index for index in request.in_order_of_work() if not counts.has(index))
+    jobs = processes_for(jobs, request.points - counts.entered)
+    # Closed here, whatever ends it: workers that are not closed would go on.
+    with closing(
+        measure(request, remainder, executor=executor, jobs=jobs, pulse=clock.pulse)
+    ) as points:
+        for point in points:
             if file is not None:
                 file.append(point)
             counts.enter(point)
             clock.count()
-        table = counts.table()
-        if file is not None:
-            file.finish(table)
+    table = counts.table()
+    if file is not None:
+        file.finish(table)
     return table
 
 
@@ -186,7 +222,7 @@ def _interval(right: int, sent: int) -> tuple[float, float]:
 
 
 class _Counts:
-    """What was counted so far, a few bytes a point."""
+    """The counts so far, a few bytes a point."""
 
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
@@ -199,7 +235,7 @@ class _Counts:
         self.entered = 0
 
     def has(self, index: int) -> bool:
-        """Say whether a point is there."""
+        """Return whether a point has been entered."""
         return bool(self._there[index])
 
     def enter(self, point: SweepPoint) -> None:
@@ -213,7 +249,7 @@ class _Counts:
         self.entered += 1
 
     def table(self) -> SweepTable:
-        """Give all of it in the order of the axes."""
+        """Make the table, in the order of the axes."""
         shape = self._request.shape
         return SweepTable(
             self._request,
@@ -226,7 +262,7 @@ class _Counts:
 
 
 class _Clock:
-    """Tells how far a sweep is."""
+    """Measures the progress of a sweep and its time left, and reports both."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self._progress = progress
@@ -235,7 +271,7 @@ class _Clock:
         self._started = self._told = perf_counter()
 
     def start(self, found: int) -> None:
-        """Begin with some points that were there already."""
+        """Begin with some points that the results file held."""
         self._done = self._found = found
         self._started = self._told = perf_counter()
         if found:
@@ -247,7 +283,7 @@ class _Clock:
         self._tell()
 
     def pulse(self) -> None:
-        """Give a sign of life, if the last one was long ago."""
+        """Report the progress again where the last report was long ago."""
         if perf_counter() - self._told >= _BEAT:
             self._tell()
 

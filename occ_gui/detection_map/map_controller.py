@@ -22,7 +22,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.sweep.sweep import rate_intervals
+from occ_model.study.sweep.counts import rate_intervals
 
 FIRST_AXES = ("switching_frequency", "distance")
 

@@ -6,7 +6,7 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import map_request
 from occ_gui.detection_map.rate_map import RateMap
 from occ_model.results import SweepPoint, SweepTable
-from occ_model.study.sweep.sweep import rate_intervals
+from occ_model.study.sweep.counts import rate_intervals
 
 
 def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:

@@ -3,6 +3,7 @@
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 from occ_model.commands.files import folder_of_figures
 from occ_model.commands.options import Commands
@@ -10,18 +11,28 @@ from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
-from occ_model.results.sweep_request import MOST_IMAGES
+from occ_model.results import SweepRequest, SweepTable
+from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.units import HERTZ
-from occ_model.study.paper_grid import DEVICES, IMAGES, GridPoint, ceases_at, measure, point_count
+from occ_model.study.paper_grid import DEVICES, IMAGES, ceases_at, grid_request
+from occ_model.study.sweep.sweep import Progress, run_sweep
 
 
 def add_to(commands: Commands) -> None:
     """Add the command."""
-    parser = commands.add_parser("figures", help="write the paper's figures 2 to 6")
+    parser = commands.add_parser(
+        "figures",
+        help="write the paper's figures 2 to 6",
+        epilog="Stopped by Ctrl-C, or by anything else, the rates that are measured stay in the "
+        "folder of --out until their figure is written; the same command goes on from there.",
+    )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder to fill")
     parser.add_argument("--images", type=int, default=IMAGES, help="a point; default: %(default)s")
     parser.add_argument("--seed", type=int, default=1, help="default: %(default)s")
+    parser.add_argument(
+        "--jobs", type=int, default=1, metavar="N", help="processes; default: %(default)s"
+    )
     for exposure in ("68us", "136us"):
         parser.add_argument(
             f"--photo-{exposure}", type=Path, metavar="FILE", help="its profile is drawn too"
@@ -33,6 +44,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     check_count("images", options.images, 1, MOST_IMAGES)
     check_seed(options.seed)
+    check_count("jobs", options.jobs, 1, MOST_JOBS)
     # matplotlib takes half a second to import: only for those who want a figure.
     from occ_model.figures.drawing import house_style
 
@@ -54,20 +66,49 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
     paper.write_process_figure(options.out)
     paper.write_profile_figure(options.out, 3, "phone-68us", photos[0])
     paper.write_profile_figure(options.out, 4, "phone-136us", photos[1])
-    decoders = tuple(DECODERS)
-    total = sum(point_count(presets, decoders) for presets in DEVICES.values())
-    with tqdm(total=total, unit="point", file=sys.stderr) as bar:
+    requests = _requests(options)
+    points = sum(request.points for request in requests.values())
+    with tqdm(total=points, unit="point", file=sys.stderr) as bar:
         for number, (device, presets) in enumerate(DEVICES.items(), start=5):
             bar.set_description(device)
-            points = list(measure(presets, decoders, options.images, options.seed, bar.update))
-            paper.write_rate_figure(options.out, number, device, points, options.seed)
-            for preset in presets:
-                bar.write(_ceasing(preset, points), file=sys.stdout)
+            tables = {
+                preset: run_sweep(
+                    requests[preset],
+                    jobs=options.jobs,
+                    progress=_progress_of(bar),
+                    results=_rates_file(options, preset),
+                )
+                for preset in presets
+            }
+            paper.write_rate_figure(options.out, number, device, tables)
+            for preset, table in tables.items():
+                _rates_file(options, preset).unlink()
+                bar.write(_ceasing(preset, table), file=sys.stdout)
 
 
-def _ceasing(preset: str, points: list[GridPoint]) -> str:
-    mine = [p for p in points if p.preset == preset and p.decoder == PAPER_DECODER]
-    frequency = ceases_at(mine)
+def _progress_of(bar: Any) -> Progress:
+    """Let one sweep move a bar on from where it is."""
+    before = bar.n
+    return lambda done, _total, _left: bar.update(before + done - bar.n)
+
+
+def _requests(options: argparse.Namespace) -> dict[str, SweepRequest]:
+    """Request the sweep of each preset."""
+    return {
+        preset: grid_request(preset, tuple(DECODERS), options.images, options.seed)
+        for presets in DEVICES.values()
+        for preset in presets
+    }
+
+
+def _rates_file(options: argparse.Namespace, preset: str) -> Path:
+    """Name the file that keeps the rates until their figure is written."""
+    folder: Path = options.out
+    return folder / f"rates-{preset}-images-{options.images}-seed-{options.seed}.csv"
+
+
+def _ceasing(preset: str, table: SweepTable) -> str:
+    frequency = ceases_at(table, PAPER_DECODER)
     if frequency is None:
         return f"{preset}: detection goes on to the highest frequency"
     return f"{preset}: detection ceases at {HERTZ.format(frequency)}"

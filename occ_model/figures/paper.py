@@ -1,7 +1,7 @@
 """The paper's figures 2 to 6, from the simulation."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -16,15 +16,14 @@ from occ_model.errors import BandModelUndefined, one_line
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure
 from occ_model.figures.table import write_table
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Frame
+from occ_model.results import Frame, SweepTable
 from occ_model.scene.presets import load_preset
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, METRE
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render
-from occ_model.study.confidence import wilson_interval
-from occ_model.study.paper_grid import DEVICES, DISTANCES, FREQUENCIES, GridPoint
+from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
 from occ_model.transmitter.packet import packet
 
 _PICTURE_STEP = 8
@@ -135,44 +134,57 @@ def _padded(values: FloatArray, length: int) -> FloatArray:
 
 
 def write_rate_figure(
-    folder: Path, number: int, device: str, points: Sequence[GridPoint], seed: int
+    folder: Path, number: int, device: str, tables: Mapping[str, SweepTable]
 ) -> None:
-    """Write figure 5 or 6: success rate over frequency and distance, at both exposure times."""
-    presets = DEVICES[device]
-    decoders = list(dict.fromkeys(point.decoder for point in points))
-    figure = Figure(figsize=(7.2, 2.6 * len(decoders) + 0.6))
-    axes = figure.subplots(len(decoders), len(presets), squeeze=False, sharex=True, sharey=True)
-    for row, decoder in enumerate(decoders):
-        for column, preset in enumerate(presets):
-            ax = axes[row, column]
-            rates = {
-                (p.distance, p.switching_frequency): p.rate
-                for p in points
-                if (p.preset, p.decoder) == (preset, decoder)
-            }
-            grid = np.array([[rates[d, f] for f in FREQUENCIES] for d in DISTANCES])
-            image = _draw_rates(ax, grid)
-            exposure = load_preset(preset).camera.exposure_time
-            ax.set_title(f"{exposure * 1e6:.0f} µs, {decoder} decoder", fontsize=9)
-            ax.label_outer()
-    figure.supxlabel("switching frequency (kHz)", fontsize=9)
-    figure.supylabel("distance (cm)", fontsize=9)
-    figure.colorbar(image, ax=axes, label="success rate (%)", shrink=0.8)
-    title = f"Figure {number}: success rate, {device}, {points[0].images} images a point"
-    provenance = Provenance(title, {name: load_preset(name) for name in presets}, seed)
-    save_figure(figure, folder, f"figure-{number}", provenance)
+    """Write figure 5 or 6: success rate over frequency and distance, at both exposure times.
+
+    Parameters
+    ----------
+    folder
+        The folder to write to.
+    number
+        The figure's number.
+    device
+        The device's name.
+    tables
+        The rates of each of the device's presets, measured alike.
+    """
+    settings = next(iter(tables.values())).request.settings
+    title = f"Figure {number}: success rate, {device}, {settings.images} images a point"
+    scenes = {preset: table.request.scene for preset, table in tables.items()}
+    provenance = Provenance(title, scenes, settings.seed)
+    save_figure(_rate_maps(tables), folder, f"figure-{number}", provenance)
     header = (
         "preset", "decoder", "switching frequency (Hz)", "distance (m)", "images", "seed",
         "success rate (%)", "95 % from (%)", "95 % to (%)",
     )  # fmt: skip
     rows = [
         (
-            p.preset, p.decoder, p.switching_frequency, p.distance, p.images, p.seed, p.rate,
-            *(100.0 * end for end in wilson_interval(p.right_bits, p.sent_bits)),
+            preset, row.decoder, row.point["switching_frequency"], row.point["distance"],
+            settings.images, settings.seed, row.rate, row.low, row.high,
         )
-        for p in points
+        for preset, table in tables.items()
+        for row in table.each_row()
     ]  # fmt: skip
     write_table(folder / f"figure-{number}.csv", header, rows, provenance)
+
+
+def _rate_maps(tables: Mapping[str, SweepTable]) -> Figure:
+    """Draw a map for each preset and decoder."""
+    decoders = next(iter(tables.values())).decoders
+    figure = Figure(figsize=(7.2, 2.6 * len(decoders) + 0.6))
+    axes = figure.subplots(len(decoders), len(tables), squeeze=False, sharex=True, sharey=True)
+    for column, table in enumerate(tables.values()):
+        exposure = table.request.scene.camera.exposure_time
+        for row, decoder in enumerate(decoders):
+            ax = axes[row, column]
+            image = _draw_rates(ax, table.rates(decoder).T)
+            ax.set_title(f"{exposure * 1e6:.0f} µs, {decoder} decoder", fontsize=9)
+            ax.label_outer()
+    figure.supxlabel("switching frequency (kHz)", fontsize=9)
+    figure.supylabel("distance (cm)", fontsize=9)
+    figure.colorbar(image, ax=axes, label="success rate (%)", shrink=0.8)
+    return figure
 
 
 def _draw_rates(ax: Axes, grid: FloatArray) -> AxesImage:

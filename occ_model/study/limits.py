@@ -22,7 +22,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.success_rate import check_rate, right_bits
-from occ_model.study.sweep.sweep import rate_intervals
+from occ_model.study.sweep.counts import rate_intervals
 
 STEP = 1.15
 """Ratio of neighbouring values in the first, coarse search."""

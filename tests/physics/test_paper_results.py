@@ -6,37 +6,44 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.results import SweepRow, SweepTable
+from occ_model.scene.scene import Scene
 from occ_model.study.paper_grid import (
     DEVICES,
     DISTANCES,
     FREQUENCIES,
-    GridPoint,
     ceases_at,
-    measure,
-    point_count,
+    grid_request,
     point_scene,
 )
+from occ_model.study.sweep.sweep import run_sweep
 from occ_model.transmitter.packet import HEADER, packet_length
 
 
 @cache
-def grid(preset: str, decoder: str = "threshold") -> tuple[GridPoint, ...]:
-    return tuple(measure([preset], [decoder]))
+def grid(preset: str, decoder: str = "threshold") -> SweepTable:
+    return run_sweep(grid_request(preset, [decoder]))
 
 
-def two_headers_fit(point: GridPoint) -> bool:
+def scene_of(preset: str, row: SweepRow) -> Scene:
+    frequency, distance = row.point["switching_frequency"], row.point["distance"]
+    return point_scene(preset, float(frequency), float(distance))
+
+
+def two_headers_fit(preset: str, row: SweepRow) -> bool:
     """Whether two whole headers lie in the panel's image wherever a packet happens to start."""
-    scene = point_scene(point.preset, point.switching_frequency, point.distance)
+    scene = scene_of(preset, row)
     panel = np.clip(occ.panel_corners(scene)[:, 0], 0, scene.camera.columns - 1)
     seconds = float(np.ptp(panel)) * scene.camera.readout_time
-    return seconds * point.switching_frequency >= 2 * packet_length(10) + len(HEADER)
+    chips = seconds * scene.transmitter.switching_frequency
+    return chips >= 2 * packet_length(10) + len(HEADER)
 
 
-def rates(preset: str, low: float, high: float, decoder: str = "threshold") -> list[float]:
+def rates(preset: str, low: float, high: float, decoder: str = "threshold") -> list[float | None]:
     found = [
-        point.rate
-        for point in grid(preset, decoder)
-        if low <= point.switching_frequency <= high and two_headers_fit(point)
+        row.rate
+        for row in grid(preset, decoder).rows
+        if low <= float(row.point["switching_frequency"]) <= high and two_headers_fit(preset, row)
     ]
     assert found
     return found
@@ -60,7 +67,7 @@ def test_twice_the_exposure_is_read_past_the_period_up_to_the_papers_last_freque
 def test_detection_ceases_one_step_after_the_frequency_that_the_paper_names(
     preset: str, paper: float
 ) -> None:
-    assert ceases_at(grid(preset)) == paper + 2e3
+    assert ceases_at(grid(preset), "threshold") == paper + 2e3
 
 
 @pytest.mark.parametrize(
@@ -79,12 +86,12 @@ def test_a_real_lens_ends_detection_where_the_experiment_ended(preset: str, last
 
 @pytest.mark.parametrize("preset", ["phone-68us", "tablet-61us"])
 def test_detection_goes_on_to_20_khz_at_the_lowest_exposure(preset: str) -> None:
-    assert ceases_at(grid(preset)) is None
+    assert ceases_at(grid(preset), "threshold") is None
 
 
 @pytest.mark.parametrize("preset", DEVICES["tablet"])
 def test_tablet_at_2_khz_loses_codes_with_distance(preset: str) -> None:
-    by_distance = [p.rate for p in grid(preset) if p.switching_frequency == 2e3]
+    by_distance = grid(preset).rates()[FREQUENCIES.index(2e3)].tolist()
     assert by_distance[0] == 100.0
     assert by_distance[-1] == 0.0
     # Five images a point: single points may stand out, the trend may not.
@@ -96,14 +103,15 @@ def test_matched_decoder_reads_every_point_where_a_packet_fits() -> None:
 
 
 def test_a_point_is_measured_again_by_its_own_seed() -> None:
-    point = next(p for p in grid("tablet-61us") if 0.0 < p.rate < 100.0)
-    scene = point_scene(point.preset, point.switching_frequency, point.distance)
-    assert occ.success_rate(scene, point.images, point.decoder, point.seed) == point.rate
+    rows = run_sweep(grid_request("tablet-61us", ["threshold"], 3, 7)).rows
+    row = next(row for row in rows if row.rate is not None and 0.0 < row.rate < 100.0)
+    scene = scene_of("tablet-61us", row)
+    assert occ.success_rate(scene, 3, row.decoder, 7) == row.rate
 
 
 def test_the_grid_is_the_papers() -> None:
     assert tuple(range(2000, 20001, 2000)) == FREQUENCIES
     assert DISTANCES == (0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
-    calls: list[None] = []
-    points = list(measure(["tablet-61us"], ["threshold"], 1, 1, lambda: calls.append(None)))
-    assert len(points) == len(calls) == point_count(["tablet-61us"], ["threshold"]) == 80
+    request = grid_request("tablet-61us", ["threshold"])
+    assert dict(request.axes) == {"switching_frequency": FREQUENCIES, "distance": DISTANCES}
+    assert request.settings.images == 5

@@ -5,12 +5,9 @@ import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, closing
-from functools import lru_cache
 from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
-
-import numpy as np
 
 from occ_model.errors import one_line
 from occ_model.receiver.decoders import PAPER_DECODER
@@ -20,7 +17,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.study.confidence import wilson_interval
+from occ_model.study.sweep.counts import Counts, rate_intervals
 from occ_model.study.sweep.points import Pulse, measure_here
 from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import ResultsFile
@@ -50,9 +47,8 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> SweepTable:
     """Measure the success rate at all combinations of some parameters' values.
 
-    Every point can be measured again by itself: its rate is exactly
-    ``success_rate(scene.replace(**point), images, decoder, seed)``. All points have the same seed,
-    and so start times at the same shares of a packet, whichever other points there are.
+    A point's rate is ``success_rate(scene.replace(**point), images, decoder, seed)``: all points
+    have the same seed, and so start times at the same shares of a packet.
 
     Parameters
     ----------
@@ -79,7 +75,7 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     Raises
     ------
     ParameterError, OutputError
-        An argument is not allowed, or the file cannot be written, as for :func:`run_sweep`.
+        An argument is not allowed, or as for :func:`run_sweep`.
     """
     settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
     request = checked_request(scene, axes, settings)
@@ -141,7 +137,7 @@ def _measured_table(
     progress: Progress | None,
 ) -> SweepTable:
     """Measure the points that the file does not hold yet, append them, and give all of them."""
-    counts = _Counts(request)
+    counts = Counts(request)
     clock = _Clock(request.points, progress)
     if file is not None:
         for point in file.points_there():
@@ -206,59 +202,6 @@ def measure(
                 stacklevel=2,
             )
     return measure_here(request, todo, pulse)
-
-
-def rate_intervals(point: SweepPoint) -> list[tuple[float, float]]:
-    """Give the 95 % interval of each decoder's rate in percent, not a number without a rate."""
-    return [_interval(right, point.sent) for right in point.right]
-
-
-@lru_cache(maxsize=4096)
-def _interval(right: int, sent: int) -> tuple[float, float]:
-    if not sent:
-        return math.nan, math.nan
-    low, high = wilson_interval(right, sent)
-    return 100.0 * low, 100.0 * high
-
-
-class _Counts:
-    """The counts so far, a few bytes a point."""
-
-    def __init__(self, request: SweepRequest) -> None:
-        self._request = request
-        decoders = len(request.settings.decoders)
-        self._there = np.zeros(request.points, dtype=np.bool_)
-        self._sent = np.zeros(request.points, dtype=np.int64)
-        self._right = np.zeros((request.points, decoders), dtype=np.int64)
-        self._ends = np.zeros((request.points, decoders, 2))
-        self._notes: dict[int, str] = {}
-        self.entered = 0
-
-    def has(self, index: int) -> bool:
-        """Return whether a point has been entered."""
-        return bool(self._there[index])
-
-    def enter(self, point: SweepPoint) -> None:
-        """Enter a point."""
-        self._there[point.index] = True
-        self._sent[point.index] = point.sent
-        self._right[point.index] = point.right
-        self._ends[point.index] = rate_intervals(point)
-        if point.note:
-            self._notes[point.index] = point.note
-        self.entered += 1
-
-    def table(self) -> SweepTable:
-        """Make the table, in the order of the axes."""
-        shape = self._request.shape
-        return SweepTable(
-            self._request,
-            self._sent.reshape(shape),
-            self._right.reshape(*shape, -1),
-            self._ends[..., 0].reshape(*shape, -1),
-            self._ends[..., 1].reshape(*shape, -1),
-            dict(sorted(self._notes.items())),
-        )
 
 
 class _Clock:

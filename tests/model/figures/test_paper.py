@@ -8,8 +8,11 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.results import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import paper_grid
+from occ_model.study.success_rate import right_bits
+from occ_model.study.sweep import points
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +91,7 @@ def test_a_folder_that_cannot_be_made_is_a_sentence(
     assert "cannot be made" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("wrong", [("--seed", "-1"), ("--images", "0")])
+@pytest.mark.parametrize("wrong", [("--seed", "-1"), ("--images", "0"), ("--jobs", "0")])
 def test_a_number_that_cannot_be_is_refused_before_anything_is_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], wrong: tuple[str, str]
 ) -> None:
@@ -106,3 +109,41 @@ def test_figure_2_holds_the_calculated_values_and_the_mask(folder: Path) -> None
     left, right = frame.corners[:, 0].min(), frame.corners[:, 0].max()
     assert covered == [left <= column <= right for column in range(len(table))]
     assert "corners: column 862.24" in comments(folder / "figure-2.csv")
+
+
+def test_figures_that_were_interrupted_go_on_with_the_rates_kept(
+    tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    command = ["figures", "--out", str(tmp_path), "--images", "1", "--seed", "3"]
+    measured: list[float] = []
+
+    def measured_by_hand(scene: Scene, settings: RateSettings, pulse: object) -> tuple[int, ...]:
+        if len(measured) == 10:
+            raise KeyboardInterrupt
+        measured.append(scene.pose.distance)
+        return right_bits(scene, settings)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(points, "right_bits", measured_by_hand)
+        assert main(command) == 130
+    (kept,) = tmp_path.glob("rates-*.csv")
+    assert len(rows(kept)) == 10 * 2
+    again: list[float] = []
+
+    def counted(scene: Scene, settings: RateSettings, pulse: object) -> tuple[int, ...]:
+        again.append(scene.pose.distance)
+        return right_bits(scene, settings)
+
+    monkeypatch.setattr(points, "right_bits", counted)
+    assert main(command) == 0
+    assert len(again) == 4 * 80 - 10
+    assert {path.name for path in tmp_path.iterdir()} == {path.name for path in folder.iterdir()}
+    table = "figure-5.csv"
+    assert (tmp_path / table).read_bytes() == (folder / table).read_bytes()
+
+
+def test_processes_do_not_change_the_figures(tmp_path: Path, folder: Path) -> None:
+    command = ["figures", "--out", str(tmp_path), "--images", "1", "--seed", "3", "--jobs", "2"]
+    assert main(command) == 0
+    for table in ("figure-5.csv", "figure-6.csv"):
+        assert (tmp_path / table).read_bytes() == (folder / table).read_bytes()

@@ -1,0 +1,62 @@
+"""Count the bits that a sweep's points read rightly, and make the table of the counts."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.results import SweepPoint, SweepRequest, SweepTable
+from occ_model.study.confidence import wilson_interval
+
+
+def rate_intervals(point: SweepPoint) -> list[tuple[float, float]]:
+    """Give the 95 % interval of each decoder's rate in percent, not a number without a rate."""
+    return [_interval(right, point.sent) for right in point.right]
+
+
+@lru_cache(maxsize=4096)
+def _interval(right: int, sent: int) -> tuple[float, float]:
+    if not sent:
+        return math.nan, math.nan
+    low, high = wilson_interval(right, sent)
+    return 100.0 * low, 100.0 * high
+
+
+class Counts:
+    """The counts so far, a few bytes a point."""
+
+    def __init__(self, request: SweepRequest) -> None:
+        self._request = request
+        decoders = len(request.settings.decoders)
+        self._there = np.zeros(request.points, dtype=np.bool_)
+        self._sent = np.zeros(request.points, dtype=np.int64)
+        self._right = np.zeros((request.points, decoders), dtype=np.int64)
+        self._ends = np.zeros((request.points, decoders, 2))
+        self._notes: dict[int, str] = {}
+        self.entered = 0
+
+    def has(self, index: int) -> bool:
+        """Return whether a point has been entered."""
+        return bool(self._there[index])
+
+    def enter(self, point: SweepPoint) -> None:
+        """Enter a point."""
+        self._there[point.index] = True
+        self._sent[point.index] = point.sent
+        self._right[point.index] = point.right
+        self._ends[point.index] = rate_intervals(point)
+        if point.note:
+            self._notes[point.index] = point.note
+        self.entered += 1
+
+    def table(self) -> SweepTable:
+        """Make the table, in the order of the axes."""
+        shape = self._request.shape
+        return SweepTable(
+            self._request,
+            self._sent.reshape(shape),
+            self._right.reshape(*shape, -1),
+            self._ends[..., 0].reshape(*shape, -1),
+            self._ends[..., 1].reshape(*shape, -1),
+            dict(sorted(self._notes.items())),
+        )

@@ -8,12 +8,12 @@ from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.background.crew import Crew, Lane
 from occ_gui.background.parcel import Parcel, Stage
-from occ_gui.detection_map.advice import Advice
 from occ_gui.detection_map.worker import advise, rate_settings
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.receiver.decoders import DECODERS
+from occ_model.results.advice import Advice
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject
 
-from occ_gui.detection_map.advice import Advice, TheoryNumbers
-from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
+from occ_model.results import Limits, Trial, WorkingRange
+from occ_model.results.advice import Advice, EndFacts, TheoryLimits
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 
@@ -37,26 +37,48 @@ class AdviceWords(QObject):
     """Says how far a decoder reaches."""
 
     def lines(self, advice: Advice) -> list[AdviceLine]:
-        """Say it in a title and a few lines."""
-        found, theory = advice.limits, advice.theory
-        frequency, exposure = found.frequency, found.exposure
-        lines = [AdviceLine(self._title(found), is_title=True)]
-        if frequency.highest is None:
-            lines.append(AdviceLine(frequency.failure or ""))
-        else:
-            text = self.tr("The highest frequency that it reads is {value}")
-            lines.append(self._line(text, frequency, frequency.highest))
-        lines.append(AdviceLine(self._theory_of_frequency(theory)))
-        if exposure.lowest is None or exposure.highest is None:
-            lines.append(AdviceLine(exposure.failure or ""))
-        else:
-            text = self.tr("The shortest exposure that it reads is {value}")
-            lines.append(self._line(text, exposure, exposure.lowest))
-            text = self.tr("The longest exposure that it reads is {value}")
-            lines.append(self._line(text, exposure, exposure.highest))
-        lines.append(AdviceLine(self._theory_of_exposure(theory)))
-        lines.append(AdviceLine(self._how_sure(found)))
+        """Write a title and a few lines on what was found."""
+        ends = {
+            ("switching_frequency", "highest"): self.tr(
+                "The highest frequency that it reads is {value}"
+            ),
+            ("exposure_time", "lowest"): self.tr("The shortest exposure that it reads is {value}"),
+            ("exposure_time", "highest"): self.tr("The longest exposure that it reads is {value}"),
+        }
+        lines = [AdviceLine(self._title(advice.limits), is_title=True)]
+        for facts, theory in (
+            (advice.frequency, self._theory_of_frequency(advice.frequency.theory)),
+            (advice.exposure, self._theory_of_exposure(advice.exposure.theory)),
+        ):
+            if not facts.ends:
+                lines.append(AdviceLine(self._nowhere(advice.limits, facts.found)))
+            lines.extend(
+                self._line(ends[end.parameter, end.side], end)
+                for end in facts.ends
+                if (end.parameter, end.side) in ends
+            )
+            lines.append(AdviceLine(theory))
+        lines.append(AdviceLine(self._how_sure(advice.limits)))
         return lines
+
+    def _nowhere(self, limits: Limits, found: WorkingRange) -> str:
+        if found.best is None:
+            return found.failure or ""
+        texts = {
+            "switching_frequency": self.tr(
+                "It reads {rate:g} % of the bits at no switching frequency from {low} to {high}; "
+                "the most it reads is {right} of {sent} bits, at {value}."
+            ),
+            "exposure_time": self.tr(
+                "It reads {rate:g} % of the bits at no exposure time from {low} to {high}; "
+                "the most it reads is {right} of {sent} bits, at {value}."
+            ),
+        }
+        low, high = (_written(found.parameter, value) for value in found.searched)
+        return texts[found.parameter].format(
+            rate=limits.rate, low=low, high=high, right=found.best.right, sent=found.best.sent,
+            value=_written(found.parameter, found.best.value),
+        )  # fmt: skip
 
     def _title(self, found: Limits) -> str:
         scene = found.scene
@@ -70,47 +92,46 @@ class AdviceWords(QObject):
             distance=_written("distance", scene.pose.distance),
         )
 
-    def _line(self, text: str, working_range: WorkingRange, range_end: RangeEnd) -> AdviceLine:
-        value = _written(working_range.parameter, range_end.value)
-        ground = self.tr("there it read {counted}").format(counted=self._counted(range_end.works))
-        if range_end.fails is None:
+    def _line(self, text: str, end: EndFacts) -> AdviceLine:
+        value = _written(end.parameter, end.value)
+        ground = self.tr("there it read {counted}").format(counted=self._counted(end.works))
+        if end.fails is None:
             beyond = self.tr("beyond it was not tried")
         else:
             beyond = self.tr("at {value} {counted}").format(
-                value=_written(working_range.parameter, range_end.fails.value),
-                counted=self._counted(range_end.fails),
+                value=_written(end.parameter, end.fails.value), counted=self._counted(end.fails)
             )
         sentence = f"{text.format(value=value)}: {ground}, {beyond}."
-        return AdviceLine(sentence, (working_range.parameter, range_end.value, value))
+        return AdviceLine(sentence, (end.parameter, end.value, value))
 
     def _counted(self, trial: Trial) -> str:
         return self.tr("{right} of {sent} bits ({low:.1f} to {high:.1f} %)").format(
             right=trial.right, sent=trial.sent, low=trial.low, high=trial.high
         )
 
-    def _theory_of_frequency(self, theory: TheoryNumbers) -> str:
+    def _theory_of_frequency(self, theory: TheoryLimits) -> str:
         text = self.tr(
             "By theory the band model ends at {band} and an alternating pattern at {null}"
         ).format(
-            band=HERTZ.format(theory.band_frequency, _DIGITS),
-            null=HERTZ.format(theory.null_frequency, _DIGITS),
+            band=HERTZ.format(theory.band_model, _DIGITS),
+            null=HERTZ.format(theory.null, _DIGITS),
         )
-        if theory.packets_frequency is not None:
+        if theory.two_packets is not None:
             text += self.tr("; below {packets} no two packets fit the picture").format(
-                packets=HERTZ.format(theory.packets_frequency, _DIGITS)
+                packets=HERTZ.format(theory.two_packets, _DIGITS)
             )
         return f"{text}."
 
-    def _theory_of_exposure(self, theory: TheoryNumbers) -> str:
+    def _theory_of_exposure(self, theory: TheoryLimits) -> str:
         text = self.tr(
             "By theory the band model ends at {band} and an alternating pattern at {null}"
         ).format(
-            band=SECOND.format(theory.band_exposure, _DIGITS),
-            null=SECOND.format(theory.null_exposure, _DIGITS),
+            band=SECOND.format(theory.band_model, _DIGITS),
+            null=SECOND.format(theory.null, _DIGITS),
         )
-        if math.isfinite(theory.saturation_exposure):
+        if theory.saturation is not None and math.isfinite(theory.saturation):
             text += self.tr("; from {white} what is lit throughout is white").format(
-                white=SECOND.format(theory.saturation_exposure, _DIGITS)
+                white=SECOND.format(theory.saturation, _DIGITS)
             )
         return f"{text}."
 

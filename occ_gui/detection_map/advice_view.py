@@ -11,10 +11,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.detection_map.advice import Advice
 from occ_gui.detection_map.advice_sentences import AdviceLine, AdviceWords
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.results.advice import Advice
 
 _LEAST = QSize(200, 60)
 

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_gui.background.parcel import Pulse
-from occ_gui.detection_map.advice import Advice, TheoryNumbers
 from occ_gui.detection_map.rate_map import LINES, TheoryFields
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
 from occ_model.results import RateSettings, SignalPath, SweepPoint
+from occ_model.results.advice import Advice
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import theory
+from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits
 from occ_model.study.observation import panel_span
 from occ_model.study.sweep.points import measure_point
@@ -171,12 +172,4 @@ def advise(scene: Scene, settings: RateSettings, decoder: str, rate: float, puls
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
         tolerance=settings.tolerance, force=settings.force, path=settings.path, pulse=pulse,
     )  # fmt: skip
-    numbers = TheoryNumbers(
-        band_frequency=theory.band_model_frequency(scene),
-        null_frequency=theory.null_frequency(scene),
-        packets_frequency=theory.two_packets_frequency(scene),
-        band_exposure=1.0 / scene.transmitter.switching_frequency,
-        null_exposure=2.0 / scene.transmitter.switching_frequency,
-        saturation_exposure=theory.saturation_exposure(scene),
-    )
-    return Advice(found, numbers)
+    return advice_of(found)

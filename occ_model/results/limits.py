@@ -1,4 +1,4 @@
-"""How far a decoder reaches in a scene."""
+"""The working range of a decoder: the limits between which it reads a scene."""
 
 from dataclasses import dataclass
 
@@ -7,16 +7,16 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """What was counted at one value of a parameter.
+    """The bits counted at one value of a parameter.
 
     Parameters
     ----------
     value
         The parameter, in SI units.
     right, sent
-        Bits read rightly, of so many.
+        Bits read rightly, and bits sent.
     low, high
-        The 95 % interval by Wilson of the rate behind them, percent.
+        Wilson's 95 % interval of the success rate, percent.
     """
 
     value: float
@@ -33,7 +33,7 @@ class Trial:
 
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
-    """Where reading ends on one side.
+    """One end of a working range.
 
     Parameters
     ----------
@@ -54,13 +54,13 @@ class RangeEnd:
 
     @property
     def width(self) -> float:
-        """How far the value beyond lies: the true edge is in between. 0 where there is none."""
+        """Distance to the value beyond: the true end lies in between. 0 where there is none."""
         return abs(self.fails.value - self.works.value) if self.fails else 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class WorkingRange:
-    """Between which values of a parameter a decoder reads a scene, all others as they are.
+    """The values of a parameter between which a decoder reads a scene, all others as they are.
 
     Parameters
     ----------
@@ -73,6 +73,8 @@ class WorkingRange:
         value, or lies nearest to it. None where it reads nowhere.
     failure
         None, or a sentence that says that it reads nowhere.
+    best
+        Where it reads nowhere: the value at which it reads the most; else None.
     """
 
     parameter: str
@@ -80,11 +82,12 @@ class WorkingRange:
     lowest: RangeEnd | None
     highest: RangeEnd | None
     failure: str | None = None
+    best: Trial | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How far a decoder reaches in a scene.
+    """The limits between which a decoder reads a scene.
 
     Parameters
     ----------
@@ -95,7 +98,7 @@ class Limits:
     images, seed
         Images at each value tried, and the seed of each.
     frequency, exposure
-        Between which switching frequencies and which exposure times it reads.
+        The switching frequencies and the exposure times at which it reads.
     """
 
     scene: Scene

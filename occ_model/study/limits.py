@@ -136,7 +136,8 @@ class _Search:
         )
         if nearest is None:
             best = max(trials, key=lambda trial: trial.right)
-            return WorkingRange(self._name, searched, None, None, self._nowhere(searched, best))
+            failure = self._nowhere(searched, best)
+            return WorkingRange(self._name, searched, None, None, failure, best)
         first = last = own if works[own] else nearest
         while first > 0 and works[first - 1]:
             first -= 1

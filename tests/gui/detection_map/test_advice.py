@@ -1,5 +1,7 @@
 """The advice says in sentences what the model's own search finds, and leads there."""
 
+import re
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -9,14 +11,15 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.detection_map import advice_controller as module
 from occ_gui.detection_map import wiring, worker
-from occ_gui.detection_map.advice import Advice, TheoryNumbers
 from occ_gui.detection_map.advice_sentences import AdviceWords
 from occ_gui.detection_map.advice_view import AdviceView
+from occ_model.commands.limits import sentences
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
+from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.scene.scene import Scene
+from occ_model.study.advice import advice_of
 
-THEORY = TheoryNumbers(7353.0, 14706.0, 3468.0, 100e-6, 200e-6, 1.17e-3)
 GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0)
 BAD = Trial(14.73e3, 0, 200, 0.0, 1.9)
 SHORT = Trial(10e-6, 200, 200, 98.1, 100.0)
@@ -32,6 +35,18 @@ def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
         "exposure_time", (1e-5, 2e-3), RangeEnd(SHORT, None), RangeEnd(LONG, TOO_LONG)
     )
     return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
+
+
+def advice_on(scene: Scene) -> Advice:
+    """Put limits beside theory: numbers of a scene that is not the one given."""
+    facts = advice_of(found(scene))
+    frequencies = TheoryLimits(7353.0, 14706.0, two_packets=3468.0)
+    exposures = TheoryLimits(100e-6, 200e-6, saturation=1.17e-3)
+    return Advice(
+        facts.limits,
+        replace(facts.frequency, theory=frequencies),
+        replace(facts.exposure, theory=exposures),
+    )
 
 
 @pytest.fixture
@@ -60,7 +75,7 @@ def advised(
 
 
 def test_the_sentences_hold_value_bits_interval_and_what_lies_beyond(small_scene: Scene) -> None:
-    lines = [line.text for line in AdviceWords().lines(Advice(found(small_scene), THEORY))]
+    lines = [line.text for line in AdviceWords().lines(advice_on(small_scene))]
     assert lines[1] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 200 of 200 bits "
         "(98.1 to 100.0 %), at 14.73 kHz 0 of 200 bits (0.0 to 1.9 %)."
@@ -71,7 +86,7 @@ def test_the_sentences_hold_value_bits_interval_and_what_lies_beyond(small_scene
 
 
 def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
-    lines = [line.text for line in AdviceWords().lines(Advice(found(small_scene), THEORY))]
+    lines = [line.text for line in AdviceWords().lines(advice_on(small_scene))]
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[2]
     assert "below 3.468 kHz no two packets" in lines[2]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[5]
@@ -79,11 +94,31 @@ def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
 
 
 def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scene) -> None:
-    nowhere = WorkingRange("switching_frequency", (500.0, 100e3), None, None, "It reads nowhere.")
-    limits = Limits(small_scene, "threshold", 99.0, 20, 1, nowhere, nowhere)
-    lines = AdviceWords().lines(Advice(limits, THEORY))
-    assert [line.text for line in lines].count("It reads nowhere.") == 2
+    best = Trial(2e3, 120, 200, 53.1, 66.5)
+    ranges = [
+        WorkingRange(name, searched, None, None, "The model's sentence.", best)
+        for name, searched in (("switching_frequency", (500.0, 100e3)), ("exposure_time", (1, 3)))
+    ]
+    limits = Limits(small_scene, "threshold", 99.0, 20, 1, *ranges)
+    lines = AdviceWords().lines(advice_of(limits))
+    assert lines[1].text == (
+        "It reads 99 % of the bits at no switching frequency from 500 Hz to 100 kHz; the most it "
+        "reads is 120 of 200 bits, at 2 kHz."
+    )
+    assert "at no exposure time from 1 s to 3 s" in lines[3].text
     assert all(line.destination is None for line in lines)
+
+
+def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
+    advice = advice_on(small_scene)
+    shell = " ".join(sentences(advice))
+    for line in AdviceWords().lines(advice):
+        if line.destination is not None:
+            assert line.destination[2] in shell
+            assert all(counted in shell for counted in re.findall(r"\d+ of \d+ bits", line.text))
+    assert "7.353 kHz and an alternating pattern at 14.71 kHz" in shell
+    assert "below 3.468 kHz no two packets" in shell
+    assert "exposure of 1.17 ms what is lit throughout is white" in shell
 
 
 def test_every_decoder_is_asked_and_each_edge_has_its_way(advised: Application) -> None:
@@ -166,7 +201,7 @@ def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:
 def test_every_button_has_a_name_and_says_what_it_does(
     view: AdviceView, small_scene: Scene
 ) -> None:
-    view.show_advice(Advice(found(small_scene), THEORY))
+    view.show_advice(advice_on(small_scene))
     for button in view.findChildren(QPushButton):
         assert button.accessibleName()
         assert button.toolTip()

@@ -16,6 +16,7 @@ from occ_model.results import RangeEnd, RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import limits as module
 from occ_model.study import theory
+from occ_model.study.advice import advice_of
 from occ_model.study.limits import NEAR, STEP
 from occ_model.study.observation import panel_span
 
@@ -97,6 +98,9 @@ def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatc
         "The matched decoder reads 75 % of the bits at no switching frequency from 500 Hz to "
         "100 kHz; the most it reads is 10 of 20 bits, at 500 Hz."
     )
+    assert found.frequency.best is not None
+    assert (found.frequency.best.value, found.frequency.best.right) == (500.0, 10)
+    assert advice_of(found).frequency.ends == ()
 
 
 @pytest.mark.parametrize("preset", ["phone-136us", "tablet-122us"])
@@ -136,6 +140,35 @@ def test_where_the_scene_itself_is_too_slow_the_answer_lies_above_it() -> None:
     assert found.frequency.lowest is not None
     assert found.frequency.lowest.value > 2e3 * STEP
     assert found.highest_frequency == pytest.approx(theory.null_frequency(slow), rel=0.03)
+
+
+def test_advice_holds_both_ends_found_and_the_limits_of_theory(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(module, "right_bits", reads_where(lambda f: f <= 20e3))
+    found = occ.limits(SCENE, images=1)
+    advice = advice_of(found)
+    assert [end.side for end in advice.frequency.ends] == ["lowest", "highest"]
+    lowest, highest = advice.frequency.ends
+    assert found.frequency.highest is not None
+    assert (lowest.value, lowest.fails) == (500.0, None)
+    assert (highest.works, highest.fails) == (
+        found.frequency.highest.works,
+        found.frequency.highest.fails,
+    )
+    assert advice.frequency.theory.band_model == theory.band_model_frequency(SCENE)
+    assert advice.frequency.theory.null == theory.null_frequency(SCENE)
+    assert advice.frequency.theory.two_packets == theory.two_packets_frequency(SCENE)
+    assert advice.frequency.theory.saturation is None
+    # Exposed as long as theory allows, the scene's own frequency is the limit of theory.
+    exposures = advice.exposure.theory
+    for exposure, limit in (
+        (exposures.band_model, theory.band_model_frequency),
+        (exposures.null, theory.null_frequency),
+    ):
+        own = SCENE.transmitter.switching_frequency
+        assert limit(SCENE.replace(exposure_time=exposure)) == pytest.approx(own)
+    assert exposures.saturation == theory.saturation_exposure(SCENE)
 
 
 @pytest.mark.parametrize(

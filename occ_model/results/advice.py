@@ -1,0 +1,99 @@
+"""The facts that advice on a scene states: the limits found by trial and those of theory.
+
+The window and the command line put the same facts into sentences.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from occ_model.results.limits import Limits, Trial, WorkingRange
+
+Side: TypeAlias = Literal["lowest", "highest"]
+
+
+@dataclass(frozen=True, slots=True)
+class TheoryLimits:
+    """The values of one parameter at which theory places a limit, all others as they are.
+
+    Parameters
+    ----------
+    band_model
+        Where the band model ends: t = t_LED.
+    null
+        Where an alternating pattern has no stripes: t = 2 t_LED.
+    two_packets
+        The frequency below which no two packets fit the panel's image; None for an exposure time,
+        or where the image shows no panel.
+    saturation
+        The exposure time from which the lit panel is white, infinite without light; None for a
+        frequency.
+    """
+
+    band_model: float
+    null: float
+    two_packets: float | None = None
+    saturation: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class EndFacts:
+    """One end of a working range.
+
+    Parameters
+    ----------
+    parameter
+        The parameter's name.
+    side
+        Which end of the range it is.
+    works
+        The last value at which the decoder reads.
+    fails
+        The first value beyond at which it does not: reading stopped. None: the search stopped, at
+        the end of the values that it tries.
+    """
+
+    parameter: str
+    side: Side
+    works: Trial
+    fails: Trial | None
+
+    @property
+    def value(self) -> float:
+        """The last value at which the decoder reads, in SI units."""
+        return self.works.value
+
+
+@dataclass(frozen=True, slots=True)
+class RangeFacts:
+    """What is known of the values of one parameter at which a decoder reads a scene.
+
+    Parameters
+    ----------
+    found
+        The range found by trial.
+    ends
+        Its lowest end and its highest; empty where the decoder reads nowhere.
+    theory
+        The limits that theory gives.
+    """
+
+    found: WorkingRange
+    ends: tuple[EndFacts, ...]
+    theory: TheoryLimits
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """How fast a scene can go with one decoder, and how long it can be exposed.
+
+    Parameters
+    ----------
+    limits
+        The search's answer, with its settings.
+    frequency, exposure
+        The facts on the switching frequency and on the exposure time.
+    """
+
+    limits: Limits
+    frequency: RangeFacts
+    exposure: RangeFacts

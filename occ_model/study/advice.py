@@ -1,0 +1,49 @@
+"""Gather the facts for advice on a scene: the limits found by trial beside those of theory."""
+
+from occ_model.results import Limits, RangeEnd, WorkingRange
+from occ_model.results.advice import Advice, EndFacts, RangeFacts, Side, TheoryLimits
+from occ_model.scene.scene import Scene
+from occ_model.study import theory
+
+
+def advice_of(limits: Limits) -> Advice:
+    """Put the limits found by trial beside those that theory gives.
+
+    Raises
+    ------
+    ProjectionError
+        Part of the panel is behind the camera.
+    """
+    scene = limits.scene
+    return Advice(
+        limits,
+        RangeFacts(limits.frequency, _ends(limits.frequency), _frequencies(scene)),
+        RangeFacts(limits.exposure, _ends(limits.exposure), _exposures(scene)),
+    )
+
+
+def _ends(found: WorkingRange) -> tuple[EndFacts, ...]:
+    sides: tuple[tuple[Side, RangeEnd | None], ...] = (
+        ("lowest", found.lowest),
+        ("highest", found.highest),
+    )
+    return tuple(
+        EndFacts(found.parameter, side, end.works, end.fails)
+        for side, end in sides
+        if end is not None
+    )
+
+
+def _frequencies(scene: Scene) -> TheoryLimits:
+    return TheoryLimits(
+        band_model=theory.band_model_frequency(scene),
+        null=theory.null_frequency(scene),
+        two_packets=theory.two_packets_frequency(scene),
+    )
+
+
+def _exposures(scene: Scene) -> TheoryLimits:
+    period = scene.transmitter.switching_period
+    return TheoryLimits(
+        band_model=period, null=2.0 * period, saturation=theory.saturation_exposure(scene)
+    )

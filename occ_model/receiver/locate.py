@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.receiver.otsu import otsu_split
+from occ_model.receiver.signal import otsu_split
 from occ_model.results import Location, Region
 
 _GRID = 512

@@ -1,11 +1,10 @@
-"""From a region of the image to a signal, and from the signal to zeros and ones."""
+"""The signal of a region: its column means, and Otsu's threshold between zeros and ones."""
 
 import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT
-from occ_model.receiver.otsu import otsu_split
 from occ_model.results import Region
 
 _BINS = 256
@@ -36,6 +35,33 @@ def why_flat(signal: FloatArray) -> str | None:
     if swing >= FLAT:
         return None
     return f"No stripes: the signal spans only {swing:.2g} grey levels."
+
+
+def otsu_split(counts: IndexArray) -> int | None:
+    """Find the last bin of the lower class.
+
+    The split maximises the variance between the classes (Otsu, IEEE Trans. SMC 9:62, 1979). Where
+    several splits do, as when empty bins lie between the classes, the middle one is taken.
+
+    Parameters
+    ----------
+    counts : ndarray of int64, shape (bins,)
+        The histogram.
+
+    Returns
+    -------
+    int or None
+        None where fewer than two bins are filled.
+    """
+    weight = np.cumsum(counts, dtype=np.float64)
+    moment = np.cumsum(counts * np.arange(len(counts), dtype=np.float64))
+    splits = np.flatnonzero((weight > 0.0) & (weight < weight[-1]))
+    if splits.size == 0:
+        return None
+    w, m = weight[splits] / weight[-1], moment[splits] / weight[-1]
+    between = (moment[-1] / weight[-1] * w - m) ** 2 / (w * (1.0 - w))
+    best = splits[between >= between.max() * (1.0 - 1e-12)]
+    return int(best[len(best) // 2])
 
 
 def otsu_threshold(signal: FloatArray) -> float:

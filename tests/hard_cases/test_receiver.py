@@ -14,8 +14,7 @@ from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.receiver.decoders import DECODERS
 from occ_model.receiver.locate import locate
-from occ_model.receiver.otsu import otsu_split
-from occ_model.receiver.signal import otsu_threshold
+from occ_model.receiver.signal import otsu_split, otsu_threshold
 from occ_model.results import DecodeResult, Region
 from occ_model.scene.scene import Scene
 

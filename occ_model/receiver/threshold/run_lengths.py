@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.receiver.otsu import otsu_split
+from occ_model.receiver.signal import otsu_split
 from occ_model.results import RunHistogram, Runs
 
 _LONGEST = np.array([2, 4])

@@ -8,7 +8,7 @@ import skimage.filters
 from hypothesis import given
 from hypothesis import strategies as st
 
-from occ_model.receiver.otsu import otsu_split
+from occ_model.receiver.signal import otsu_split
 
 histograms = st.lists(st.integers(0, 1000) | st.just(0), min_size=2, max_size=40)
 

@@ -12,7 +12,7 @@ from occ_gui.export.figures import Figures, NothingToDraw
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Memory
 from occ_model.errors import one_line
-from occ_model.scene.scene_inside import ENDINGS
+from occ_model.scene.provenance import ENDINGS
 
 
 class ExportController(QObject):

@@ -14,8 +14,8 @@ from occ_model.errors import OccError, one_line
 from occ_model.files.resources import resource_path
 from occ_model.files.writing import PICTURE_ENDINGS, write_image
 from occ_model.photo.reading.load import Photo
-from occ_model.scene.from_text import read_scene_file, write_scene_file
-from occ_model.scene.scene_inside import ENDINGS, SCENE_ENDING, scene_inside
+from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene_file
+from occ_model.scene.provenance import ENDINGS, scene_inside
 
 _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2"

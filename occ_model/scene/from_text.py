@@ -8,8 +8,11 @@ from occ_model.files.reading import read_text
 from occ_model.files.writing import write_whole
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import parameter_named
+from occ_model.scene.provenance import ENDINGS, scene_inside
 from occ_model.scene.scene import Scene
-from occ_model.scene.scene_inside import ENDINGS, SCENE_ENDING, scene_inside
+
+SCENE_ENDING = ".toml"
+"""The ending of the files that scenes are saved to."""
 
 DEFAULT_PRESET = "phone-68us"
 """The scene where none is asked for: one that all models and decoders have an answer to."""

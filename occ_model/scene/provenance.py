@@ -1,13 +1,39 @@
-"""What a file says about where its numbers come from, written and read back."""
+"""The provenance of a figure or table: its scenes, version and seed, written in the file and read.
 
+The time and memory that reading a file takes grow as its size does at most, whatever is in it.
+"""
+
+import codecs
+import html
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
 
+from occ_model.errors import SceneFileError, one_line
+from occ_model.files.reading import read_bytes, read_start
 from occ_model.scene.scene import Scene
 from occ_model.version import __version__
 
+ENDINGS = (".png", ".svg", ".pdf", ".csv")
+"""The endings of files that may carry a scene."""
+
 _SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
+
+_LARGEST = 64_000_000
+"""Bytes of a drawing or document that is looked into: its text may stand anywhere."""
+
+_LONGEST = 1_000_000
+"""Bytes of the text itself, and of the start of a picture or table, where it stands."""
+
+_SVG = b"<dc:description>", b"</dc:description>"
+_COMMENTS = re.compile(rb"(?:#[^\n]*+\n?+)*+")
+_PDF = b"/Subject ("
+# Nothing that is passed over is looked at again.
+_PDF_LITERAL = re.compile(rb"((?:[^\\()]++|\\.)*+)\)", re.DOTALL)
+_PDF_ESCAPE = re.compile(rb"\\([0-7]{1,3}|.)", re.DOTALL)
+_ESCAPED = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
 
 
 @dataclass(frozen=True)
@@ -80,3 +106,96 @@ def first_scene_in(text: str) -> Scene | None:
         return None
     following = _SCENE.search(text, start.end())
     return Scene.from_toml(text[start.end() : following.start() if following else None])
+
+
+def scene_inside(path: Path) -> Scene:
+    """Read the scene that an exported figure or table carries; of several the first.
+
+    Parameters
+    ----------
+    path
+        A PNG, SVG, PDF or CSV file that this package wrote.
+
+    Raises
+    ------
+    SceneFileError
+        It cannot be read, or carries no scene.
+    ParameterError
+        A value in it is out of range.
+    """
+    where = one_line(str(path))
+    try:
+        text = _READERS[path.suffix.lower()](path)
+    except UnicodeDecodeError:
+        text = ""
+    try:
+        scene = first_scene_in(text)
+    except SceneFileError as error:
+        raise SceneFileError(f"{where} carries a scene that cannot be read. {error}") from None
+    if scene is None:
+        raise SceneFileError(f"{where} carries no scene; figures and tables exported here do.")
+    return scene
+
+
+def _of_png(path: Path) -> str:
+    start = BytesIO(read_start(path, _LONGEST))
+    # Pillow is slow to import, and only needed when a picture is really opened.
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        # It reads up to the pixels, and unpacks no more than its own limits allow.
+        with PngImageFile(start) as picture:
+            return str(picture.info.get("Description", ""))
+    except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
+        return ""
+
+
+def _of_svg(path: Path) -> str:
+    content = read_bytes(path, _LARGEST)
+    start, end = _SVG
+    first = content.find(start)
+    last = content.find(end, first)
+    if first < 0 or last < 0:
+        return ""
+    text = content[first + len(start) : min(last, first + _LONGEST)].decode("utf-8")
+    try:
+        return html.unescape(text)
+    except ValueError:  # the number of a character has thousands of digits
+        return ""
+
+
+def _of_csv(path: Path) -> str:
+    comments = _COMMENTS.match(read_start(path, _LONGEST).removeprefix(codecs.BOM_UTF8))
+    lines = comments[0].decode("utf-8").splitlines() if comments else []
+    return "\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
+
+
+def _of_pdf(path: Path) -> str:
+    content = read_bytes(path, _LARGEST)
+    place = content.find(_PDF)
+    while place >= 0:
+        place += len(_PDF)
+        literal = _PDF_LITERAL.match(content, place, place + _LONGEST)
+        if literal:
+            return _literal_text(literal[1])
+        # What follows a start is looked at once, and the next start is beyond it.
+        place = content.find(_PDF, place)
+    return ""
+
+
+def _literal_text(literal: bytes) -> str:
+    """Read a PDF's literal string."""
+
+    def plain(match: re.Match[bytes]) -> bytes:
+        code = match[1]
+        if code.isdigit():
+            return bytes([int(code, 8) & 0xFF])
+        return _ESCAPED.get(code, code)
+
+    text = _PDF_ESCAPE.sub(plain, literal)
+    if text.startswith(codecs.BOM_UTF16_BE):
+        return text[2:].decode("utf-16-be")
+    return text.decode("latin-1")
+
+
+_READERS = {".png": _of_png, ".svg": _of_svg, ".pdf": _of_pdf, ".csv": _of_csv}

@@ -23,8 +23,8 @@ from occ_model.effects.registry import NAMES
 from occ_model.results.teaching import Exploration
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.provenance import ENDINGS
 from occ_model.scene.scene import Scene
-from occ_model.scene.scene_inside import ENDINGS
 from occ_model.teaching.explorations import explorations
 
 _HEAVY = ("rows", "columns", "point_spread", "distance", "panel_width", "panel_height")

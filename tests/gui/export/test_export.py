@@ -17,7 +17,7 @@ from occ_gui.detection_map.map_schedule import SHAPE
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
 from occ_model.results import AccuracyPoint, SweepPoint
-from occ_model.scene.scene_inside import ENDINGS, scene_inside
+from occ_model.scene.provenance import ENDINGS, scene_inside
 
 User = Any  # the fixture of that name
 

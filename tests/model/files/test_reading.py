@@ -12,8 +12,8 @@ from occ_model.errors import SceneFileError
 from occ_model.files.reading import LARGEST_TEXT, read_bytes, read_start, read_text
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.presets import USER_FOLDER, preset_named, presets, unreadable_presets
+from occ_model.scene.provenance import ENDINGS
 from occ_model.scene.scene import Scene
-from occ_model.scene.scene_inside import ENDINGS
 from occ_model.teaching.explorations import read_exploration
 
 posix = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no such files")

@@ -12,8 +12,8 @@ from occ_model.files.writing import PICTURE_ENDINGS
 from occ_model.scene.from_text import read_scene_file, with_settings, write_scene_file
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.provenance import ENDINGS
 from occ_model.scene.scene import Scene
-from occ_model.scene.scene_inside import ENDINGS
 
 QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
 

@@ -15,9 +15,8 @@ from occ_model.cli import main
 from occ_model.figures.drawing import FORMATS, house_style, write_figure
 from occ_model.figures.table import write_table
 from occ_model.scene.from_text import read_scene_file
-from occ_model.scene.provenance import Provenance, scenes_in
+from occ_model.scene.provenance import ENDINGS, Provenance, scene_inside, scenes_in
 from occ_model.scene.scene import Scene
-from occ_model.scene.scene_inside import ENDINGS, scene_inside
 
 SCENE = occ.load_preset("tablet-122us-real").replace(pattern="10110", start_time=-0.125)
 OTHER = occ.load_preset("phone-68us")

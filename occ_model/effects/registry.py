@@ -6,12 +6,10 @@ from occ_model.effects.defocus import Defocus
 from occ_model.effects.distortion import Distortion
 from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.emission import Emission
-from occ_model.effects.fixed_pattern import FixedPattern
 from occ_model.effects.flicker import Flicker
-from occ_model.effects.full_well import FullWell
 from occ_model.effects.jpeg import Jpeg
 from occ_model.effects.led_edges import LedEdges
-from occ_model.effects.sensor_noise import SensorNoise
+from occ_model.effects.sensor_effects import FixedPattern, FullWell, SensorNoise
 from occ_model.effects.vignetting import Vignetting
 from occ_model.results import Plan
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.full_well import FullWell
+from occ_model.effects.sensor_effects import FullWell
 from occ_model.scene.scene import Scene
 
 ONLY = {"sensor-noise": False, "fixed-pattern": False}

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.fixed_pattern import FixedPattern
-from occ_model.effects.sensor_noise import SensorNoise
+from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 100, 200

@@ -8,8 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.effect import NoiseEffect, pixel_spread
-from occ_model.effects.fixed_pattern import FixedPattern
-from occ_model.effects.sensor_noise import SensorNoise
+from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
 from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise, stream
 from occ_model.simulation.render import observe

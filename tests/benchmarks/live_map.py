@@ -74,7 +74,7 @@ class _PaintedMaps:
 
     def __init__(self, application: "Application") -> None:
         self.times: list[tuple[float, bool, bool]] = []
-        self._reach, self._pane = application.reach.map, application.detection.plots
+        self._controller, self._pane = application.detection_map.map, application.detection.plots
         self._show_map = self._pane.show_map
         self._pane.show_map = self._show  # type: ignore[method-assign]
 
@@ -82,8 +82,8 @@ class _PaintedMaps:
         self._show_map(rates)
         for plot in self._pane.plots:
             plot.repaint()
-        coarse = self._reach.is_current and rates.known >= _COARSE_POINTS
-        self.times.append((perf_counter(), coarse, self._reach.is_full))
+        coarse = self._controller.is_current and rates.known >= _COARSE_POINTS
+        self.times.append((perf_counter(), coarse, self._controller.is_full))
 
     def end(self) -> None:
         """Let the maps be painted as they are otherwise."""
@@ -125,7 +125,7 @@ def _round(application: "Application", number: int) -> tuple[float, ...]:
     """Drag once; give all that is measured, times in milliseconds."""
     from PySide6.QtCore import QEventLoop, Qt, QTimer
 
-    reach = application.reach.map
+    controller = application.detection_map.map
     slider = application.controls.main_rows()["exposure_time"].slider
     beat, maps = Beat(), _PaintedMaps(application)
     loop, ticker = QEventLoop(), QTimer(timerType=Qt.TimerType.PreciseTimer)
@@ -134,8 +134,8 @@ def _round(application: "Application", number: int) -> tuple[float, ...]:
     def change() -> None:
         done = len(changes)
         if done == _CHANGES:
-            patience = _PATIENCE_S if reach.map else 1.0
-            if reach.is_full or perf_counter() > changes[-1] + patience:
+            patience = _PATIENCE_S if controller.map else 1.0
+            if controller.is_full or perf_counter() > changes[-1] + patience:
                 loop.quit()
             return
         slider.setValue(200 + 10 * (done if number % 2 == 0 else _CHANGES - done))

@@ -93,7 +93,7 @@ def _watch(application: "Application", seconds: float) -> _Found:
     start = perf_counter()
 
     def move() -> None:
-        found.mapping.append(not application.reach.map.is_idle)
+        found.mapping.append(not application.detection_map.map.is_idle)
         found.studying.append(application.study.runner.is_running)
         past = perf_counter() - start
         cycle, place = divmod(past, _CYCLE_S)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 
-from occ_gui.picture.cell_means import cell_means
+from occ_gui.picture.difference_image import cell_means
 
 Grey = NDArray[np.uint8]
 

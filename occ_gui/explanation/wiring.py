@@ -1,14 +1,33 @@
-"""The pane that explains the stripes, with its controllers."""
+"""The equations and the exposure of one column: their pane, its controllers and their signals."""
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from occ_gui.explanation.column_picker import ColumnPicker
 from occ_gui.explanation.equation_controller import EquationController
-from occ_gui.explanation.explanation_view import ExplanationView
+from occ_gui.explanation.equation_text import EquationText
 from occ_gui.explanation.exposure_controller import ExposureController
+from occ_gui.explanation.exposure_plot import ExposurePlot
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.plot import Plot
+
+
+class ExplanationView(QWidget):
+    """The equations with the numbers of the moment over the exposure of a column."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.equations, self.exposure = EquationText(), ExposurePlot()
+        panes = QSplitter(Qt.Orientation.Vertical)
+        panes.addWidget(self.equations)
+        panes.addWidget(self.exposure)
+        panes.setChildrenCollapsible(False)
+        panes.setStretchFactor(0, 3)
+        panes.setStretchFactor(1, 2)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(panes)
 
 
 class ExplanationWiring(QObject):

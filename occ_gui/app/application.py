@@ -14,7 +14,7 @@ from occ_gui.app.teaching_desk import LearningPanes
 from occ_gui.app.wording import spoken
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
-from occ_gui.detection_map.slider_strips import SliderStrips
+from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Memory

@@ -7,9 +7,15 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from occ_gui.detection_map.colour_bar import ColourBar
+from occ_gui.detection_map.colour_map import (
+    DIFFERENCES,
+    RATES,
+    ColourBar,
+    colour_table,
+    image_of,
+    painted,
+)
 from occ_gui.detection_map.contours import Point, zero_lines
-from occ_gui.detection_map.map_colours import DIFFERENCES, RATES, colour_table, image_of, painted
 from occ_gui.detection_map.map_plot import MapPlot
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
 from occ_model.arrays import FloatArray

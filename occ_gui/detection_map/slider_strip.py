@@ -1,14 +1,17 @@
-"""Under a slider: how well a decoder would read along all of it."""
+"""Strips under the sliders: how well a decoder would read along each slider."""
 
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QWidget
 
+from occ_gui.detection_map.colour_map import RATES, painted
+from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.scene.parameters import PARAMETERS
 
 _HEIGHT = 6
 
@@ -108,3 +111,46 @@ class SliderStrip(QWidget):
         size = len(shares)
         image = QImage(colours.data, size, 1, 4 * size, QImage.Format.Format_RGBA8888)
         return image.copy()  # the array's memory goes with it
+
+
+class SliderStrips(QObject):
+    """A strip under each of some sliders.
+
+    Parameters
+    ----------
+    rows
+        The sliders' rows, by the names of their parameters.
+    parent
+        The parent.
+    """
+
+    seen = Signal(bool)
+    """Whether anybody can see them from now on."""
+
+    def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.strips: dict[str, SliderStrip] = {}
+        for name, row in rows.items():
+            strip = SliderStrip(row.slider, PARAMETERS[name].label, _colours)
+            row.add_below(strip)
+            self.strips[name] = strip
+        next(iter(self.strips.values())).installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Tell when the first strip comes into sight or goes."""
+        if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
+            self.seen.emit(event.type() == QEvent.Type.Show)
+        return super().eventFilter(watched, event)
+
+    def set_shown(self, shown: bool) -> None:
+        """Show or hide the strips."""
+        for strip in self.strips.values():
+            strip.setVisible(shown)
+
+    def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
+        """Show the share of bits read rightly at positions along a slider, None: not known."""
+        self.strips[name].show_shares(shares)
+
+
+def _colours(shares: FloatArray) -> ByteArray:
+    return np.asarray(painted(np.atleast_2d(shares), 0.0, 1.0, RATES)[0])

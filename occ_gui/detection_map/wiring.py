@@ -7,8 +7,8 @@ from occ_gui.background.parcel import Workers
 from occ_gui.detection_map.advice_controller import AdvisorController
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
-from occ_gui.detection_map.slider_strips import SliderStrips
 from occ_gui.detection_map.worker import PRELOAD
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore

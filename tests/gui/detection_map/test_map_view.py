@@ -14,8 +14,8 @@ from occ_gui.app.application import Application
 from occ_gui.background.worker_processes import WorkerProcesses
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
+from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, painted
 from occ_gui.detection_map.contours import zero_lines
-from occ_gui.detection_map.map_colours import DIFFERENCES, RATES, painted
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice
 from occ_gui.detection_map.worker import PRELOAD

@@ -18,9 +18,8 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
-from occ_gui.detection_map.contours import Point
 from occ_gui.widgets.guarded_paint import guarded
-from occ_model.arrays import IndexArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.scene.parameter_kinds import Quantity
 
 STYLES: dict[str, Qt.PenStyle] = {
@@ -30,6 +29,9 @@ STYLES: dict[str, Qt.PenStyle] = {
     "saturation": Qt.PenStyle.DashDotLine,
 }
 """How each limit is drawn: by its dashes, which show on any colour and to any eye."""
+
+Point = tuple[float, float]
+"""Positions along both axes, from 0 to 1."""
 
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
@@ -55,7 +57,7 @@ class MapPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.title = ""
-        self.lines: dict[str, list[list[Point]]] = {}
+        self.lines: dict[str, list[FloatArray]] = {}
         self.labels: Mapping[str, str] = {}
         self.setting: Point | None = None
         self._axes: tuple[Quantity, Quantity] | None = None
@@ -192,7 +194,7 @@ class MapPlot(QWidget):
         short = axis_title(quantity, short=True)
         return metrics.elidedText(short, Qt.TextElideMode.ElideRight, int(room))
 
-    def _draw_lines(self, painter: QPainter, key: str, lines: list[list[Point]]) -> None:
+    def _draw_lines(self, painter: QPainter, key: str, lines: list[FloatArray]) -> None:
         pen = QPen(_INK, 1.6, STYLES[key])
         casing = QPen(_CASING, 3.6)
         for line in lines:
@@ -201,7 +203,7 @@ class MapPlot(QWidget):
                 painter.setPen(each)
                 painter.drawPolyline(path)
 
-    def _draw_label(self, painter: QPainter, text: str, line: list[Point]) -> None:
+    def _draw_label(self, painter: QPainter, text: str, line: FloatArray) -> None:
         """Write beside a line what it is: at its upper end, or wherever there is room."""
         size = self.fontMetrics().boundingRect(text).adjusted(-2, -1, 3, 1).size()
         points = sorted((self.place_of(point) for point in line), key=QPointF.y)

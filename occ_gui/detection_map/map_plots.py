@@ -15,8 +15,7 @@ from occ_gui.detection_map.colour_map import (
     image_of,
     painted,
 )
-from occ_gui.detection_map.contours import Point, zero_lines
-from occ_gui.detection_map.map_plot import MapPlot
+from occ_gui.detection_map.map_plot import MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
 from occ_model.arrays import FloatArray
 from occ_model.scene.parameters import quantity
@@ -48,7 +47,7 @@ class MapPlots(QWidget):
         self._what = "both"
         self._rates: RateMap | None = None
         self._theory: TheoryFields | None = None
-        self._lines: dict[str, list[list[Point]]] = {}
+        self._lines: dict[str, list[FloatArray]] = {}
         self._hidden: set[str] = set()
         self._bar_drawn = ""
         self._labels = {
@@ -133,10 +132,7 @@ class MapPlots(QWidget):
         self._rates = rates
         if rates.theory is not None and rates.theory is not self._theory:
             self._theory = rates.theory
-            self._lines = {
-                key: zero_lines(rates.theory.places, sides)
-                for key, sides in rates.theory.sides.items()
-            }
+            self._lines = rates.theory.lines()
         self._redraw()
 
     def _redraw(self) -> None:

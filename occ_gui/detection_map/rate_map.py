@@ -48,6 +48,25 @@ class TheoryFields:
     places: tuple[FloatArray, FloatArray]
     sides: Mapping[str, FloatArray]
 
+    def lines(self) -> dict[str, list[FloatArray]]:
+        """Give the lines of each limit, each of shape (points, 2): positions along x and y.
+
+        Cells of the lattice with a corner at which there is no number have no line.
+        """
+        # Only who draws a map pays for importing it.
+        from contourpy import LineType, contour_generator
+
+        found = {}
+        for limit, sides in self.sides.items():
+            contours = contour_generator(
+                *self.places,
+                np.ma.masked_invalid(sides.T),
+                corner_mask=False,
+                line_type=LineType.Separate,
+            )
+            found[limit] = [np.asarray(line) for line in contours.lines(0.0)]
+        return found
+
 
 @dataclass(frozen=True, slots=True)
 class PointFacts:

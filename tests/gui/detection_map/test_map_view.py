@@ -15,9 +15,14 @@ from occ_gui.background.worker_processes import WorkerProcesses
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, painted
-from occ_gui.detection_map.contours import zero_lines
 from occ_gui.detection_map.map_view import MapView
-from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap, lattice
+from occ_gui.detection_map.rate_map import (
+    MAP_PARAMETERS,
+    PointFacts,
+    RateMap,
+    TheoryFields,
+    lattice,
+)
 from occ_gui.detection_map.worker import PRELOAD
 from occ_model.results import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -142,11 +147,19 @@ def test_rates_grow_lighter_evenly_and_differences_from_their_middle() -> None:
 def test_a_line_runs_where_the_number_is_nothing() -> None:
     places = (np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 5))
     sides = places[0][:, None] + places[1] - 0.9
-    (line,) = zero_lines(places, sides)
+    (line,) = TheoryFields(places, {"band": sides}).lines()["band"]
     assert all(x + y == pytest.approx(0.9) for x, y in line)
     assert abs(line[0][0] - line[-1][0]) == pytest.approx(0.9)
     sides[3] = np.nan
-    assert len(zero_lines(places, sides)) == 2
+    assert len(TheoryFields(places, {"band": sides}).lines()["band"]) == 2
+
+
+def test_the_line_round_a_maximum_is_closed_and_without_numbers_there_is_none() -> None:
+    places = (np.linspace(-1.0, 1.0, 9), np.linspace(-1.0, 1.0, 7))
+    sides = 0.5 - places[0][:, None] ** 2 - places[1] ** 2
+    (line,) = TheoryFields(places, {"null": sides}).lines()["null"]
+    assert line[0].tolist() == line[-1].tolist()
+    assert TheoryFields(places, {"null": np.full((9, 7), np.nan)}).lines() == {"null": []}
 
 
 @pytest.mark.parametrize("name", MAP_PARAMETERS)

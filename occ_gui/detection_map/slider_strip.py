@@ -1,26 +1,20 @@
-"""Strips under the sliders: how well a decoder would read along each slider."""
-
-from collections.abc import Callable
+"""Strips under the sliders: the share of bits that a decoder would read along each slider."""
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QWidget
 
-from occ_gui.detection_map.colour_map import RATES, painted
+from occ_gui.detection_map.colour_map import RATES, image_of, painted
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.guarded_paint import guarded
-from occ_model.arrays import ByteArray, FloatArray
 from occ_model.scene.parameters import PARAMETERS
 
 _HEIGHT = 6
 
-Colours = Callable[[FloatArray], ByteArray]
-"""Gives shares, from 0 to 1 or not a number, their colours: (positions,) in, (positions, 4) out."""
-
 
 class SliderStrip(QWidget):
-    """A thin bar as long as a slider's way; grey where nothing is known.
+    """A thin bar as long as the handle's travel; grey where no rate is known.
 
     Parameters
     ----------
@@ -28,18 +22,13 @@ class SliderStrip(QWidget):
         The slider that it lies under.
     label
         What the slider sets.
-    colours
-        How shares are coloured.
     parent
         The parent widget.
     """
 
-    def __init__(
-        self, slider: QSlider, label: str, colours: Colours, parent: QWidget | None = None
-    ) -> None:
+    def __init__(self, slider: QSlider, label: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._slider = slider
-        self._colours = colours
         self._label = label
         self.shares: tuple[float | None, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -99,18 +88,12 @@ class SliderStrip(QWidget):
         painter.setClipRect(QRectF(first, 0, last - first, self.height()))
         painter.fillRect(whole, self.palette().color(QPalette.ColorRole.Midlight))
         if self.shares:
-            painter.drawImage(whole, self._image())
+            shares = np.array([[np.nan if share is None else share] for share in self.shares])
+            painter.drawImage(whole, image_of(painted(shares, 0.0, 1.0, RATES)))
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(QRectF(first, 0, last - first, self.height() - 1))
-
-    def _image(self) -> QImage:
-        shares = np.array([np.nan if share is None else share for share in self.shares])
-        colours = np.ascontiguousarray(self._colours(shares))
-        size = len(shares)
-        image = QImage(colours.data, size, 1, 4 * size, QImage.Format.Format_RGBA8888)
-        return image.copy()  # the array's memory goes with it
 
 
 class SliderStrips(QObject):
@@ -131,7 +114,7 @@ class SliderStrips(QObject):
         super().__init__(parent)
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
-            strip = SliderStrip(row.slider, PARAMETERS[name].label, _colours)
+            strip = SliderStrip(row.slider, PARAMETERS[name].label)
             row.add_below(strip)
             self.strips[name] = strip
         next(iter(self.strips.values())).installEventFilter(self)
@@ -150,7 +133,3 @@ class SliderStrips(QObject):
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of bits read rightly at positions along a slider, None: not known."""
         self.strips[name].show_shares(shares)
-
-
-def _colours(shares: FloatArray) -> ByteArray:
-    return np.asarray(painted(np.atleast_2d(shares), 0.0, 1.0, RATES)[0])

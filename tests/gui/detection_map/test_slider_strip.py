@@ -14,8 +14,8 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.background.crew import Crew
 from occ_gui.detection_map import slider_strip_controller as module
+from occ_gui.detection_map.colour_map import RATES, painted
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import SliderStrip
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.files.preferences import Memory
 from occ_gui.scene.control_panel import MAIN
@@ -179,7 +179,9 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
 
 def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
     strip = application.slider_strips.strips["iso"]
-    assert isinstance(strip, SliderStrip)
-    colours = strip._colours(np.array([0.0, np.nan, 1.0]))
-    assert colours.shape == (3, 4)
-    assert colours[:, 3].tolist() == [255, 0, 255]
+    strip.show_shares((0.0, 0.5, 1.0))
+    picture, (first, last) = strip.grab().toImage(), strip.span()
+    wanted = painted(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3]
+    for share, colour in zip((0.1, 0.5, 0.9), wanted.tolist(), strict=True):
+        place = round(first + share * (last - first))
+        assert list(picture.pixelColor(place, 3).getRgb()[:3]) == colour

@@ -22,7 +22,7 @@ class AccuracyView(QWidget):
     What is not seen is not drawn: the view must be told whether it is.
     """
 
-    shown = Signal(bool)
+    visibility_changed = Signal(bool)
     """Whether it can be seen from now on."""
 
     tolerance_edited = Signal(float)
@@ -98,7 +98,7 @@ class AccuracyView(QWidget):
         """Say whether anybody can see the view."""
         self._seen = seen
         self._redraw()
-        self.shown.emit(seen)
+        self.visibility_changed.emit(seen)
 
     def show_settings(self, settings: SimulationSettings) -> None:
         """Show how the scene is simulated, without telling of it."""

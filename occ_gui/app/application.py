@@ -126,7 +126,7 @@ class Application(QObject):
         self.accuracy.noise_chosen.connect(self.settings.set_noise)
         self.accuracy.effect_switched.connect(self.settings.force)
         self.accuracy.refused.connect(self._say_refusal)
-        self.accuracy.shown.connect(self.study.set_seen)
+        self.accuracy.visibility_changed.connect(self.study.set_seen)
         self.accuracy.plan_changed.connect(self.window.show_plan_change)
         self.settings.changed.connect(self._show_settings)
         self.settings.refused.connect(self._refuse_setting)

@@ -34,7 +34,7 @@ class MapView(QWidget):
         The parent widget.
     """
 
-    shown = Signal(bool)
+    visibility_changed = Signal(bool)
     """Whether it can be seen from now on."""
 
     axes_chosen = Signal(str, str)
@@ -135,7 +135,7 @@ class MapView(QWidget):
 
     def set_seen(self, seen: bool) -> None:
         """Say whether anybody can see the view."""
-        self.shown.emit(seen)
+        self.visibility_changed.emit(seen)
 
     def show_axes(self, x: str, y: str) -> None:
         """Show which parameters the map is over, without telling of it."""

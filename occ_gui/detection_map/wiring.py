@@ -56,7 +56,7 @@ class DetectionMapWiring(QObject):
         self._start.setInterval(START_MS)
         self._start.timeout.connect(lambda: self.slider_strips.set_seen(True))
         strips.seen.connect(self._see_strips)
-        pane.shown.connect(self.map.set_seen)
+        pane.visibility_changed.connect(self.map.set_seen)
         pane.axes_chosen.connect(self.map.choose_axes)
         pane.picked.connect(self.map.go_to)
         pane.pointed.connect(self.map.point_at)

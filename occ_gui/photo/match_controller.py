@@ -1,6 +1,6 @@
 """Match the photo with the scene off the window's thread, and use what was found."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import date
 from typing import Protocol
@@ -42,13 +42,6 @@ class MatchPane(Protocol):
 
     def show_match_cancelled(self) -> None:
         """Tell that the match was given up; the last one stays."""
-
-
-class MatchView(Protocol):
-    """A pane or controller that makes use of a match."""
-
-    def show_match(self, match: Match) -> None:
-        """Make use of a match."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -121,26 +114,21 @@ class MatchController(QObject):
         Gives what is known, and takes what is found.
     pane
         Shows how it goes on.
-    views
-        Make use of a match.
     """
 
     failed = Signal(str)
     """Why there is no match, or a setting could not be taken over."""
 
     matched = Signal(object)
-    """The match that the views have just been given."""
+    """The match that was found."""
 
     saved = Signal(str)
     """The name of the preset that was saved."""
 
-    def __init__(
-        self, scenes: SceneStore, pane: MatchPane, views: Sequence[MatchView] = ()
-    ) -> None:
+    def __init__(self, scenes: SceneStore, pane: MatchPane) -> None:
         super().__init__()
         self._scenes = scenes
         self._pane = pane
-        self._views = views
         self._photo: Photo | None = None
         self._known = self._asked_known = ""
         self.match: Match | None = None
@@ -218,8 +206,6 @@ class MatchController(QObject):
     def _take(self, found: Match) -> None:
         self.match, self._known = found, self._asked_known
         self._pane.show_match(found)
-        for view in self._views:
-            view.show_match(found)
         self.matched.emit(found)
 
     def _fail(self, sentence: str) -> None:

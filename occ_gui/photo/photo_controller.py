@@ -12,7 +12,7 @@ from occ_gui.background.cancellable import Cancellable, Progress
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 
 
-class PhotoView(Protocol):
+class PhotoPane(Protocol):
     """A pane that shows a photo."""
 
     def show_photo(self, photo: Photo | None) -> None:
@@ -45,12 +45,12 @@ class PhotoController(QObject):
 
     Parameters
     ----------
-    views
+    panes
         The panes that show the photo.
     """
 
     opened = Signal(object)
-    """The photo that the views have just been given, or None."""
+    """The photo that the panes show now, or None."""
 
     failed = Signal(str)
     """Why a photo could not be read; the last one stays."""
@@ -67,9 +67,9 @@ class PhotoController(QObject):
     reading_changed = Signal(object)
     """How photos are read from now on: a PhotoReading."""
 
-    def __init__(self, views: Sequence[PhotoView]) -> None:
+    def __init__(self, panes: Sequence[PhotoPane]) -> None:
         super().__init__()
-        self._views = views
+        self._panes = panes
         self._wanted: Path | None = None
         self._path: Path | None = None
         self.reading = PhotoReading()
@@ -111,21 +111,21 @@ class PhotoController(QObject):
         """Show no photo any more."""
         self.cancel()
         self._wanted = self._path = None
-        self._hand_over(None)
+        self._show_on_panes(None)
 
     def _show(self, photo: Photo) -> None:
         self.ended.emit()
         self._path = photo.path
-        self._hand_over(photo)
+        self._show_on_panes(photo)
 
     def _keep_last(self, sentence: str) -> None:
         self.ended.emit()
         self._wanted = self._path
         self.failed.emit(sentence)
 
-    def _hand_over(self, photo: Photo | None) -> None:
-        for view in self._views:
-            view.show_photo(photo)
+    def _show_on_panes(self, photo: Photo | None) -> None:
+        for pane in self._panes:
+            pane.show_photo(photo)
         self.opened.emit(photo)
 
     def stop(self) -> None:

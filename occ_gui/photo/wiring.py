@@ -33,7 +33,7 @@ class PhotoWiring(QObject):
         self._pane = pane
         self.placements = PlacementStore()
         self.comparison = ComparisonController(self.placements, profile)
-        self.matching = MatchController(scenes, pane, [self.comparison])
+        self.matching = MatchController(scenes, pane)
         self.photos = PhotoController([image, pane, self.comparison, self.matching])
         self.placements.changed.connect(self._show_placement)
         image.overlay.placed.connect(self.placements.move)
@@ -48,6 +48,7 @@ class PhotoWiring(QObject):
         pane.form.asked.connect(self.matching.start)
         pane.form.cancelled.connect(self.matching.cancel)
         pane.result.apply_asked.connect(self.matching.apply)
+        self.matching.matched.connect(self.comparison.show_match)
         self.matching.matched.connect(self._on_match)
         self.photos.reading_changed.connect(self._show_reading)
         scenes.changed.connect(pane.show_scene)

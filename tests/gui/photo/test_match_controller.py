@@ -12,7 +12,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo import match_controller as matching_room
+from occ_gui.photo import match_controller as match_module
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import SQUARE_WAVE, MatchController
 from occ_gui.scene.scene_store import SceneStore
@@ -41,19 +41,20 @@ def match_of(scene: Scene, **changes: Any) -> Match:
 
 
 class Bench:
-    """A controller on a mock pane, and a model that finds what it is told to."""
+    """A controller on a mock pane, and a model with a given answer."""
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, scene: Scene) -> None:
-        self.told: list[object] = []
+        self.events: list[object] = []
         self.used: list[Match] = []
         self.failures: list[str] = []
         self.asked: list[dict[str, Any]] = []
         self.begun, self.go_on = threading.Event(), threading.Event()
         self.go_on.set()
         self.refusal = ""
-        monkeypatch.setattr(matching_room, "match_photo", self._match)
+        monkeypatch.setattr(match_module, "match_photo", self._match)
         self.store = SceneStore(scene)
-        self.controller = MatchController(self.store, self, [_User(self.used)])
+        self.controller = MatchController(self.store, self)
+        self.controller.matched.connect(self.used.append)
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
 
@@ -71,27 +72,19 @@ class Bench:
         self._qtbot.waitUntil(lambda: not self.controller.runner.is_running)
 
     def show_match_begun(self) -> None:
-        self.told.append("begun")
+        self.events.append("begun")
 
     def show_progress(self, share: float) -> None:
-        self.told.append(share)
+        self.events.append(share)
 
     def show_match(self, match: Match | None) -> None:
-        self.told.append(match)
+        self.events.append(match)
 
     def show_match_failed(self, sentence: str) -> None:
-        self.told.append(sentence)
+        self.events.append(sentence)
 
     def show_match_cancelled(self) -> None:
-        self.told.append("cancelled")
-
-
-class _User:
-    def __init__(self, used: list[Match]) -> None:
-        self._used = used
-
-    def show_match(self, match: Match) -> None:
-        self._used.append(match)
+        self.events.append("cancelled")
 
 
 @pytest.fixture
@@ -100,7 +93,7 @@ def bench(
 ) -> Iterator[Bench]:
     bench = Bench(qtbot, monkeypatch, small_scene)
     bench.controller.show_photo(photo)
-    bench.told.clear()
+    bench.events.clear()
     yield bench
     bench.go_on.set()
     bench.controller.stop()
@@ -108,7 +101,7 @@ def bench(
 
 def test_a_match_is_told_from_its_beginning_to_what_it_found(bench: Bench) -> None:
     bench.start()
-    assert bench.told == ["begun", 0.0, 0.5, bench.controller.match]
+    assert bench.events == ["begun", 0.0, 0.5, bench.controller.match]
     assert bench.used == [bench.controller.match]
     assert bench.failures == []
 
@@ -139,7 +132,7 @@ def test_a_square_wave_that_cannot_be_is_refused_with_a_sentence(bench: Bench) -
     bench.start(sent="square", square_frequency=1e12)
     (sentence,) = bench.failures
     assert "switching_frequency" in sentence
-    assert bench.told == [sentence]
+    assert bench.events == [sentence]
 
 
 def test_a_failure_is_a_sentence_and_the_last_match_stays(bench: Bench) -> None:
@@ -148,7 +141,7 @@ def test_a_failure_is_a_sentence_and_the_last_match_stays(bench: Bench) -> None:
     bench.refusal = "No scene explains these stripes."
     bench.start()
     assert bench.failures == [bench.refusal]
-    assert bench.told[-1] == bench.refusal
+    assert bench.events[-1] == bench.refusal
     assert bench.controller.match is found
 
 
@@ -162,10 +155,10 @@ def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qt
     bench.controller.cancel()
     bench.go_on.set()
     qtbot.wait(20)
-    assert bench.told[-1] == "cancelled"
+    assert bench.events[-1] == "cancelled"
     assert bench.controller.match is found
     bench.controller.cancel()
-    assert bench.told.count("cancelled") == 1
+    assert bench.events.count("cancelled") == 1
 
 
 def test_another_photo_ends_the_match_and_forgets_what_was_found(
@@ -175,7 +168,7 @@ def test_another_photo_ends_the_match_and_forgets_what_was_found(
     bench.go_on.clear()
     bench.controller.start(MatchChoice())
     bench.controller.show_photo(replace(photo))
-    assert bench.told[-2:] == ["cancelled", None]
+    assert bench.events[-2:] == ["cancelled", None]
     bench.go_on.set()
     bench.controller.apply()
     assert bench.controller.match is None
@@ -184,9 +177,9 @@ def test_another_photo_ends_the_match_and_forgets_what_was_found(
 
 def test_without_a_photo_nothing_is_matched(bench: Bench) -> None:
     bench.controller.show_photo(None)
-    bench.told.clear()
+    bench.events.clear()
     bench.start()
-    assert bench.told == []
+    assert bench.events == []
 
 
 def test_applying_puts_what_was_found_into_the_scene_as_one_step(

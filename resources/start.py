@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -288,17 +289,46 @@ def set_up(platform: str, extras: Iterable[str]) -> None:
         install_project(python, extras)
 
 
+def usable_cores() -> int:
+    """Count the processor's cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def run_check(check: str, *, quietly: bool) -> tuple[bool, str]:
+    """Run one check; return whether it passed, and its output where that is not shown at once."""
+    program, *arguments = shlex.split(check)
+    # mypy and ruff write sentences on standard output, and their own failures on standard error.
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT} if quietly else {}
+    command = [str(PROGRAMS / program), *arguments]
+    done = subprocess.run(command, cwd=ROOT, check=False, text=True, **pipes)
+    return done.returncode == 0, (done.stdout or "").strip()
+
+
 def run_checks(pytest_arguments: Sequence[str]) -> int:
-    """Run every check of the project, whichever fail; return the exit code."""
-    pytest = shlex.join(["pytest", *pytest_arguments])
-    checks = ["ruff check .", "ruff format --check .", "mypy", "lint-imports", pytest]
-    failed = []
-    for number, check in enumerate(checks, start=1):
-        print(f"\nCheck {number} of {len(checks)}: {check}", flush=True)
-        program, *arguments = shlex.split(check)
-        command = [str(PROGRAMS / program), *arguments]
-        if subprocess.run(command, cwd=ROOT, check=False).returncode != 0:
-            failed.append(check)
+    """Run every check of the project, whichever fail; return the exit code.
+
+    The tests use all cores and show their progress. The other checks run beside them one after
+    another, and are reported when the tests have ended.
+    """
+    # Left to itself, pytest-xdist counts cores that are kept from this process, and half of those
+    # that run two threads.
+    os.environ.setdefault("PYTEST_XDIST_AUTO_NUM_WORKERS", str(usable_cores()))
+    pytest = shlex.join(["pytest", "-n", "auto", *pytest_arguments])
+    others = ["ruff check .", "ruff format --check .", "mypy", "lint-imports"]
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        reports = [pool.submit(run_check, check, quietly=True) for check in others]
+        try:
+            print(f"Check 1 of {len(others) + 1}: {pytest}", flush=True)
+            passed = {pytest: run_check(pytest, quietly=False)[0]}
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            raise
+        for number, (check, report) in enumerate(zip(others, reports, strict=True), start=2):
+            passed[check], output = report.result()
+            print(f"\nCheck {number} of {len(others) + 1}: {check}\n{output}", flush=True)
+    failed = [check for check, good in passed.items() if not good]
     print(f"\nFailed: {'; '.join(failed)}" if failed else "\nEvery check passed.", flush=True)
     return 1 if failed else 0
 

@@ -41,6 +41,7 @@ def test_a_second_start_installs_nothing_and_prints_nothing_of_its_own(
     run = run_captured(command, environment)
     assert run.stdout == "-m occ_gui --version two words\n"
     assert run.returncode == 0
+    assert "Installing" not in run.stderr
 
 
 def test_what_the_set_up_runs_speaks_on_standard_error(

@@ -91,7 +91,7 @@ def test_an_interval_to_the_end_of_what_is_searched_is_told_as_such(
 
 
 def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "right_bits", reads_where(lambda f: f == 10e3 and False))
+    monkeypatch.setattr(module, "right_bits", reads_where(lambda frequency: False))
     found = occ.limits(SCENE, "matched", rate=75.0, images=2)
     assert found.highest_frequency is found.shortest_exposure is found.longest_exposure is None
     assert found.frequency.failure == (

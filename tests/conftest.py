@@ -3,6 +3,7 @@
 import os
 from collections.abc import Generator
 from pathlib import Path
+from typing import Protocol
 
 # Before Qt is imported anywhere: no test opens a window on a real screen.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -14,6 +15,7 @@ os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
 os.environ["OCC_STATE"] = str(Path(__file__).with_name("no-state"))
 
 import pytest
+from hard_cases import laws
 from hypothesis import settings
 
 settings.register_profile("everyday", deadline=None, print_blob=True)
@@ -45,3 +47,32 @@ def pytest_runtest_makereport(
         report.outcome = "failed"
         report.longrepr = f"{item.nodeid} was skipped, which only tests of real photos may be"
     return report
+
+
+class Worker(Protocol):
+    """A process of pytest-xdist, as the process that collects the results sees it."""
+
+    workeroutput: dict[str, list[laws.Row]]
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Let a process of pytest-xdist send what it found of the hard cases."""
+    output = getattr(session.config, "workeroutput", None)
+    if output is not None:
+        output["hard_cases"] = laws.rows()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Worker) -> None:
+    """Add what a process of pytest-xdist found; one that died has sent nothing."""
+    for row in getattr(node, "workeroutput", {}).get("hard_cases", ()):
+        laws.merge(*row)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print how wrong each law of the hard cases was found at worst."""
+    if laws.FOUND:
+        total = sum(found.cases for found in laws.FOUND.values())
+        terminalreporter.write_sep("=", f"numerical health, {total:,} cases")
+        for line in laws.table():
+            terminalreporter.write_line(line)

@@ -66,6 +66,22 @@ def cases(**strategies: SearchStrategy[Any]) -> Callable[[Test], Test]:
     return decorate
 
 
+Row = tuple[str, str, int, float]
+"""A law, its ranges, the cases tried and the worst error."""
+
+
+def rows() -> list[Row]:
+    """Give what was found as plain values, which another process can read."""
+    return [(law, found.ranges, found.cases, found.worst) for law, found in FOUND.items()]
+
+
+def merge(law: str, ranges: str, cases: int, worst: float) -> None:
+    """Add what another process found of a law."""
+    found = FOUND.setdefault(law, Found(ranges))
+    found.cases += cases
+    found.worst = max(found.worst, worst)
+
+
 def table() -> list[str]:
     """Write what was found, in Markdown."""
     lines = ["| law | range | cases | worst error |", "|---|---|---|---|"]

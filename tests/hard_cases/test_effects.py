@@ -12,13 +12,11 @@ from hard_cases.laws import cases, record
 from hard_cases.references import (
     PATTERNS,
     STARTS,
-    ExactTimes,
     decades,
     signed_decades,
     some_columns,
     within,
 )
-from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.photometry import ColumnLight, luminance_levels, panel_values, saturate
 from occ_model.camera.projection import rotation_of
@@ -26,118 +24,12 @@ from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import NoiseEffect, OpticsEffect
 from occ_model.effects.emission import Emission
 from occ_model.effects.flicker import Flicker, ambient_shares, response
-from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
+from occ_model.effects.led_edges import LedEdges
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.effects.vignetting import Vignetting
 from occ_model.scene.scene import Scene
 
 mpmath.mp.dps = 50
-
-LONG = ["1" * 2048 + "0" * 2048, "10" * 2048, "1" + "0" * 4095, ("1" * 63 + "0") * 64]
-"""Patterns of the most chips: slow, fast, hardly ever lit, hardly ever dark."""
-
-FREQUENCY = 1e6
-
-EDGED = "lit share with LED edges"
-WIDE = "edges 1e-12 to 1e6 chips, t 1e-3 to 1e6, packets to 4096 chips"
-
-
-def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
-    """A scene with times in chips."""
-    basic: dict[str, float | str] = {
-        "edge_time": within("edge_time", edge / FREQUENCY),
-        "exposure_time": within("exposure_time", exposure / FREQUENCY),
-        "switching_frequency": FREQUENCY,
-        "readout_time": 0.737e-6,
-        "columns": 300,
-    }
-    return Scene().replace(**(basic | changes))
-
-
-def edge_error(scene: Scene) -> float:
-    """The worst column's lit share less that of rational arithmetic."""
-    exact, found = ExactTimes(scene), edged_lit_fraction(scene)
-    columns = some_columns(scene)
-    return max(
-        float(abs(Fraction(float(found[column])) - exact.edged_share(column))) for column in columns
-    )
-
-
-@cases(
-    edge=st.one_of(decades(1e-12, 1e6), st.integers(1, 4800).map(float)),
-    exposure=decades(1e-3, 1e6), start=STARTS, readout=decades(1e-9, 10.0), pattern=PATTERNS,
-)  # fmt: skip
-def test_edged_light_is_that_of_rational_arithmetic(
-    edge: float, exposure: float, start: float, readout: float, pattern: str
-) -> None:
-    scene = edged(edge, exposure, start_time=start, readout_time=readout, pattern=pattern)
-    error = edge_error(scene)
-    record(EDGED, WIDE, error)
-    assert error <= 1e-12
-
-
-@cases(
-    edge=st.one_of(decades(1.0, 1e6), st.sampled_from([4095.0, 4096.0, 4097.0, 8192.0])),
-    exposure=decades(1e-3, 1e5), start=STARTS, pattern=st.sampled_from(LONG),
-)  # fmt: skip
-def test_the_longest_patterns_lose_no_digits_to_long_edges(
-    edge: float, exposure: float, start: float, pattern: str
-) -> None:
-    scene = edged(edge, exposure, start_time=start, pattern=pattern, readout_time=13.7e-6)
-    error = edge_error(scene)
-    record(EDGED, WIDE, error)
-    assert error <= 1e-12
-
-
-@cases(edge=decades(1e-300, 1e-3), exposure=decades(1e-3, 1e3), start=STARTS, pattern=PATTERNS)
-def test_an_edge_towards_nothing_moves_no_more_light_than_it_keeps_back(
-    edge: float, exposure: float, start: float, pattern: str
-) -> None:
-    scene = edged(edge, exposure, start_time=start, pattern=pattern)
-    tau = scene.transmitter.edge_time * FREQUENCY
-    moved = float(np.abs(edged_lit_fraction(scene) - lit_fraction(scene)).max())
-    # Half of it at each end of the exposure; or all of a window shorter than the edge.
-    beyond = max(moved - min(tau / (scene.camera.exposure_time * FREQUENCY), 1.0), 0.0)
-    record("light moved by LED edges beyond their share", "edges 1e-300 to 1e-3 chips", beyond)
-    assert beyond <= 1e-15
-
-
-EDGES: dict[str, dict[str, float | str]] = {
-    # Windows 1/1000 of a chip, on sums that swing by a million chips^2 to and fro.
-    "a slow pattern of 4096 chips": {"edge_time": 5.5e-6, "exposure_time": 1e-9,
-                                     "pattern": LONG[0]},
-    # Light goes up and down a thousand times within the edge: what is left is 1 part in 1000.
-    "a fast pattern of 4096 chips": {"edge_time": 999.5e-6, "exposure_time": 1e-9,
-                                     "pattern": LONG[1]},
-    # An edge of whole packets leaves exactly no stripes: two equal windows cancel.
-    "whole packets": {"switching_frequency": 2.0**20, "edge_time": 24 * 2.0**-20},
-    # One ulp more than that: the windows differ by an ulp only.
-    "whole packets and an ulp": {
-        "switching_frequency": 2.0**20, "edge_time": math.nextafter(24 * 2.0**-20, 1)},
-    # Just at one chip the closed form changes.
-    "one chip": {"switching_frequency": 2.0**20, "edge_time": 2.0**-20},
-    # Just below one chip, where the ramps nearly meet.
-    "one chip less an ulp": {
-        "switching_frequency": 2.0**20, "edge_time": math.nextafter(2.0**-20, 0)},
-    # A billion chips in one edge, a billion seconds from time zero.
-    "a second at 1 GHz": {
-        "switching_frequency": 1e9, "edge_time": 1.0, "exposure_time": 1e-9, "start_time": 1e9},
-    # The edge and the exposure are the same average twice: a triangle.
-    "an edge as long as the exposure": {"edge_time": 7.3e-6, "exposure_time": 7.3e-6},
-    # So short that its square is nothing.
-    "the smallest number there is": {"edge_time": 5e-324},
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("start", [0.0, 1e9 - 1 / 7])
-@pytest.mark.parametrize("name", EDGES)
-def test_edged_light_of_a_hard_scene_is_that_of_rational_arithmetic(
-    name: str, start: float
-) -> None:
-    scene = edged(0.0, 1.7, **({"start_time": start} | EDGES[name]))
-    error = edge_error(scene)
-    record(EDGED, WIDE, error)
-    assert error <= 1e-12
 
 
 @cases(

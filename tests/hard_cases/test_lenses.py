@@ -1,0 +1,140 @@
+"""Lenses that fold or bend by every amount, against forty digits and OpenCV."""
+
+import math
+
+import cv2
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+import occ_model as occ
+from hard_cases.laws import cases, record
+from hard_cases.poses_and_lenses import GEOMETRY, POSES, SMALL, lenses, poses
+from hard_cases.references import decades, signed_decades
+from occ_model.camera.optics import Optics
+from occ_model.camera.projection import (
+    image_points,
+    image_rays,
+)
+from occ_model.effects.distortion import Distortion, distorted
+from occ_model.scene.scene import Scene
+
+
+def opencv_places(rays: np.ndarray, scene: Scene) -> np.ndarray:
+    focal, lens, camera = scene.camera.focal_length_pixels, scene.lens, scene.camera
+    centre = ((camera.columns - 1) / 2, (camera.rows - 1) / 2)
+    matrix = np.array([[focal, 0, centre[0]], [0, focal, centre[1]], [0, 0, 1.0]])
+    coefficients = [lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2]
+    points = np.column_stack([rays, np.ones(len(rays))])
+    still = np.zeros(3)
+    return cv2.projectPoints(points, still, still, matrix, np.array(coefficients))[0][:, 0]
+
+
+@cases(
+    lens=lenses(),
+    distance=decades(0.3, 100.0),
+    roll=st.floats(-3.0, 3.0),
+    yaw=st.floats(-1.0, 1.0),
+    focal=decades(0.005, 0.2),
+)
+def test_the_bent_outline_lies_on_the_curve_that_opencv_projects(
+    lens: dict[str, float], distance: float, roll: float, yaw: float, focal: float
+) -> None:
+    scene = Scene().replace(
+        rows=600, columns=800, distance=distance, roll=roll, yaw=yaw,
+        equivalent_focal_length=focal, **lens
+    )  # fmt: skip
+    corners = occ.panel_corners(scene)
+    try:
+        outline = Distortion().apply(scene, Optics(corners)).outline
+    except occ.ProjectionError:
+        return
+    # Every pictured corner that is in the picture is a corner of the outline,
+    rays = image_rays(corners, scene.camera)
+    pictured = opencv_places(rays, scene)
+    inside = ((pictured >= 0) & (pictured <= [799, 599])).all(axis=1)
+    near = np.hypot(*np.abs(rays).T) < 0.5 * math.hypot(600, 800) / scene.camera.focal_length_pixels
+    for corner in pictured[inside & near]:
+        error = float(np.hypot(*(outline - corner).T).min())
+        record("distorted corners against OpenCV, px", "k to 10, p to 1", error)
+        assert error <= 1e-9
+    # and every edge of it that is in the picture lies along the curve.
+    share = np.linspace(0, 1, 41)[:, None, None]
+    line = rays * (1 - share) + np.roll(rays, -1, axis=0) * share
+    curve = opencv_places(line.reshape(-1, 2), scene)
+    reached = np.hypot(*line.reshape(-1, 2).T) * scene.camera.focal_length_pixels < 500
+    seen = curve[((curve >= 0) & (curve <= [799, 599])).all(axis=1) & reached]
+    if len(seen) == 0:
+        return
+    following = np.roll(outline, -1, axis=0) - outline
+    square = np.maximum((following**2).sum(-1), 1e-300)
+    offset = seen[:, None] - outline
+    along = np.clip((offset * following).sum(-1) / square, 0, 1)
+    missed = offset - along[..., None] * following
+    error = float(np.hypot(missed[..., 0], missed[..., 1]).min(axis=1).max())
+    record("distorted edges against OpenCV, px", "k to 10, p to 1", error)
+    assert error <= 0.02
+
+
+@cases(lens=lenses(), x=signed_decades(1e-9, 1e3), y=signed_decades(1e-9, 1e3))
+def test_browns_equation_is_that_of_forty_digits(
+    lens: dict[str, float], x: float, y: float
+) -> None:
+    found = distorted(np.array([x, y]), Scene().replace(**lens).lens)
+    with mpmath.workdps(40):
+        k1, k2, p1, p2, u, v = map(mpmath.mpf, (*lens.values(), x, y))
+        square = u * u + v * v
+        radial = 1 + k1 * square + k2 * square**2
+        size = abs(1 + abs(k1) * square + abs(k2) * square**2) * mpmath.sqrt(square)
+        size += 3 * (abs(p1) + abs(p2)) * square
+        expected = (
+            u * radial + 2 * p1 * u * v + p2 * (square + 2 * u * u),
+            v * radial + 2 * p2 * u * v + p1 * (square + 2 * v * v),
+        )
+        error = max(float(abs(e - f) / size) for e, f in zip(expected, found.tolist(), strict=True))
+    record("Brown's equation, of its terms", "rays to 1000 focal lengths", error)
+    assert error <= 2e-15
+
+
+@cases(
+    scene=poses(),
+    lens=lenses(),
+    spread=st.just(0.0) | decades(1e-300, 1000.0),
+    focus=st.just(0.0) | decades(1e-300, 1e6),
+    pattern=st.sampled_from(["1", ""]),
+)
+def test_any_pose_and_lens_gives_a_picture_or_a_sentence(
+    scene: Scene, lens: dict[str, float], spread: float, focus: float, pattern: str
+) -> None:
+    hard = scene.replace(
+        **lens, point_spread=spread, focus_distance=focus, pattern=pattern, illuminance=1.0
+    )
+    try:
+        frame = occ.render(hard, tolerance=0, force=GEOMETRY)
+    except occ.ProjectionError as refusal:
+        error = 0.0 if str(refusal).endswith(("nearer to 0.", "turn it back.")) else 1.0
+    else:
+        assert frame.image.shape == (hard.camera.rows, hard.camera.columns)
+        finite = np.isfinite(frame.profile).all()
+        bounds = all(math.isfinite(decision.bound) for decision in frame.plan.decisions)
+        error = 0.0 if finite and bounds else 1.0
+    record("a picture or a sentence, and no number that is none", f"{POSES}, any lens", error)
+    assert error == 0.0
+
+
+@pytest.mark.parametrize("blur", [0.0, 30.0, 1000.0])
+@pytest.mark.parametrize("k1", [-0.1, -0.19])
+def test_a_lens_that_folds_beyond_the_picture_is_not_refused_for_its_blur(
+    k1: float, blur: float
+) -> None:
+    # Light from so far out takes part that the lens is looked at where it has long folded.
+    scene = Scene().replace(**(SMALL | {"radial_k1": k1, "point_spread": blur, "distance": 0.02}))
+    scene = scene.replace(focus_distance=0.001 if blur == 1000.0 else 0.0, f_number=0.5)
+    assert (occ.render(scene, force=GEOMETRY).image > 0).all()
+
+
+def test_a_lens_bends_rays_and_points_of_the_picture_back_and_forth() -> None:
+    camera = Scene().replace(rows=3, columns=5).camera
+    points = np.array([[0.0, 0.0], [4.0, 2.0], [1e9, -1e9]])
+    np.testing.assert_allclose(image_points(image_rays(points, camera), camera), points, rtol=1e-14)

@@ -33,6 +33,23 @@ def photos() -> Path:
     return _PHOTOS
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option that tries all of what a sample is tried of otherwise."""
+    parser.addoption(
+        "--whole", action="store_true", default=bool(os.environ.get("CI")),
+        help="run the tests marked `whole` too, as CI does",
+    )  # fmt: skip
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what only CI runs whole; it counts as deselected, not as skipped."""
+    if config.getoption("--whole"):
+        return
+    left_out = [item for item in items if item.get_closest_marker("whole")]
+    items[:] = [item for item in items if not item.get_closest_marker("whole")]
+    config.hook.pytest_deselected(items=left_out)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]

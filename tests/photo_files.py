@@ -1,14 +1,13 @@
 """Write pictures to files of every format that photos come in."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image
 
 
-def saved(
-    folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", **how: object
-) -> Path:
+def saved(folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", **how: Any) -> Path:
     """Write a picture in the format of its name's ending."""
     picture = Image.fromarray(picture) if isinstance(picture, np.ndarray) else picture
     if name.endswith(".heic"):

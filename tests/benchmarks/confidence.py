@@ -18,7 +18,8 @@ def main() -> None:
     trials = parser.parse_args().trials
     random = np.random.default_rng(2026)
     base = occ.load_preset("phone-136us").replace(enhancement="none")
-    right, wrong = [], []
+    right: list[float] = []
+    wrong: list[float] = []
     for _ in range(trials):
         scene = base.replace(
             code=int(random.integers(1024)),

@@ -11,6 +11,7 @@ import tempfile
 import zlib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -76,11 +77,11 @@ def with_pillow(mode: str, file_format: str, **how: object) -> Callable[[Path, i
     return write
 
 
-def with_tifffile(bands: int, depth: type, **how: object) -> Callable[[Path, int, bool], None]:
+def with_tifffile(bands: int, depth: type, **how: Any) -> Callable[[Path, int, bool], None]:
     def write(path: Path, count: int, noisy: bool) -> None:
         pixels = pixels_of(count, bands, depth, noisy)
         kind = "rgb" if bands > 2 else "minisblack"
-        extra = {"extrasamples": ["unassalpha"]} if bands in (2, 4) else {}
+        extra: dict[str, Any] = {"extrasamples": ["unassalpha"]} if bands in (2, 4) else {}
         tifffile.imwrite(path, np.ascontiguousarray(pixels), photometric=kind, **extra, **how)
 
     return write

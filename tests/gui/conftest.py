@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.user import PatientQtBot, User
 from numpy.typing import NDArray
 from PIL import Image
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QAction, QImage
+from PySide6.QtCore import QEvent
+from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -19,7 +20,6 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.background.parcel import Outcome, Task
 from occ_gui.detection_map import wiring
-from occ_gui.scene.parameter_rows import CountRow, QuantityRow
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo
@@ -73,6 +73,12 @@ class LazyWorkers(InlineWorkers):
 
     def outcome(self, task: Task) -> Outcome:
         return Outcome(None, abandoned=True)
+
+
+@pytest.fixture
+def qtbot(qapp: QApplication, request: pytest.FixtureRequest) -> QtBot:
+    """Drive widgets, and wait for them on a busy machine too."""
+    return PatientQtBot(request)
 
 
 @pytest.fixture(autouse=True)
@@ -135,55 +141,6 @@ def application(qtbot: QtBot, small_scene: Scene) -> Iterator[Application]:
         if widget not in before and not isinstance(widget, QMenu)
     ]
     assert not leaked, f"top-level widgets outlive the window: {leaked}"
-
-
-class User:
-    """Somebody at the window: types, chooses from menus, waits and looks."""
-
-    def __init__(self, qtbot: QtBot, application: Application) -> None:
-        self._qtbot = qtbot
-        self._application = application
-
-    def wait_until_idle(self) -> None:
-        """Wait until all that was asked of the application is shown."""
-        self._qtbot.waitUntil(lambda: self._application.is_idle)
-
-    def row(self, name: str) -> QuantityRow | CountRow:
-        """Find the controls of a number."""
-        panels = self._application.controls.panels.values()
-        (row,) = [panel.rows[name] for panel in panels if name in panel.rows]
-        assert isinstance(row, QuantityRow | CountRow)
-        return row
-
-    def enter(self, name: str, text: str) -> None:
-        """Type a number, press Enter, and wait."""
-        field = self.row(name).field
-        field.selectAll()
-        self._qtbot.keyClicks(field, text)
-        self._qtbot.keyClick(field, Qt.Key.Key_Return)
-        self.wait_until_idle()
-
-    def choose(self, text: str) -> None:
-        """Choose the menu entry whose text starts like this, and wait."""
-        self.entry(text).trigger()
-        self.wait_until_idle()
-
-    def entry(self, text: str) -> QAction:
-        """Find the menu entry whose text starts like this."""
-        actions = self._application.window.findChildren(QAction)
-        (found,) = [action for action in actions if action.text().startswith(text)]
-        return found
-
-    def choose_next_preset(self) -> str:
-        """Move on in the list of presets, wait, and return the name that it shows."""
-        self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)
-        self.wait_until_idle()
-        return self._application.controls.preset.currentText()
-
-    @property
-    def message(self) -> str:
-        """What the status line says."""
-        return self._application.window.statusBar().currentMessage()
 
 
 @pytest.fixture

@@ -64,4 +64,10 @@ def lenses(draw: st.DrawFn) -> dict[str, float]:
     return {"radial_k1": k1, "radial_k2": k2, "tangential_p1": p1, "tangential_p2": p2}
 
 
-SMALL = {"rows": 30, "columns": 40, "pattern": "1", "illuminance": 0.0, "enhancement": "none"}
+SMALL: dict[str, float | str] = {
+    "rows": 30,
+    "columns": 40,
+    "pattern": "1",
+    "illuminance": 0.0,
+    "enhancement": "none",
+}

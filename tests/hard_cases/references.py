@@ -8,6 +8,7 @@ from functools import cached_property
 from hypothesis import strategies as st
 
 import occ_model as occ
+from occ_model.scene.parameter_kinds import Count, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
@@ -35,6 +36,7 @@ STARTS = st.one_of(
 def within(name: str, value: float) -> float:
     """Give the nearest value that a parameter may have."""
     declared = PARAMETERS[name]
+    assert isinstance(declared, Quantity | Count)
     return min(max(value, declared.low), declared.high)
 
 

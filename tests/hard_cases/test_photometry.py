@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from hard_cases.laws import cases, record
-from hard_cases.references import decades
+from hard_cases.references import decades, within
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import (
     WHITE,
@@ -21,7 +21,6 @@ from occ_model.camera.photometry import (
     pixel_value,
 )
 from occ_model.camera.photometry import ColumnLight as Light
-from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Camera, Scene
 
 CAMERAS = st.builds(
@@ -86,8 +85,7 @@ def test_more_light_is_never_darker_be_it_one_ulp_more(
     )
     before = float(scene.value(name))
     after = before / factor if name == "f_number" else before * factor
-    declared = PARAMETERS[name]
-    more = scene.replace(**{name: min(max(after, declared.low), declared.high)})
+    more = scene.replace(**{name: within(name, after)})
     lost = float(level_values(scene)[1] - level_values(more)[1]) / float(level_values(scene)[1])
     record("PV grows with S, t, L and 1/N: what it falls by", f"{RANGES}, from an ulp on", lost)
     assert lost <= 0.0
@@ -151,7 +149,7 @@ def test_a_profile_is_that_of_equations_1_to_3(scene: Scene) -> None:
 @cases(camera=CAMERAS, by=st.sampled_from([-1e-9, -1e-12, 0.0, 1e-12, 1e-9]))
 def test_a_pixel_is_full_from_where_the_equation_says(camera: Camera, by: float) -> None:
     luminance = float(luminance_of(np.array([WHITE]), camera)[0]) * (1.0 + by)
-    assume(0.0 < luminance <= PARAMETERS["luminance"].high)
+    assume(0.0 < luminance == within("luminance", luminance))
     scene = Scene(camera=camera).replace(
         pattern="1", columns=1, luminance=luminance, illuminance=0.0
     )

@@ -1,6 +1,7 @@
 """Signals and images that are hardly any are read, or refused with a sentence."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -207,7 +208,7 @@ def test_codes_of_sixteen_bits_in_a_hundred_thousand_columns_are_read(decoder: s
 def test_images_of_all_types_give_the_same_code(decoder: str) -> None:
     scene = Scene().replace(rows=40, columns=2000, distance=0.1, exposure_time=68e-6)
     image = occ.render(scene).image
-    images = {
+    images: dict[str, Any] = {
         "uint8": image,
         # 255 becomes 65535: what is above a byte must be scaled, not cut off.
         "uint16": image.astype(np.uint16) * 257,

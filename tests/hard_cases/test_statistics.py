@@ -13,7 +13,7 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.camera.enhancement import Enhancement
-from occ_model.effects.registry import EFFECTS
+from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import Region
@@ -100,7 +100,8 @@ def panels_of_rows(draw: st.DrawFn) -> list[tuple[np.ndarray, np.ndarray | slice
         values = (size * 10.0 ** random.uniform(-6, 0, shape)).astype(np.float32)
         ends = sorted(draw(st.tuples(st.integers(0, columns), st.integers(0, columns))))
         mask = random.random(shape) < draw(st.floats(0, 1))
-        blocks.append((values, draw(st.sampled_from([slice(*ends), mask]))))
+        places: list[np.ndarray | slice] = [slice(*ends), mask]
+        blocks.append((values, draw(st.sampled_from(places))))
     return blocks
 
 
@@ -173,7 +174,7 @@ def test_profile_and_noise_means_of_sixteen_million_pixels_are_exact_to_1e_9() -
 def test_noise_that_is_used_again_has_no_mean_of_its_own() -> None:
     # Two million numbers in single precision, whose own sum would be off in the fifth digit.
     scene = Scene().replace(columns=1, rows=4)
-    noise = ReusedNoise([e for e in EFFECTS if e.name == "sensor-noise"], scene, 1, lambda _: None)
+    noise = ReusedNoise([SensorNoise()], scene, 1, lambda _: None)
     numbers = noise._places[:, 0]
     mean = math.fsum(numbers.tolist()) / len(numbers)
     square = math.fsum((numbers.astype(np.float64) ** 2).tolist()) / len(numbers)

@@ -179,7 +179,7 @@ def test_a_small_change_of_any_time_changes_the_on_time_by_no_more_than_its_shar
     in chips, which are e shorter.
     """
     scene = timed(chips, frequency, readout_time=readout, start_time=start)
-    old = scene.value(which)
+    old = float(scene.value(which))
     new = within(which, old * (1 + sign * size))
     changed = scene.replace(**{which: new})
     delta, t = abs(Fraction(new) - Fraction(old)), Fraction(scene.camera.exposure_time)
@@ -200,7 +200,7 @@ def test_a_small_change_of_any_time_changes_the_on_time_by_no_more_than_its_shar
 
 LONG = "1" * 2048 + "0" * 2048
 
-MANY_COLUMNS = {
+MANY_COLUMNS: dict[str, dict[str, float | str]] = {
     # No binary fraction of a chip: each step's rounding would add up to 1e-10 chips.
     "a decimal readout time": {"readout_time": 7.77e-6},
     # A step of nearly a period, whose product with the column number needs 65 bits.

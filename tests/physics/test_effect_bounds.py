@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.effect import Observable
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
 from occ_model.simulation.render import observe
 
 BOUNDS = {effect.name: effect for effect in EFFECTS}

@@ -93,6 +93,7 @@ def test_a_panel_of_any_size_changes_by_no_more_than_the_bound(
     with_it = occ.render(scene, tolerance=0, force=quiet).image.astype(float)
     without = occ.render(scene, tolerance=math.inf).image
     region = region_of(occ.panel_corners(scene), 160, 160)
+    assert region is not None
     seen = (with_it - without)[
         region.first_row : region.last_row, region.first_column : region.last_column
     ]

@@ -128,7 +128,8 @@ def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot)
 def test_the_legend_names_every_part_and_explains_it(plot: AccuracyPlot) -> None:
     texts = [label.text() for label in plot.legend.findChildren(QLabel) if label.text()]
     assert texts == ["exposure", "effects", "path", "noise", "now"]
-    tips = {label.parentWidget().toolTip() for label in plot.legend.findChildren(QLabel)}
+    parents = [label.parentWidget() for label in plot.legend.findChildren(QLabel)]
+    tips = {parent.toolTip() for parent in parents if parent is not None}
     assert set(ACCURACY_PARTS.values()) < tips
 
 

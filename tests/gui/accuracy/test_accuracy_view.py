@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
@@ -11,8 +12,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.accuracy import controller
 from occ_gui.accuracy.effect_table import DECISION, EffectRow
 from occ_gui.app.application import Application
-
-User = Any  # the fixture of that name
 
 
 @pytest.fixture
@@ -36,7 +35,7 @@ def test_an_effect_that_a_slider_calls_for_is_marked_and_said_with_its_cost(
     in_front: Application, user: User
 ) -> None:
     assert not row(in_front, "led-edges").included
-    slider = user.row("edge_time").slider
+    slider = user.slider("edge_time")
     slider.setValue(200)
     user.wait_until_idle()
     shown = row(in_front, "led-edges")
@@ -138,7 +137,7 @@ def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
     application.store.change(iso=200.0)
     assert title.toolTip().endswith("stopped")
     assert not application.study.runner.is_running
-    qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"), timeout=20_000)
+    qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"))
     assert application.study.is_idle
 
 

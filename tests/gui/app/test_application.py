@@ -4,10 +4,10 @@ import gc
 import math
 import re
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QApplication, QLabel, QMessageBox, QWidget
@@ -20,7 +20,6 @@ from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.scene import Scene
 
 Picture = Callable[[QWidget], NDArray[np.uint8]]
-User = Any  # the fixture of that name
 
 
 def test_a_key_on_a_slider_changes_scene_field_and_picture(
@@ -62,7 +61,7 @@ def test_bits_typed_arrive_in_the_decode_result(
 def test_a_drag_of_a_slider_is_undone_as_one_step(
     application: Application, user: User, small_scene: Scene
 ) -> None:
-    slider = user.row("iso").slider
+    slider = user.slider("iso")
     slider.setSliderDown(True)
     for position in range(200, 700, 100):
         slider.setValue(position)
@@ -92,7 +91,7 @@ def test_undo_and_redo_bring_the_controls_and_the_picture_back(
     pictures = [grey_picture(application.image)]
     user.enter("distance", "2 m")
     pictures.append(grey_picture(application.image))
-    assert not np.array_equal(*pictures)
+    assert not np.array_equal(pictures[0], pictures[1])
     for text, distance, picture in (("&Undo", 1.2, pictures[0]), ("&Redo", 2.0, pictures[1])):
         assert "distance" in user.entry(text).text()
         user.choose(text)

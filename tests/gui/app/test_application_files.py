@@ -1,14 +1,12 @@
 """Photos and pictures, from the menu to the views and back to a file."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from gui.user import User
 
 import occ_model as occ
 from occ_gui.app.application import Application
-
-User = Any  # the fixture of that name
 
 TITLE = "Optical Camera Communication"
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtWidgets import QWidget
 
@@ -13,9 +14,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_model.scene.scene import Scene
 
-User = Any  # the fixture of that name
-
-BEHIND_THE_CAMERA = {"distance": 0.1, "yaw": 1.2}
+BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,13 @@
 """A photo from opening it to the scene that explains it, with the real widgets."""
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from PIL import Image
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QApplication, QMenu
@@ -15,11 +16,8 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.files import file_controller as files_room
-from occ_gui.photo import photo_controller as photo_room
 from occ_gui.picture.placement import Placement
 from occ_model.scene.scene import Scene
-
-User = Any  # the fixture of that name
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
 """What the simulated photo was taken with."""
@@ -74,7 +72,7 @@ def test_the_reading_of_a_photo_is_shown_with_a_way_out_until_it_has_ended(
         assert go_on.wait(10.0)
         return load(*asked, progress=progress, **how)
 
-    monkeypatch.setattr(photo_room.occ, "load_photo", held)
+    monkeypatch.setattr(occ, "load_photo", held)
     bar = application.window.reading
     application.open_photo(taken, match=True)
     qtbot.waitUntil(bar.isVisible)
@@ -296,7 +294,7 @@ def test_a_dropped_file_that_is_no_photo_is_answered_by_a_sentence(
 
 
 @pytest.fixture
-def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Iterator[Path]:
+def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
     """Put a sample photo with its scene where the program's are looked for."""
     folder = tmp_path / "resources" / "photos"
     folder.mkdir(parents=True)

@@ -1,9 +1,11 @@
 """A desktop program: titles, themes, keys, the palette, the pointer, and held brightness."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
@@ -18,8 +20,6 @@ from occ_gui.window.command_palette import Command, CommandPalette
 from occ_gui.window.commands import commands_of, sheet_of
 from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_model.scene.scene import Scene
-
-User = Any  # the fixture of that name
 
 
 def test_save_asks_for_a_file_once_and_the_title_marks_what_is_not_saved(
@@ -121,7 +121,7 @@ def test_the_palette_does_what_a_few_letters_find_by_keys_only(
 ) -> None:
     done: list[str] = []
     commands = [
-        Command(f"File: {name}", "", lambda name=name: done.append(name))
+        Command(f"File: {name}", "", partial(done.append, name))
         for name in ("Save scene", "Save scene as…", "Quit")
     ]
     palette = CommandPalette(commands, application.window)
@@ -176,7 +176,8 @@ def test_the_status_line_tells_column_row_and_level_under_the_mouse(
 @pytest.fixture
 def held(qtbot: QtBot) -> tuple[SceneStore, HoldBrightness, list[str]]:
     store = SceneStore(Scene().replace(exposure_time=100e-6, iso=200.0))
-    held, messages = HoldBrightness(store), []
+    messages: list[str] = []
+    held = HoldBrightness(store)
     held.status_message.connect(messages.append)
     held.switch(True)
     return store, held, messages

@@ -6,9 +6,9 @@ import threading
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.exceptions import capture_exceptions
@@ -19,8 +19,6 @@ from occ_gui.app.error_reports import Faults
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.guarded_paint import guarded
-
-User = Any  # the fixture of that name
 
 STILL_THERE = "Your work is still there."
 

@@ -4,9 +4,9 @@ import os
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
+from gui.user import User
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import Qt as RichText
@@ -24,8 +24,6 @@ from occ_gui.window.commands import plain
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
-
-User = Any  # the fixture of that name
 
 TAG = "<img src=nothing.png>"
 NAME = f"{TAG} & <b>bold\n\x1b[31m\u202egnp"

@@ -103,7 +103,9 @@ def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf)
     decoded = DecodeResult("threshold", failure="So it happened that no code was read. " * 12)
     view.resize(view.minimumSizeHint().width(), 700)
     view.show_snapshot(replace(snapshot_of(), decoded=decoded))
-    view.layout().activate()
+    layout = view.layout()
+    assert layout is not None
+    layout.activate()
     for label in (view.verdict, view.reason):
         assert label.height() >= label.heightForWidth(label.width())
 

@@ -36,10 +36,8 @@ FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -> RateMap:
     """Give a map of which some points are known."""
-    values = (
-        lattice(name, count) for name, count in zip((FREQUENCY, DISTANCE), SHAPE, strict=True)
-    )
-    rates = RateMap(FREQUENCY, DISTANCE, *values, DECODERS)
+    x_values, y_values = lattice(FREQUENCY, SHAPE[0]), lattice(DISTANCE, SHAPE[1])
+    rates = RateMap(FREQUENCY, DISTANCE, x_values, y_values, DECODERS)
     rates.enter([SweepPoint(index, 10, counts) for index, counts in right.items()], 1)
     rates.enter([SweepPoint(index, 0, (0, 0), "It cannot be.") for index in refused], 1)
     return rates
@@ -83,7 +81,8 @@ def test_a_known_point_is_drawn_over_all_cells_near_it_until_finer_ones_come() -
 
 def test_a_click_tells_the_cell_that_it_is_in(qtbot: QtBot, view: MapView) -> None:
     view.show_map(whole((10, 10)))
-    plot, picked = view.plots.plots[0], []
+    picked: list[tuple[float, float]] = []
+    plot = view.plots.plots[0]
     view.picked.connect(picked.append)
     for cell in ((0, 0), (12, 6), (5, 3)):
         place = plot.place_of((cell[0] / 12, cell[1] / 6)).toPoint()
@@ -95,7 +94,9 @@ def test_a_click_tells_the_cell_that_it_is_in(qtbot: QtBot, view: MapView) -> No
 
 def test_arrows_and_enter_do_what_the_mouse_does(qtbot: QtBot, view: MapView) -> None:
     view.show_map(whole((10, 10)))
-    plot, picked, pointed = view.plots.plots[0], [], []
+    picked: list[object] = []
+    pointed: list[tuple[int, int]] = []
+    plot = view.plots.plots[0]
     view.picked.connect(picked.append)
     view.pointed.connect(pointed.append)
     qtbot.keyClick(plot, Qt.Key.Key_Right)

@@ -184,4 +184,5 @@ def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
     wanted = painted(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3]
     for share, colour in zip((0.1, 0.5, 0.9), wanted.tolist(), strict=True):
         place = round(first + share * (last - first))
-        assert list(picture.pixelColor(place, 3).getRgb()[:3]) == colour
+        seen = picture.pixelColor(place, 3)
+        assert [seen.red(), seen.green(), seen.blue()] == colour

@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Sequence
-from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
@@ -17,8 +17,6 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.results.teaching import Equation
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
-
-User = Any  # the fixture of that name
 
 NOTHING: frozenset[str] = frozenset()
 

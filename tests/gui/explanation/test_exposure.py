@@ -1,10 +1,10 @@
 """The exposure of the column that the mouse, a click, an arrow key or a number chooses."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
@@ -20,7 +20,6 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.exposure_window import exposure_window
 
 SnapshotOf = Callable[..., Snapshot]
-User = Any  # the fixture of that name
 
 
 @pytest.fixture

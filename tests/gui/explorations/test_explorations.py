@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -14,8 +15,6 @@ from occ_gui.explorations.exploration_view import ExplorationView
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
-
-User = Any  # the fixture of that name
 
 
 @pytest.fixture

@@ -2,9 +2,9 @@
 
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
+from gui.user import User
 from PIL import Image
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
@@ -18,8 +18,6 @@ from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
-
-User = Any  # the fixture of that name
 
 
 def export(application: Application, user: User, name: str, path: Path) -> str:

@@ -123,7 +123,9 @@ def test_a_saved_picture_is_exactly_the_one_shown(
     path = tmp_path / f"picture.{ending}"
     bench.files.save_picture(path)
     assert bench.status_message == [f"Saved picture.{ending}"]
-    assert np.array_equal(cv2.imread(str(path), cv2.IMREAD_UNCHANGED), shown.frame.image)
+    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    assert written is not None
+    assert np.array_equal(written, shown.frame.image)
 
 
 def test_a_picture_that_cannot_be_written_says_so_and_leaves_nothing(

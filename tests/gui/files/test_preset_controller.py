@@ -2,9 +2,9 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QInputDialog, QMessageBox
 
@@ -19,7 +19,6 @@ from occ_model.scene.presets import (
 )
 from occ_model.scene.scene import Scene
 
-User = Any  # the fixture of that name
 Answer = Callable[[str, bool], None]
 
 

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-import occ_model as occ
 from occ_gui.photo import match_controller as match_module
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import SQUARE_WAVE, MatchController
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import MatchError
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, Region, Stripes
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
@@ -272,5 +272,5 @@ def test_without_a_match_nothing_is_saved(bench: Bench, own: Path) -> None:
 
 
 def test_the_words_of_the_choice_are_those_of_the_model(bench: Bench) -> None:
-    assert occ.photo.match.ESTIMATES == ("readout_time", "switching_frequency")
-    assert set(occ.photo.match.PATTERN_SOURCES) == {"auto", "scene", "read"}
+    assert ESTIMATES == ("readout_time", "switching_frequency")
+    assert set(PATTERN_SOURCES) == {"auto", "scene", "read"}

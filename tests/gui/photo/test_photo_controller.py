@@ -11,7 +11,6 @@ from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo import photo_controller as photo_room
 from occ_gui.photo.photo_controller import PhotoController, PhotoReading
 from occ_model.photo.reading.load import Photo
 
@@ -29,11 +28,11 @@ class Bench:
         self.begun = threading.Event()
         self.go_on = threading.Event()
         self.go_on.set()
-        monkeypatch.setattr(photo_room.occ, "load_photo", self._read)
+        monkeypatch.setattr(occ, "load_photo", self._read)
         self.controller = PhotoController([self])
         self.controller.opened.connect(self.opened.append)
         self.controller.failed.connect(self.failures.append)
-        self._load = occ.photo.reading.load.load_photo
+        self._load = occ.load_photo
         self._qtbot = qtbot
 
     def _read(

@@ -1,7 +1,9 @@
 """An image shows the mean of the pixels that share a pixel of the screen: no false stripes."""
 
 from collections.abc import Callable
+from typing import Any
 
+import cv2
 import numpy as np
 import pyqtgraph as pg
 import pytest
@@ -9,7 +11,6 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 from pytestqt.qtbot import QtBot
 
-from occ_gui.picture import averaged_image
 from occ_gui.picture.averaged_image import AveragedImage
 
 Grey = NDArray[np.uint8]
@@ -158,13 +159,13 @@ def test_only_the_visible_part_is_averaged_and_only_when_the_view_changes(
     screen: Screen, fine_stripes: Grey, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sizes: list[tuple[int, ...]] = []
-    resize = averaged_image.cv2.resize
+    resize: Any = cv2.resize
 
     def note_and_resize(pixels: Grey, *args: object, **kwargs: object) -> Grey:
         sizes.append(pixels.shape)
         return resize(pixels, *args, **kwargs)
 
-    monkeypatch.setattr(averaged_image.cv2, "resize", note_and_resize)
+    monkeypatch.setattr(cv2, "resize", note_and_resize)
     screen.item.set_image(fine_stripes)
     quarter = QRectF(999.5, -0.5, 1000, HEIGHT)
     screen.shown(100, HEIGHT, quarter)

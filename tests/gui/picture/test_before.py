@@ -1,10 +1,10 @@
 """What was there before the latest gesture stays to be compared with what is there now."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
@@ -22,7 +22,6 @@ from occ_model.scene.scene import Scene
 
 Grey = NDArray[np.uint8]
 SnapshotOf = Callable[..., Snapshot]
-User = Any  # the fixture of that name
 
 
 class Pane:
@@ -205,7 +204,7 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
 ) -> None:
     application.image.before.chosen.setChecked(True)
     _, start = application.profile.simulation.getOriginalDataset()
-    slider = user.row("exposure_time").slider
+    slider = user.slider("exposure_time")
     slider.setSliderDown(True)
     for position in (500, 600, 700):
         slider.setValue(position)

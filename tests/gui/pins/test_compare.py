@@ -1,10 +1,10 @@
 """Two pinned states: what differs is listed, both are drawn, and either can be gone back to."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QTableWidget
 from pytestqt.qtbot import QtBot
@@ -18,7 +18,6 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
 SnapshotOf = Callable[..., Snapshot]
-User = Any  # the fixture of that name
 
 
 class Pane:

@@ -1,5 +1,7 @@
 """The scene is changed in one place, refuses what cannot be, and is undone gesture by gesture."""
 
+from typing import Any
+
 import pytest
 from pytestqt.qtbot import QtBot
 
@@ -44,7 +46,7 @@ def test_what_cannot_be_is_refused_with_a_sentence_and_changes_nothing(
     store: SceneStore,
     told: list[Scene],
     small_scene: Scene,
-    changes: dict[str, float],
+    changes: dict[str, Any],
     named: str,
 ) -> None:
     with qtbot.waitSignal(store.refused) as refusal:

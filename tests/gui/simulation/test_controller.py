@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import count
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 
-BEHIND_THE_CAMERA = {"distance": 0.1, "yaw": 1.2}
+BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
 
 
 class RecordingView:

@@ -1,8 +1,7 @@
 """Undo in a field takes back what is being typed, or else the scene's last step."""
 
-from typing import Any
-
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
@@ -10,8 +9,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.scene import Scene
-
-User = Any  # the fixture of that name
 
 CTRL = Qt.KeyboardModifier.ControlModifier
 

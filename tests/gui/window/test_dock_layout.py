@@ -7,6 +7,7 @@ from typing import Any
 
 import pyqtgraph as pg
 import pytest
+from gui.user import User
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QAbstractScrollArea,
@@ -27,15 +28,13 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.picture.photo_overlay import MODES
 
-User = Any  # the fixture of that name
-
 CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
 SIZES = [QSize(1000, 700), QSize(1280, 800), QSize(1920, 1080)]
 NO_BAND_MODEL = {"exposure_time": 200e-6}
 NO_CODE = {"switching_frequency": 500.0, "distance": 5.0}
-MISREAD = {"exposure_time": 136e-6, "switching_frequency": 20e3}
+MISREAD: dict[str, Any] = {"exposure_time": 136e-6, "switching_frequency": 20e3}
 MANY_BITS = {"bits": 16, "code": 2**16 - 1}
-STATES = (NO_BAND_MODEL, NO_CODE, MISREAD, MANY_BITS)
+STATES: tuple[dict[str, Any], ...] = (NO_BAND_MODEL, NO_CODE, MISREAD, MANY_BITS)
 
 
 def visible_controls(window: QWidget) -> list[QWidget]:
@@ -118,7 +117,7 @@ def assert_faultless(qtbot: QtBot, window: QWidget, what: object) -> None:
     def check() -> None:
         assert faults(window) == [], what
 
-    qtbot.waitUntil(check, timeout=2000)
+    qtbot.waitUntil(check)
 
 
 def pages(application: Application) -> Iterator[str]:

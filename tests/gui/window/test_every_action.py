@@ -3,10 +3,12 @@
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtWidgets import (
@@ -20,6 +22,7 @@ from PySide6.QtWidgets import (
     QInputDialog,
     QLineEdit,
     QMenu,
+    QMenuBar,
     QMessageBox,
     QScrollBar,
     QTabBar,
@@ -33,8 +36,6 @@ from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.window.commands import entries, plain
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
-
-User = Any  # the fixture of that name
 
 READ_LATER = ("Fit gamma too",)
 """Boxes that are looked at when a button is pressed, and tell of nothing before."""
@@ -70,13 +71,17 @@ def name_of(widget: QWidget) -> str:
     return widget.accessibleName() or text
 
 
+def is_visible(widget: QWidget) -> bool:
+    return not widget.visibleRegion().isEmpty()
+
+
 @pytest.fixture
 def with_photo(qtbot: QtBot, application: Application, user: User, photo_file: Path) -> Application:
     """Look at every pane, and open a photo, so that everything that needs one can be done."""
     window = application.window
     for name, dock in window.docks.items():
         window.bring_to_front(name)
-        qtbot.waitUntil(lambda dock=dock: not dock.visibleRegion().isEmpty())
+        qtbot.waitUntil(partial(is_visible, dock))
     application.open_photo(photo_file)
     user.wait_until_idle()
     return application
@@ -129,14 +134,15 @@ def test_no_two_entries_share_keys(application: Application) -> None:
 
 
 def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> None:
-    menus = [application.window.menuBar(), *application.window.menuBar().findChildren(QMenu)]
+    bar = application.window.menuBar()
+    menus: list[QMenuBar | QMenu] = [bar, *bar.findChildren(QMenu)]
     for menu in menus:
         letters = Counter(
             found[1].lower()
             for action in menu.actions()
             if (found := re.search(r"&(\w)", action.text().replace("&&", "")))
         )
-        assert [letter for letter, count in letters.items() if count > 1] == [], menu.title()  # type: ignore[union-attr]
+        assert [letter for letter, count in letters.items() if count > 1] == [], letters
 
 
 def test_each_entry_has_a_letter_or_is_a_name(application: Application) -> None:
@@ -249,9 +255,9 @@ def test_each_entry_of_the_menus_does_something(
 def test_each_entry_is_connected(application: Application) -> None:
     for path, action in all_entries(application):
         group = action.actionGroup()
-        told = action.receivers("2triggered(bool)") + action.receivers("2toggled(bool)")  # type: ignore[arg-type]
+        told = action.receivers("2triggered(bool)") + action.receivers("2toggled(bool)")
         if group is not None:
-            told += group.receivers("2triggered(QAction*)")  # type: ignore[arg-type]
+            told += group.receivers("2triggered(QAction*)")
         assert told > 0, (path, action.text())
 
 
@@ -267,7 +273,7 @@ def test_each_button_list_and_box_is_connected(with_photo: Application) -> None:
         for kind, names in signals.items():
             if name_of(control) in READ_LATER or not isinstance(control, kind):
                 continue
-            if not sum(map(control.receivers, names)):  # type: ignore[arg-type]
+            if not sum(map(control.receivers, names)):
                 deaf.append(f"{name_of(control)!r}: {path_to(control)}")
     assert deaf == []
 

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from occ_model.camera.enhancement import Enhancement, enhance, to_bytes
+from occ_model.scene.parameter_kinds import Choice
 from occ_model.scene.parameters import PARAMETERS
 
 METHODS = ("equalization", "stretch", "none")
@@ -18,7 +19,9 @@ methods = st.sampled_from(METHODS)
 
 
 def test_the_methods_tested_are_those_that_a_scene_can_name() -> None:
-    assert set(PARAMETERS["enhancement"].choices) == set(METHODS)
+    declared = PARAMETERS["enhancement"]
+    assert isinstance(declared, Choice)
+    assert set(declared.choices) == set(METHODS)
 
 
 @given(profile=wide, method=methods)

@@ -4,7 +4,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -144,6 +144,7 @@ def test_a_preset_is_shown_with_every_value_and_its_note(command: Command, name:
     title, *lines = outcome.out.splitlines()
     assert (outcome.code, title in command("presets").out) == (0, True)
     scene = occ.load_preset(name)
+    declaration: Any
     for line, (parameter, declaration) in zip(lines, PARAMETERS.items(), strict=True):
         value = declaration.format(scene.value(parameter))
         assert line.startswith(f"{parameter:26}{value}".rstrip())

@@ -1,6 +1,7 @@
 """What is taken of a photo's colours, in the full depth of its file."""
 
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -45,7 +46,7 @@ def test_a_deep_tiff_is_turned_once(
 @pytest.mark.parametrize("how", [{}, {"tile": (16, 16)}, {"compression": "zlib"}], ids=str)
 @pytest.mark.parametrize("alpha", [False, True])
 def test_deep_tiffs_of_all_kinds_are_read_or_refused(
-    tmp_path: Path, byte_order: str, how: dict[str, object], alpha: bool
+    tmp_path: Path, byte_order: str, how: dict[str, Any], alpha: bool
 ) -> None:
     deep = deep_stripes()
     kept = np.dstack([deep, np.full(deep.shape[:2], 65535, np.uint16)]) if alpha else deep

@@ -116,8 +116,8 @@ def swap_headers(rng: Generator, content: bytearray) -> bytearray:
 
 
 def insert_a_run(rng: Generator, content: bytearray) -> bytearray:
-    place, length = rng.integers(len(content)), rng.integers(1, 3000)
-    run = rng.bytes(length) if rng.integers(2) else bytes([rng.integers(256)]) * length
+    place, length = int(rng.integers(len(content))), int(rng.integers(1, 3000))
+    run = rng.bytes(length) if rng.integers(2) else bytes([int(rng.integers(256))]) * length
     return content[:place] + run + content[place:]
 
 
@@ -128,7 +128,7 @@ def drop_a_run(rng: Generator, content: bytearray) -> bytearray:
 
 def wrong_size(rng: Generator, content: bytearray) -> bytearray:
     """Write another size into a PNG's header, and the check sum that fits it."""
-    sizes = [0, 1, 63, 65, 5000, 9000, 40_000, 2**31 - 1, 2**32 - 1, rng.integers(2**20)]
+    sizes = [0, 1, 63, 65, 5000, 9000, 40_000, 2**31 - 1, 2**32 - 1, int(rng.integers(2**20))]
     if content.startswith(b"\x89PNG"):
         struct.pack_into(">II", content, 16, *(int(size) for size in rng.choice(sizes, 2)))
         struct.pack_into(">I", content, 29, zlib.crc32(content[12:29]))
@@ -145,14 +145,14 @@ def wrong_size(rng: Generator, content: bytearray) -> bytearray:
 def wrong_number(rng: Generator, content: bytearray) -> bytearray:
     """Write numbers at the edge of what fits over some of the first bytes."""
     for _ in range(rng.integers(1, 4)):
-        place = rng.integers(2, min(len(content), 400) - 4)
+        place = int(rng.integers(2, min(len(content), 400) - 4))
         number = int(rng.choice([0, 1, 0x7F, 0xFF, 0x7FFF, 0xFFFF, 0x7FFFFFFF, 0xFFFFFFFF]))
         struct.pack_into("<I" if rng.integers(2) else ">I", content, place, number)
     return content
 
 
 def only_the_magic(rng: Generator, content: bytearray) -> bytearray:
-    return content[: rng.integers(4, 40)] + rng.bytes(rng.integers(1, 2000))
+    return content[: rng.integers(4, 40)] + rng.bytes(int(rng.integers(1, 2000)))
 
 
 WAYS: tuple[Callable[[Generator, bytearray], bytearray], ...] = (

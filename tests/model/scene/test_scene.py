@@ -137,7 +137,7 @@ def test_a_code_that_does_not_fit_is_refused_whichever_changes_last() -> None:
 @pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
 def test_a_bad_value_is_refused_by_the_parameter_s_name(parameter: Parameter) -> None:
     with pytest.raises(ParameterError, match=f"^{parameter.name} is None.*; allowed: "):
-        Scene().replace(**{parameter.name: None})
+        Scene().replace(**{parameter.name: None})  # type: ignore[arg-type]
     group = type(getattr(Scene(), group_of(parameter.name)))
     with pytest.raises(ParameterError, match=f"^{parameter.name} is None.*; allowed: "):
         group(**{parameter.name: None})

@@ -26,7 +26,9 @@ def scenes(draw: st.DrawFn) -> Scene:
                 changes[name] = draw(st.sampled_from(parameter.choices))
             case ChipPattern():
                 changes[name] = draw(st.text("01", max_size=40))
-    fewest = max(PARAMETERS["bits"].low, int(changes["code"]).bit_length())
+    declared = PARAMETERS["bits"]
+    assert isinstance(declared, Count)
+    fewest = max(declared.low, int(changes["code"]).bit_length())
     changes["bits"] = draw(st.integers(fewest, MAX_BITS))
     return Scene().replace(**changes)
 

@@ -3,6 +3,7 @@
 import math
 from fractions import Fraction
 from statistics import NormalDist
+from typing import Any
 
 import mpmath
 import numpy as np
@@ -116,9 +117,12 @@ def test_the_intervals_hold_as_many_rates_as_their_level_says(trials: int) -> No
 
 
 def test_numbers_of_other_types_are_numbers() -> None:
+    others: list[tuple[Any, Any, Any]] = [
+        (np.int32(3), np.uint8(10), np.float64(0.9)),
+        (3, 10, Fraction(9, 10)),
+    ]
     expected = wilson_interval(3, 10, 0.9)
-    assert wilson_interval(np.int32(3), np.uint8(10), np.float64(0.9)) == expected
-    assert wilson_interval(3, 10, Fraction(9, 10)) == expected
+    assert [wilson_interval(*numbers) for numbers in others] == [expected, expected]
 
 
 @pytest.mark.parametrize(

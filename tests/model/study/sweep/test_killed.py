@@ -51,7 +51,7 @@ def test_what_kill_9_leaves_is_continued_at_once_and_ends_alike(
 ) -> None:
     program, path = tmp_path / "sweep.py", tmp_path / "r.csv"
     program.write_text(SLOW)
-    command = [sys.executable, "-W", "ignore", program, path, kind]
+    command = [sys.executable, "-W", "ignore", str(program), str(path), kind]
     victim = subprocess.Popen(command, start_new_session=True)
     try:
         wait_for(lambda: path.exists() and path.read_bytes().count(b",threshold,") >= 4)

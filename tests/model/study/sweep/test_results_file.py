@@ -11,7 +11,7 @@ import pytest
 import occ_model as occ
 from occ_model.results import SweepTable
 from occ_model.scene.scene import Scene
-from occ_model.study.sweep import points, results_file
+from occ_model.study.sweep import points
 
 BOTH = ("threshold", "matched")
 AXES: dict[str, list[float]] = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
@@ -215,7 +215,7 @@ def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
         return real(descriptor, text[:40] if left == 0.5 else text)
 
     with monkeypatch.context() as patch:
-        patch.setattr(results_file.os, "write", write)
+        patch.setattr(os, "write", write)
         with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
             run(scene, path)
     kept = path.read_bytes()

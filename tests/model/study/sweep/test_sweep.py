@@ -8,7 +8,7 @@ from concurrent.futures import Executor, Future
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_rates_stand_where_their_axes_say(table: SweepTable) -> None:
         assert rates.shape == low.shape == high.shape == (4, 3)
         for row in table.rows:
             if row.decoder == decoder:
-                place = tuple(AXES[name].index(row.point[name]) for name in AXES)  # type: ignore[arg-type]
+                place = tuple(AXES[name].index(float(row.point[name])) for name in AXES)
                 wilson = occ.wilson_interval(row.right, row.sent)
                 assert (rates[place], low[place], high[place]) == (row.rate, row.low, row.high)
                 assert (row.low, row.high) == tuple(100.0 * end for end in wilson)
@@ -68,7 +68,7 @@ def test_the_order_of_the_axes_turns_the_table_and_changes_no_number(
 
 
 def test_any_kind_of_parameter_can_be_varied(scene: Scene) -> None:
-    axes = {
+    axes: dict[str, Any] = {
         "enhancement": np.array(["equalization", "none"]),
         "bits": np.array([4, 10]),
         "code": (3, 9),
@@ -129,7 +129,7 @@ def test_what_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:
     ],
 )
 def test_what_cannot_be_is_refused_before_any_work(
-    scene: Scene, tmp_path: Path, axes: object, others: dict[str, object], words: str
+    scene: Scene, tmp_path: Path, axes: Any, others: dict[str, Any], words: str
 ) -> None:
     class Untouched(Executor):
         def submit(self, *_: object, **__: object) -> "Future[object]":  # type: ignore[override]
@@ -137,7 +137,7 @@ def test_what_cannot_be_is_refused_before_any_work(
 
     results = tmp_path / "r.csv"
     with pytest.raises(occ.ParameterError, match=words):
-        occ.sweep(scene, axes, executor=Untouched(), results=results, **others)  # type: ignore[arg-type]
+        occ.sweep(scene, axes, executor=Untouched(), results=results, **others)
     assert not results.exists()
 
 
@@ -152,7 +152,7 @@ def test_the_profile_path_gives_the_table_of_the_image_path(scene: Scene) -> Non
     quiet = {"sensor-noise": False, "fixed-pattern": False}
     for preset in (few, few.replace(flicker_depth=0.3, edge_time=2e-6)):
         profile, image = (
-            occ.sweep(preset, AXES, 2, BOTH, path=path, force=quiet)  # type: ignore[arg-type]
+            occ.sweep(preset, AXES, 2, BOTH, path=path, force=quiet)
             for path in ("profile", "image")
         )
         np.testing.assert_array_equal(profile.right, image.right)

@@ -225,7 +225,7 @@ def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
         points = measure(request, executor=Immediate())
         for _ in islice(points, 40_000):
             waiting.clear()
-        points.close()  # type: ignore[attr-defined]
+        points.close()
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()

@@ -1,0 +1,86 @@
+"""Somebody at the window: types, chooses from menus, waits and looks."""
+
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QSlider
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.scene.parameter_rows import CountRow, QuantityRow
+
+PATIENCE_MS = 120_000
+"""How long is waited at most: only what hangs takes so long, however busy the machine is."""
+
+
+class PatientQtBot(QtBot):
+    """pytest-qt's robot, which waits as long as a busy machine needs in place of 5 s."""
+
+    def waitUntil(  # noqa: N802 - the name is pytest-qt's
+        self, callback: Callable[[], bool | None], *, timeout: int = PATIENCE_MS
+    ) -> None:
+        """Wait until the callback returns true, or no longer fails."""
+        super().waitUntil(callback, timeout=timeout)
+
+    def waitSignal(  # noqa: N802
+        self, signal: Any, *, timeout: int = PATIENCE_MS, **options: Any
+    ) -> Any:
+        """Wait for a signal at the end of a ``with`` block."""
+        return super().waitSignal(signal, timeout=timeout, **options)
+
+
+class User:
+    """What a user does at the window, by keys and menus as far as possible."""
+
+    def __init__(self, qtbot: QtBot, application: Application) -> None:
+        self._qtbot = qtbot
+        self._application = application
+
+    def wait_until_idle(self) -> None:
+        """Wait until all that was asked of the application is shown."""
+        self._qtbot.waitUntil(lambda: self._application.is_idle)
+
+    def row(self, name: str) -> QuantityRow | CountRow:
+        """Find the controls of a number."""
+        panels = self._application.controls.panels.values()
+        (row,) = [panel.rows[name] for panel in panels if name in panel.rows]
+        assert isinstance(row, QuantityRow | CountRow)
+        return row
+
+    def slider(self, name: str) -> QSlider:
+        """Find the slider of a quantity."""
+        row = self.row(name)
+        assert isinstance(row, QuantityRow)
+        return row.slider
+
+    def enter(self, name: str, text: str) -> None:
+        """Type a number, press Enter, and wait."""
+        field = self.row(name).field
+        field.selectAll()
+        self._qtbot.keyClicks(field, text)
+        self._qtbot.keyClick(field, Qt.Key.Key_Return)
+        self.wait_until_idle()
+
+    def choose(self, text: str) -> None:
+        """Choose the menu entry whose text starts like this, and wait."""
+        self.entry(text).trigger()
+        self.wait_until_idle()
+
+    def entry(self, text: str) -> QAction:
+        """Find the menu entry whose text starts like this."""
+        actions = self._application.window.findChildren(QAction)
+        (found,) = [action for action in actions if action.text().startswith(text)]
+        return found
+
+    def choose_next_preset(self) -> str:
+        """Move on in the list of presets, wait, and return the name that it shows."""
+        self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)
+        self.wait_until_idle()
+        return self._application.controls.preset.currentText()
+
+    @property
+    def message(self) -> str:
+        """What the status line says."""
+        return self._application.window.statusBar().currentMessage()

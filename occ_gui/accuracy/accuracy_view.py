@@ -8,8 +8,8 @@ from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.plan_changes import PlanWatch, Switch
 from occ_gui.scene.parameter_rows import QuantityRow, explain
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 
 _WIDEST_TABLE = 780

@@ -16,8 +16,8 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QColor, QFont, QPalette
 from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView, QWidget
 
-from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import REGION, SIMULATION
 from occ_model.results import Decision, Frame
 

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
 from occ_gui.widgets.contrast import pen_on
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import BAND, REGION, SIMULATION, new_plot, thin
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.units import SECOND

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.picture.placement import LARGEST_SCALE, LEAST_SCALE, Placement
-from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
 _FARTHEST = 1e6
 """Pixels that a photo can be moved by."""

@@ -7,7 +7,7 @@ from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
 from occ_gui.scene.gesture import Gestures
-from occ_gui.widgets.undo_keys import leave_undo_to_window
+from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.scene.scene import Scene
 
 

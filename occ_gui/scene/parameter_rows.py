@@ -13,8 +13,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.scene.gesture import Gestures
 from occ_gui.scene.quantity_edit import QuantityEdit
-from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
-from occ_gui.widgets.undo_keys import leave_undo_to_window
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import (
     ChipPattern,

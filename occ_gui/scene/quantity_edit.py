@@ -4,7 +4,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 
-from occ_gui.widgets.undo_keys import leave_undo_to_window
+from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
-from occ_gui.widgets.calm_wheel import keep_wheel_for_scrolling
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
 
 class WordChoice(QComboBox):

@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.widgets.drops import leave_drops_to_window
+from occ_gui.widgets.event_filters import leave_drops_to_window
 
 PaneContent: TypeAlias = tuple[QWidget, Callable[[bool], None]]
 """What a pane shows, and whom to tell whether it can be seen."""

@@ -13,8 +13,8 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.widgets.drops import leave_drops_to_window
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar

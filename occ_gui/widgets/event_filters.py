@@ -1,0 +1,64 @@
+"""Event filters of input fields: mouse wheel, undo keys and dropped files."""
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QAbstractSpinBox, QLineEdit, QWidget
+
+_UNDO_KEYS = (QKeySequence.StandardKey.Undo, QKeySequence.StandardKey.Redo)
+
+
+class _WheelFilter(QObject):
+    """Passes wheel events on to the page while the control does not have the focus."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if event.type() == QEvent.Type.Wheel and isinstance(watched, QWidget):
+            if watched.hasFocus():
+                return False
+            event.ignore()
+            return True
+        return False
+
+
+def keep_wheel_for_scrolling(control: QWidget) -> None:
+    """Let the wheel change a control's value only while the control has the focus.
+
+    Without the focus, which a click gives, the wheel scrolls the page.
+    """
+    control.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    control.installEventFilter(_WheelFilter(control))
+
+
+class _UndoKeyFilter(QObject):
+    """Leaves the undo keys to the window while the field contains no unfinished input."""
+
+    def __init__(self, field: QLineEdit | QAbstractSpinBox) -> None:
+        super().__init__(field)
+        self._line = field.lineEdit() if isinstance(field, QAbstractSpinBox) else field
+        field.editingFinished.connect(lambda: self._line.setModified(False))
+        field.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and not self._line.isModified()
+            and any(event.matches(key) for key in _UNDO_KEYS)
+        ):
+            event.ignore()
+            return True
+        return super().eventFilter(watched, event)
+
+
+def leave_undo_to_window(field: QLineEdit | QAbstractSpinBox) -> None:
+    """Let a field use the undo and redo keys only while its input is unfinished.
+
+    A line edit always uses them, even where it has nothing to undo. Once a value is entered, undo
+    should take back the last change of the scene.
+    """
+    _UndoKeyFilter(field)
+
+
+def leave_drops_to_window(parent: QWidget) -> None:
+    """Disable drops on all widgets inside a widget, so that the window receives dropped files."""
+    for widget in parent.findChildren(QWidget):
+        widget.setAcceptDrops(False)

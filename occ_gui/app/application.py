@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.desktop import Desktop
-from occ_gui.app.teaching_desk import LearningPanes
+from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.wording import spoken
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
@@ -75,15 +75,15 @@ class Application(QObject):
             self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
         )  # fmt: skip
-        self.desk = PhotoWiring(self.store, self.image, self.profile, self.photo)
-        self.photos = self.desk.photos
-        self.presets = PresetController(self.window, self.store, self.desk.matching)
+        self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
+        self.photos = self.photo_wiring.photos
+        self.presets = PresetController(self.window, self.store, self.photo_wiring.matching)
         self.files = FileController(self.window, self.store, self.photos, self.memory)
-        self.teaching = LearningPanes(
+        self.learning = LearningPanes(
             self.window, self.store, self.photos, self.image, self.profile
         )
         # What was before, and the comparison, go before the profile, which is drawn with them.
-        first = (self.image, self.teaching, self.desk.comparison)
+        first = (self.image, self.learning, self.photo_wiring.comparison)
         views = (*first, self.profile, self.decode, self.accuracy)
         self.simulation.show_in([*views, self.files], [self.image])
         self.study = AccuracyController(
@@ -117,7 +117,7 @@ class Application(QObject):
         self.simulation.shown.connect(self._on_shown)
         self.simulation.failed.connect(self._say_failure)
         self.files.status_message.connect(self.window.say)
-        self.teaching.status_message.connect(self._say_refusal)
+        self.learning.status_message.connect(self._say_refusal)
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
@@ -142,8 +142,8 @@ class Application(QObject):
         self.photo.form.refused.connect(self._say_refusal)
         self.photo.form.edited.connect(self._edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
-        self.desk.matching.matched.connect(self._on_match)
-        self.desk.matching.failed.connect(self._say_match_failure)
+        self.photo_wiring.matching.matched.connect(self._on_match)
+        self.photo_wiring.matching.failed.connect(self._say_match_failure)
         self.memory.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
 
@@ -155,9 +155,9 @@ class Application(QObject):
             "save_picture": self.files.ask_to_save_picture,
             "delete_preset": self.presets.ask_to_delete,
             "match": self._match,
-            "apply_match": self.desk.matching.apply,
+            "apply_match": self.photo_wiring.matching.apply,
             "save_match": self.presets.ask_to_save_match,
-            "use_settings": self.desk.matching.use_notes,
+            "use_settings": self.photo_wiring.matching.use_notes,
             "fit": self.image.fit,
             "about": self._tell_about,
         }.items():
@@ -171,7 +171,7 @@ class Application(QObject):
         self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
 
     def _connect_slider_strips(self) -> None:
-        shown = self.window.actions_by_name["margins"]
+        shown = self.window.actions_by_name["slider_strips"]
         shown.toggled.connect(self.slider_strips.set_shown)
         shown.triggered.connect(self.memory.keep_slider_strips)
         self.slider_strips.set_shown(self.memory.slider_strips)
@@ -181,7 +181,7 @@ class Application(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all that was asked for is shown."""
-        return self.simulation.runner.is_idle and self.desk.is_idle and self.desktop.is_idle
+        return self.simulation.runner.is_idle and self.photo_wiring.is_idle and self.desktop.is_idle
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
         """Open a photo.
@@ -208,7 +208,7 @@ class Application(QObject):
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")
-        self.desk.match()
+        self.photo_wiring.match()
 
     def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
         self.window.happened(_CHANGE)  # also where the value that holds is entered again
@@ -269,20 +269,20 @@ class Application(QObject):
         self.window.happened(_PHOTO)
         self.window.happened(_MATCH)
         self.window.show_photo_name(None if photo is None else photo.path.name)
-        self.window.menus.show_match_there(False)
+        self.window.menus.show_match_found(False)
         path = None if photo is None else photo.path
         if path not in (None, self._photo_path) and self._front_next:
             self.window.bring_to_front("photo")
         self._photo_path, self._front_next = path, True
         if self._match_next:
-            self.desk.match()
+            self.photo_wiring.match()
 
     def _on_match(self, _match: Match) -> None:
         self.window.happened(_MATCH)
-        self.window.menus.show_match_there(True)
+        self.window.menus.show_match_found(True)
         if self._match_next:
             self._match_next = False
-            self.desk.matching.apply()
+            self.photo_wiring.matching.apply()
 
     def _tell_about(self) -> None:
         QMessageBox.about(
@@ -298,6 +298,6 @@ class Application(QObject):
         """Let the work in the background end."""
         self.simulation.stop()
         self.study.stop()
-        self.desk.stop()
+        self.photo_wiring.stop()
         self.detection_map.stop()
         self.desktop.stop()

@@ -206,8 +206,8 @@ def start(
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.app.application import Application
+    from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector
-    from occ_gui.app.qt_messages import log_qt_messages
     from occ_gui.scene.settings_store import FIRST_SETTINGS
 
     # The threads that hand work to processes take turns with the window's: shorter ones suit both.
@@ -249,7 +249,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     from PySide6.QtWidgets import QApplication
 
     failures: list[str] = []
-    matching = application.desk.matching
+    matching = application.photo_wiring.matching
     for controller in (application.simulation, application.photos, matching):
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)

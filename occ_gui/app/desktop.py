@@ -7,10 +7,10 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.app.error_reports import Faults
+from occ_gui.app.error_reports import ErrorReports
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.wiring import DetectionMapWiring
-from occ_gui.export.export_desk import ExportWiring
+from occ_gui.export.export_controller import ExportController
 from occ_gui.export.figures import Figures
 from occ_gui.files.autosave import Autosave
 from occ_gui.files.document import Document
@@ -27,10 +27,9 @@ from occ_gui.scene.hold_brightness import HoldBrightness
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.window.command_palette import CommandPalette
-from occ_gui.window.commands import commands_of, sheet_of
+from occ_gui.window.command_palette import CommandPalette, commands_of, shortcuts_of
+from occ_gui.window.current_pane import CurrentPane
 from occ_gui.window.cursor_readout import Pointer
-from occ_gui.window.desktop_menus import DesktopMenus
 from occ_gui.window.dock_layout import Layout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.shortcut_sheet import ShortcutSheet
@@ -52,7 +51,7 @@ class Parts(Protocol):
     settings: SettingsStore
     memory: Memory
     files: FileController
-    desk: PhotoWiring
+    photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
     simulation: SimulationController
     controls: ControlPanel
@@ -79,15 +78,15 @@ class Desktop(QObject):
         self._parts = parts
         self._photo: Path | None = None
         window, memory = parts.window, parts.memory
+        comparison = parts.photo_wiring.comparison.comparison
         self.figures = Figures(
-            parts.settings, parts.desk.comparison.comparison, parts.profile, parts.accuracy.plot,
-            tuple(DECODERS),
-        )  # fmt: skip
-        self.figures.add_map(lambda: parts.detection_map.map.full)
-        self.menus = DesktopMenus(window.menus, self.figures.titles)
-        self.export = ExportWiring(
-            window, window.docks, self.figures, self.menus, parts.decode, memory
+            parts.settings, comparison, parts.profile, parts.accuracy.plot, tuple(DECODERS)
         )
+        self.figures.add_map(lambda: parts.detection_map.map.full)
+        window.menus.add_figures(self.figures.titles)
+        pane = CurrentPane(window, window.docks)
+        self.export = ExportController(window, self.figures, memory, pane, parts.decode.decoder)
+        self.export.connect_actions(window.menus.figures)
         self.document = Document(window, parts.store, parts.files)
         self.brightness = HoldBrightness(parts.store)
         self.theme = ThemeController()
@@ -95,7 +94,7 @@ class Desktop(QObject):
         self.session = SessionKeeper(
             parts.store, parts.settings, self.document, memory, lambda: self._photo
         )
-        self.faults = Faults()
+        self.error_reports = ErrorReports()
         self.pointer = Pointer(
             parts.profile,
             {
@@ -108,22 +107,22 @@ class Desktop(QObject):
     def _connect(self) -> None:
         parts, window = self._parts, self._parts.window
         parts.simulation.shown.connect(self.figures.show_snapshot)
-        parts.desk.photos.opened.connect(self._on_photo)
-        for teller in (self.export.controller, self.brightness, self.session):
+        parts.photo_wiring.photos.opened.connect(self._on_photo)
+        for teller in (self.export, self.brightness, self.session):
             teller.status_message.connect(window.say)
-        self.faults.happened.connect(window.say)
+        self.error_reports.reported.connect(window.say)
         self.pointer.moved.connect(window.pointed.setText)
         window.arranged.connect(self.layout.note_first)
         window.closing.connect(self.end)
         self.theme.chosen.connect(self._on_theme)
         actions = window.actions_by_name
         self.brightness.switched.connect(self._on_hold)
-        self.menus.themes.triggered.connect(self._choose_theme)
+        window.menus.themes.triggered.connect(self._choose_theme)
         for name, slot in {
             "save_scene": self.document.save,
             "save_scene_as": parts.files.ask_to_save_scene,
-            "export_all": self.export.controller.ask_for_folder,
-            "copy_figure": self.export.copy_front,
+            "export_all": self.export.ask_for_folder,
+            "copy_figure": self.export.copy_current,
             "reset_scene": self._reset_scene,
             "reset_layout": self.layout.reset,
             "shortcuts": self.show_shortcuts,
@@ -135,7 +134,7 @@ class Desktop(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all figures that were asked for are written."""
-        return self.export.controller.is_idle
+        return self.export.is_idle
 
     def resume(self, autosave: Autosave, session: Session, scene_wins: bool, fresh: bool) -> None:
         """Take up the last session before the window is shown, and keep this one.
@@ -171,7 +170,8 @@ class Desktop(QObject):
 
     def _on_theme(self, theme: str) -> None:
         self._parts.memory.keep(_THEME, theme)
-        self._parts.window.menus.show_choice(self.menus.themes, theme)
+        menus = self._parts.window.menus
+        menus.show_choice(menus.themes, theme)
 
     def _on_hold(self, on: bool) -> None:
         self._parts.memory.keep(_HOLD, _YES if on else "")
@@ -182,7 +182,7 @@ class Desktop(QObject):
 
     def show_shortcuts(self) -> None:
         """Show all keys on one sheet."""
-        sheet = ShortcutSheet(sheet_of(self._parts.window.menuBar()), self._parts.window)
+        sheet = ShortcutSheet(shortcuts_of(self._parts.window.menuBar()), self._parts.window)
         sheet.exec()
         sheet.deleteLater()
 
@@ -206,4 +206,4 @@ class Desktop(QObject):
     def stop(self) -> None:
         """Let the work in the background end."""
         self.export.stop()
-        self.faults.remove()
+        self.error_reports.remove()

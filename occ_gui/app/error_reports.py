@@ -1,72 +1,102 @@
-"""Mistakes of ours: into the log and the status line, and the window lives on."""
+"""Error reports: unhandled exceptions and Qt's messages go to the log and the status line."""
 
 import logging
 import sys
 import threading
 from collections.abc import Callable
 from types import TracebackType
+from typing import NoReturn
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QMessageLogContext, QObject, QtMsgType, Signal, qInstallMessageHandler
 
 _log = logging.getLogger(__name__)
+_qt_log = logging.getLogger("qt")
+
+_LEVELS = {
+    QtMsgType.QtDebugMsg: logging.DEBUG,
+    QtMsgType.QtInfoMsg: logging.INFO,
+    QtMsgType.QtWarningMsg: logging.WARNING,
+    QtMsgType.QtCriticalMsg: logging.ERROR,
+    QtMsgType.QtFatalMsg: logging.CRITICAL,
+}
+
+HARMLESS = "This plugin does not support propagateSizeHints()"
+"""Qt's message for every window on a platform that has no windows."""
 
 
-class Faults(QObject):
-    """Takes every exception that nobody has handled.
+class ErrorReports(QObject):
+    """Logs every unhandled exception and reports it in a sentence, so that the window works on.
 
-    One that comes again from the same line, as at every drawing of a pane, is told of only once.
+    An exception that recurs at the same line, as at every repaint of a pane, is reported once.
     """
 
-    happened = Signal(str)
-    """What happened, in a sentence."""
+    reported = Signal(str)
+    """A sentence that describes the error."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._told: set[tuple[str, str, int]] = set()
+        self._known: set[tuple[str, str, int]] = set()
         self._before: tuple[Callable[..., object], Callable[..., object]] | None = None
 
     def install(self) -> None:
-        """Take the exceptions of all threads from now on."""
+        """Handle the unhandled exceptions of all threads from now on."""
         self._before = (sys.excepthook, threading.excepthook)
-        sys.excepthook = self.take
-        threading.excepthook = self._take_of_thread
+        sys.excepthook = self.report
+        threading.excepthook = self._report_thread
 
     def remove(self) -> None:
-        """Leave the exceptions to whoever took them before."""
+        """Restore the exception hooks that were there before."""
         if self._before is not None:
             sys.excepthook, threading.excepthook = self._before
             self._before = None
 
-    def take(
+    def report(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
-        """Log an exception, and tell of it."""
+        """Log an exception and report it, unless one of its kind was reported at this line."""
         if issubclass(kind, KeyboardInterrupt | SystemExit):
             sys.__excepthook__(kind, error, trace)
             return
-        place = _place(trace)
-        key = (kind.__name__, *place)
-        if key in self._told:
+        key = (kind.__name__, *_place(trace))
+        if key in self._known:
             return
-        self._told.add(key)
+        self._known.add(key)
         _log.error("unhandled", exc_info=(kind, error, trace))
         reason = f"{kind.__name__}: {error}".rstrip(": .")
-        self.happened.emit(
+        self.reported.emit(
             self.tr("Something went wrong: {reason}. Your work is still there.").format(
                 reason=reason
             )
         )
 
-    def _take_of_thread(self, args: threading.ExceptHookArgs) -> None:
+    def _report_thread(self, args: threading.ExceptHookArgs) -> None:
         error = args.exc_value
         if error is not None:
-            self.take(args.exc_type, error, args.exc_traceback)
+            self.report(args.exc_type, error, args.exc_traceback)
 
 
 def _place(trace: TracebackType | None) -> tuple[str, int]:
-    """Give the file and line where an exception was raised."""
+    """Return the file and line where an exception was raised."""
     if trace is None:
         return "", 0
     while trace.tb_next is not None:
         trace = trace.tb_next
     return trace.tb_frame.f_code.co_filename, trace.tb_lineno
+
+
+def log_qt_messages(give_up: Callable[[], NoReturn] | None = None) -> None:
+    """Send Qt's messages to the logger ``qt``.
+
+    Parameters
+    ----------
+    give_up
+        Ends the process after a fatal message, in place of Qt, which would write a core dump. It
+        must not raise: an exception cannot pass through Qt.
+    """
+
+    def log(kind: QtMsgType, _context: QMessageLogContext, message: str) -> None:
+        if kind == QtMsgType.QtFatalMsg and give_up is not None:
+            give_up()
+        _qt_log.log(logging.DEBUG if message == HARMLESS else _LEVELS[kind], message)
+
+    qInstallMessageHandler(log)

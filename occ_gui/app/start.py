@@ -56,7 +56,7 @@ class Start:
         """Take up the session in a window that is not shown yet, and keep it from now on."""
         if self.memory is None:
             return
-        application.desktop.faults.install()
+        application.desktop.error_reports.install()
         from occ_gui.files.autosave import Autosave, state_folder
 
         wins = self.scene_asked or self.fresh

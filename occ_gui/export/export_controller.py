@@ -1,44 +1,62 @@
-"""Figures of what the window shows: to files, to a folder, to the clipboard."""
+"""Export of figures of the window to files, into a folder or to the clipboard."""
 
 from collections import deque
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtGui import QAction, QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.export.figures import Figures, NothingToDraw
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Memory
+from occ_gui.window.current_pane import PICTURE, CurrentPane
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
 
+_FIGURE_OF_PANE = {"profile": "profile", "accuracy": "accuracy", "map": "map"}
+"""Figures by the names of their panes; for any other pane the picture is copied."""
+
 
 class ExportController(QObject):
-    """Asks where to, and has the figures drawn off the window's thread, one job after the other.
+    """Draws figures on a background thread, one job after another, and saves or copies them.
 
     Parameters
     ----------
     window
-        The window that dialogs belong to.
+        The parent of the dialogs.
     figures
-        Knows what each figure is drawn from.
+        The sources of the figures.
     memory
-        Remembers the folder.
+        Stores the folder of the last export.
+    current_pane
+        The pane whose figure is copied.
+    shown_decoder
+        Returns the name of the decoder that the pane of the decoders shows.
     """
 
     status_message = Signal(str)
-    """What was done, or why it was not."""
+    """The outcome of an export."""
 
-    def __init__(self, window: QWidget | None, figures: Figures, memory: Memory) -> None:
+    def __init__(
+        self,
+        window: QWidget | None,
+        figures: Figures,
+        memory: Memory,
+        current_pane: CurrentPane,
+        shown_decoder: Callable[[], str],
+    ) -> None:
         super().__init__(window)
         self._window = window
         self._figures = figures
         self._memory = memory
+        self.current_pane = current_pane
+        self._shown_decoder = shown_decoder
         self._waiting: deque[ExportJob] = deque()
         self._left_out = ""
-        # Looked up when it is called, so that another one can be put in its place.
+        # A function that looks export up at each call: tests replace it.
         self.runner: LatestWins[ExportJob, Exported] = LatestWins(lambda job: export(job), "export")
         self.runner.finished.connect(self._tell)
         self.runner.failed.connect(self.status_message)
@@ -46,8 +64,13 @@ class ExportController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that was asked for is written."""
+        """Whether all requested figures have been written."""
         return self.runner.is_idle and not self._waiting
+
+    def connect_actions(self, actions: Mapping[str, QAction]) -> None:
+        """Let menu entries, by the names of their figures, ask for a file and export to it."""
+        for name, action in actions.items():
+            action.triggered.connect(lambda _checked=False, name=name: self.ask(name))
 
     def ask(self, name: str) -> None:
         """Let the user choose the file that a figure is written to."""
@@ -88,7 +111,7 @@ class ExportController(QObject):
             self.export_all(Path(folder))
 
     def export_all(self, folder: Path) -> None:
-        """Write every figure that there is in every format into a folder."""
+        """Write every available figure in every format into a folder."""
         requests, missing = [], []
         for name, source in self._figures.sources.items():
             try:
@@ -106,6 +129,15 @@ class ExportController(QObject):
         request = self._request(name)
         if request is not None:
             self._put(ExportJob((request,)))
+
+    def copy_current(self) -> None:
+        """Copy the figure of the current pane."""
+        pane = self.current_pane.name
+        if pane == "decode":
+            self.copy(f"decoding-{self._shown_decoder()}")
+            return
+        figure = _FIGURE_OF_PANE.get(pane, PICTURE)
+        self.copy(figure if figure in self._figures.sources else PICTURE)
 
     def _request(self, name: str) -> FigureRequest | None:
         try:
@@ -141,12 +173,12 @@ class ExportController(QObject):
             self._to_clipboard(done.png)
 
     def _to_clipboard(self, png: bytes) -> None:
-        # With the texts of the file, the scene among them. Data made here, not by Qt, would end
-        # the program with a fault where it is still on the clipboard then.
+        # As a QImage, which keeps the texts of the file, among them the scene: a QMimeData object
+        # made in Python that is still on the clipboard at the end would crash the program.
         QGuiApplication.clipboard().setImage(QImage.fromData(png))
         self.status_message.emit(self.tr("Copied the figure."))
 
     def stop(self) -> None:
-        """Write no more than is at work."""
+        """Drop the waiting jobs and stop after the one being written."""
         self._waiting.clear()
         self.runner.stop()

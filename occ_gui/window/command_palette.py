@@ -1,44 +1,61 @@
-"""A line that finds any command or parameter by a few letters of it."""
+"""Command palette: find a menu command or a parameter by a few letters of its name."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QDialog, QLabel, QLineEdit, QListWidget, QVBoxLayout, QWidget
+from PySide6.QtGui import QAction, QKeyEvent, QKeySequence
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QDialog,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QMenu,
+    QMenuBar,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.parameter_rows import ParameterRow
+from occ_model.scene.parameters import PARAMETERS
+
+_NATIVE = QKeySequence.SequenceFormat.NativeText
 
 _WIDTH, _HEIGHT = 520, 380
 
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
-"""Keys that move in the list while the line has the focus."""
+"""Keys that move the selection in the list while the text field has the focus."""
 
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """Something that can be found and done.
+    """A command that can be found by its text.
 
     Parameters
     ----------
     title
-        What it is.
+        Its menu and name.
     hint
-        The keys that do it, too, or what it is now.
+        Its keyboard shortcut.
     run
-        Does it.
+        Carries it out.
     """
 
     title: str
     hint: str
     run: Callable[[], object]
 
-    def suits(self, words: Sequence[str]) -> bool:
-        """Say whether all words occur in it."""
+    def matches(self, words: Sequence[str]) -> bool:
+        """Return whether all words occur in its title or hint."""
         text = f"{self.title} {self.hint}".casefold()
         return all(word in text for word in words)
 
 
 class CommandPalette(QDialog):
-    """Lists the commands that suit what is typed; Enter does the chosen one.
+    """Lists the commands that match the typed text; Enter carries out the selected one.
 
     Parameters
     ----------
@@ -52,7 +69,7 @@ class CommandPalette(QDialog):
         super().__init__(parent)
         self.setWindowTitle(self.tr("Find a command"))
         self._commands = commands
-        self._suiting: list[Command] = []
+        self._matching: list[Command] = []
         self._chosen: Command | None = None
         self.line = QLineEdit()
         self.line.setPlaceholderText(self.tr("A few letters of a command or parameter"))
@@ -74,16 +91,16 @@ class CommandPalette(QDialog):
 
     def _filter(self, text: str) -> None:
         words = text.casefold().split()
-        self._suiting = [command for command in self._commands if command.suits(words)]
+        self._matching = [command for command in self._commands if command.matches(words)]
         self.list.clear()
-        for command in self._suiting:
+        for command in self._matching:
             hint = f"    {command.hint}" if command.hint else ""
             self.list.addItem(f"{command.title}{hint}")
         self.list.setCurrentRow(0)
-        self._nothing.setVisible(not self._suiting)
+        self._nothing.setVisible(not self._matching)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Let the arrows move in the list, and Enter choose, while the line is typed in."""
+        """Move in the list by the arrow keys and choose by Enter while text is typed."""
         if watched is self.line and isinstance(event, QKeyEvent):
             if event.type() == QEvent.Type.KeyPress and event.key() in _MOVES:
                 self.list.keyPressEvent(event)
@@ -96,11 +113,91 @@ class CommandPalette(QDialog):
 
     def _accept_chosen(self) -> None:
         row = self.list.currentRow()
-        if 0 <= row < len(self._suiting):
-            self._chosen = self._suiting[row]
+        if 0 <= row < len(self._matching):
+            self._chosen = self._matching[row]
             self.accept()
 
     @property
     def chosen(self) -> Command | None:
-        """The command that was chosen, if any."""
+        """The chosen command, None if there is none."""
         return self._chosen
+
+
+def plain(text: str) -> str:
+    """Return a menu entry's text without the marks of its shortcut letters."""
+    return text.replace("&&", "\0").replace("&", "").replace("\0", "&")
+
+
+def entries(menu: QMenu | QMenuBar, path: str = "") -> Iterator[tuple[str, QAction]]:
+    """Return the entries of a menu and its submenus, each with the path of menus to it."""
+    for action in menu.actions():
+        inner = action.menu()
+        if isinstance(inner, QMenu):
+            name = plain(action.text())
+            yield from entries(inner, f"{path} > {name}" if path else name)
+        elif not action.isSeparator():
+            yield path, action
+
+
+def shortcuts_of(bar: QMenuBar) -> Iterator[tuple[str, str, str]]:
+    """Return menu, text and keys of every entry that has a keyboard shortcut."""
+    for path, action in entries(bar):
+        keys = ", ".join(key.toString(_NATIVE) for key in action.shortcuts())
+        if keys:
+            yield path, plain(action.text()).rstrip("…"), keys
+
+
+def commands_of(
+    bar: QMenuBar, controls: ControlPanel, bring_to_front: Callable[[str], None]
+) -> list[Command]:
+    """List the enabled menu entries, and a command for each parameter that selects its field.
+
+    Parameters
+    ----------
+    bar
+        The menus.
+    controls
+        The controls of the parameters.
+    bring_to_front
+        Shows the pane of a name.
+    """
+    found = [
+        Command(
+            f"{path}: {plain(action.text())}", action.shortcut().toString(_NATIVE), action.trigger
+        )
+        for path, action in entries(bar)
+        if action.isEnabled()
+    ]
+    for page, panel in controls.panels.items():
+        for name, row in panel.rows.items():
+            found.append(_jump(page, name, row, bring_to_front))
+    return found
+
+
+def _jump(
+    page: str, name: str, row: ParameterRow, bring_to_front: Callable[[str], None]
+) -> Command:
+    declared = PARAMETERS[name]
+
+    def jump() -> None:
+        bring_to_front("controls")
+        _show_page_of(row)
+        field: QWidget = getattr(row, "field")  # noqa: B009 - each kind of row has one of its own
+        field.setFocus()
+        if isinstance(field, QAbstractSpinBox | QLineEdit):
+            field.selectAll()
+
+    symbol = f" {declared.symbol}" if declared.symbol else ""
+    return Command(f"{page}: {declared.label}{symbol}", "", jump)
+
+
+def _show_page_of(widget: QWidget) -> None:
+    """Show the tab page that contains a control."""
+    page: QWidget | None = widget
+    while page is not None:
+        around = page.parentWidget()
+        pages = around.parentWidget() if around is not None else None
+        if isinstance(pages, QTabWidget):
+            pages.setCurrentWidget(page)
+            return
+        page = around

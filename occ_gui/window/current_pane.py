@@ -1,4 +1,4 @@
-"""Which pane the user is at: the one to be copied."""
+"""Current pane: the one that has the focus or whose tab was selected last."""
 
 from collections.abc import Mapping
 
@@ -6,16 +6,16 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
 
 PICTURE = "picture"
-"""The pane in the middle."""
+"""Name of the pane in the middle."""
 
 
-class FrontPane(QObject):
-    """Follows the keyboard and the tabs from pane to pane.
+class CurrentPane(QObject):
+    """Follows the keyboard focus and the tabs from pane to pane.
 
     Parameters
     ----------
     window
-        The window, the picture in its middle.
+        The window, with the picture in its middle.
     docks
         Its docks, by name.
     """
@@ -25,7 +25,7 @@ class FrontPane(QObject):
         self._window = window
         self._docks = docks
         self.name = PICTURE
-        """The pane's name: PICTURE, or that of a dock."""
+        """The name of the pane: PICTURE, or that of a dock."""
         for name, dock in docks.items():
             dock.visibilityChanged.connect(lambda seen, name=name: self._on_seen(name, seen))
         application = QApplication.instance()
@@ -33,7 +33,7 @@ class FrontPane(QObject):
             application.focusChanged.connect(self._on_focus)
 
     def _on_seen(self, name: str, seen: bool) -> None:
-        # All become visible when the window is first shown: that is no choice of the user's.
+        # When the window is first shown all docks become visible without the user's choosing one.
         tabbed = self._window.tabifiedDockWidgets(self._docks[name])
         if seen and tabbed and self._window.isActiveWindow():
             self.name = name

@@ -1,7 +1,7 @@
-"""The menus; what they do is connected in :mod:`occ_gui.app.application`."""
+"""The menus of the window; :mod:`occ_gui.app` connects their entries."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -10,14 +10,15 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
+from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.load import SCAN_AXES
 
 _WITH_PHOTO = ("close_photo", "match", "use_settings")
-"""What can be done while a photo is open."""
+"""Entries that are enabled while a photo is open."""
 
 _WITH_MATCH = ("apply_match", "save_match")
-"""What can be done once a match has found something."""
+"""Entries that are enabled while there is the result of a match."""
 
 
 class Menus(QObject):
@@ -28,7 +29,7 @@ class Menus(QObject):
     window
         The window.
     undo_stack
-        The steps that the edit menu undoes.
+        The steps that the edit menu undoes and redoes.
     docks
         The docks that the view menu shows and hides.
     """
@@ -40,22 +41,14 @@ class Menus(QObject):
         self._bar = window.menuBar()
         self.actions: dict[str, QAction] = {}
         self.tops: dict[str, QMenu] = {}
+        self.figures: dict[str, QAction] = {}
         self._make_file_menu(window)
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
-        menu = self._top("view", self.tr("&View"))
-        self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
-        slider_strips = self._add(menu, "margins", self.tr("Reading &margins under the sliders"))
-        slider_strips.setCheckable(True)
-        menu.addSeparator()
-        self._view = menu
-        for dock in docks:
-            self.add_dock(dock)
-        menu = self._top("help", self.tr("&Help"))
-        self._add(menu, "explorations", self.tr("&Explorations"))
-        self._add(menu, "about", self.tr("&About"))
+        self._make_view_menu(docks)
+        self._make_help_menu()
         self.show_photo_open(False)
-        self.show_match_there(False)
+        self.show_match_found(False)
 
     def _top(self, name: str, text: str) -> QMenu:
         self.tops[name] = self._bar.addMenu(text)
@@ -90,9 +83,32 @@ class Menus(QObject):
         self._add(menu, "save_scene_as", self.tr("Save scene &as…"), self.tr("Ctrl+Shift+S"))
         self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
         menu.addSeparator()
+        self._make_export_menu(menu)
+        menu.addSeparator()
         self._add(menu, "delete_preset", self.tr("&Delete preset…"))
         menu.addSeparator()
         self._add(menu, "quit", self.tr("&Quit"), self.tr("Ctrl+Q")).triggered.connect(window.close)
+
+    def _make_export_menu(self, file: QMenu) -> None:
+        self._export = file.addMenu(self.tr("E&xport"))
+        self._export.setToolTipsVisible(True)
+        self._after_figures = self._export.addSeparator()
+        keys = self.tr("Ctrl+Shift+E")
+        self._add(self._export, "export_all", self.tr("A&ll figures…"), keys)
+
+    def add_figures(self, titles: Mapping[str, str]) -> None:
+        """Add figures to the export menu.
+
+        Parameters
+        ----------
+        titles
+            The figures' titles by their names; each gets the action ``export_NAME``.
+        """
+        for name, title in titles.items():
+            action = QAction(self.tr("{figure}…").format(figure=title), self._export)
+            action.setToolTip(self.tr("As PNG, SVG, PDF or CSV, with the scene inside."))
+            self._export.insertAction(self._after_figures, action)
+            self.figures[name] = self.actions[f"export_{name}"] = action
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
         menu = self._top("edit", self.tr("&Edit"))
@@ -102,10 +118,13 @@ class Menus(QObject):
         redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
         menu.addActions([undo, redo])
         self._make_pin_menu(menu)
-
-    def add_dock(self, dock: QDockWidget) -> None:
-        """Let the view menu show and hide a dock."""
-        self._view.addAction(dock.toggleViewAction())
+        menu.addSeparator()
+        self._add(menu, "copy_figure", self.tr("Copy fi&gure"), self.tr("Ctrl+Shift+C"))
+        menu.addSeparator()
+        hold = self._add(menu, "hold_brightness", self.tr("&Hold brightness"), self.tr("Ctrl+B"))
+        hold.setCheckable(True)
+        hold.setToolTip(self.tr("While on, the ISO speed moves against the exposure time."))
+        self._add(menu, "reset_scene", self.tr("Reset &scene"))
 
     def _make_pin_menu(self, edit: QMenu) -> None:
         menu = edit.addMenu(self.tr("Pi&n and compare"))
@@ -143,6 +162,37 @@ class Menus(QObject):
         for axis in SCAN_AXES:
             self._add_choice(axes, self.scan_axes, f"scan_{axis}", words[axis], axis)
 
+    def _make_view_menu(self, docks: Iterable[QDockWidget]) -> None:
+        menu = self._view = self._top("view", self.tr("&View"))
+        self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
+        theme = menu.addMenu(self.tr("&Theme"))
+        words = {
+            "system": self.tr("&System"),
+            "light": self.tr("&Light"),
+            "dark": self.tr("&Dark"),
+        }
+        self.themes = QActionGroup(self)
+        for key in THEMES:
+            self._add_choice(theme, self.themes, f"theme_{key}", words[key], key)
+        self._add(menu, "reset_layout", self.tr("&Reset layout"))
+        strips = self._add(menu, "slider_strips", self.tr("&Slider strips"))
+        strips.setCheckable(True)
+        strips.setToolTip(self.tr("The share of bits that the decoder reads along each slider."))
+        menu.addSeparator()
+        for dock in docks:
+            self.add_dock(dock)
+
+    def add_dock(self, dock: QDockWidget) -> None:
+        """Add an entry to the view menu that shows and hides a dock."""
+        self._view.addAction(dock.toggleViewAction())
+
+    def _make_help_menu(self) -> None:
+        menu = self._top("help", self.tr("&Help"))
+        self._add(menu, "explorations", self.tr("&Explorations"))
+        self._add(menu, "about", self.tr("&About"))
+        self._add(menu, "shortcuts", self.tr("&Keyboard shortcuts…"), self.tr("F1"))
+        self._add(menu, "palette", self.tr("Find a &command…"), self.tr("Ctrl+Shift+P"))
+
     def _add_choice(
         self, menu: QMenu, group: QActionGroup, name: str, text: str, key: str
     ) -> QAction:
@@ -154,25 +204,25 @@ class Menus(QObject):
         return action
 
     def show_choice(self, group: QActionGroup, key: str) -> None:
-        """Check the entry of a group that stands for a key, without telling of it."""
+        """Check the entry of a group that stands for a key, without triggering it."""
         for action in group.actions():
             if action.data() == key:
                 action.setChecked(True)
 
-    def show_photo_open(self, there: bool) -> None:
-        """Offer what can be done with a photo, if there is one."""
+    def show_photo_open(self, is_open: bool) -> None:
+        """Enable the entries that need a photo while one is open."""
         for name in _WITH_PHOTO:
-            self.actions[name].setEnabled(there)
+            self.actions[name].setEnabled(is_open)
 
-    def show_match_there(self, there: bool) -> None:
-        """Offer what can be done with a match, if there is one."""
+    def show_match_found(self, is_found: bool) -> None:
+        """Enable the entries that need the result of a match while there is one."""
         for name in _WITH_MATCH:
-            self.actions[name].setEnabled(there)
+            self.actions[name].setEnabled(is_found)
 
     def show_recent(
         self, files: Iterable[Path], open_file: Callable[[Path], None], clear: Callable[[], None]
     ) -> None:
-        """List the files that were opened last."""
+        """List the recently opened files."""
         self.recent.clear()
         for path in files:
             _add_file(self.recent, path, path.name, open_file)
@@ -185,13 +235,13 @@ class Menus(QObject):
         """List the photos that come with the program."""
         self.samples.clear()
         for path in files:
-            text = self.tr("{name} (simulated)").format(name=_in_words(path.stem))
+            text = self.tr("{name} (simulated)").format(name=_words_of(path.stem))
             _add_file(self.samples, path, text, open_file)
         self.samples.setEnabled(not self.samples.isEmpty())
 
 
-def _in_words(name: str) -> str:
-    """Write a file's name as people do: ``led-1khz`` as LED 1 kHz."""
+def _words_of(name: str) -> str:
+    """Write a file's name in words: ``led-1khz`` as LED 1 kHz."""
     words = re.sub(r"(\d)(k?)hz\b", r"\1 \2Hz", name.replace("-", " "))
     words = re.sub(r"\bled\b", "LED", words)
     return words[:1].upper() + words[1:]

@@ -1,10 +1,11 @@
-"""Light or dark: as the system has it, or as the user wants it."""
+"""Colour theme of the application: that of the system, light or dark."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication
 
-from occ_gui.window.desktop_menus import THEMES
+THEMES = ("system", "light", "dark")
+"""Names of the themes; the first follows the system."""
 
 _SCHEMES = dict(
     zip(THEMES, (Qt.ColorScheme.Unknown, Qt.ColorScheme.Light, Qt.ColorScheme.Dark), strict=True)
@@ -31,10 +32,10 @@ _LIGHT = {
     _ROLE.Dark: "#9f9f9f", _ROLE.Shadow: "#767676", _ROLE.Accent: "#308cc6",
 }  # fmt: skip
 _SYSTEMS = "systemsStyleAndPalette"
-"""The application's property that keeps, while a theme of our own is shown, what was before."""
+"""Application property that stores the system's style and palette while another theme is shown."""
 
 _BOX = "#8a8a8a"
-"""An empty check box in the dark: 3.6 times as light as the window."""
+"""Colour of an empty check box in the dark theme: a contrast of 3.6 to the window."""
 
 _DISABLED = {"dark": "#7f7f7f", "light": "#a0a0a0"}
 _FADED = (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText)
@@ -51,32 +52,32 @@ def palette_of(theme: str) -> QPalette:
 
 
 def _boxed(palette: QPalette) -> QPalette:
-    """Make empty check boxes visible: Fusion frames them darker than the window."""
+    """Make empty check boxes visible: Fusion draws their frames darker than the window."""
     palette.setColor(_ROLE.Base, QColor(_BOX))
     return palette
 
 
 class ThemeController(QObject):
-    """Gives the application its colours.
+    """Sets the application's colours.
 
-    What the system does not change by itself is drawn in Fusion, which takes any palette.
+    A theme that is not the system's is drawn in the style Fusion, which applies any palette.
     """
 
     chosen = Signal(str)
-    """One of THEMES."""
+    """The theme that is shown from now on, one of THEMES."""
 
     def __init__(self) -> None:
         super().__init__()
         self.theme = THEMES[0]
 
     def choose(self, theme: str) -> None:
-        """Show the window in this theme; an unknown one is the system's."""
+        """Change to a theme; an unknown name means that of the system."""
         theme = theme if theme in THEMES else THEMES[0]
         if theme == self.theme:
             return
         self.theme = theme
         application = QApplication.instance()
-        if not isinstance(application, QApplication):  # nothing is shown
+        if not isinstance(application, QApplication):  # there is no window
             return
         application.styleHints().setColorScheme(_SCHEMES[theme])
         if application.property(_SYSTEMS) is None:
@@ -97,5 +98,5 @@ class ThemeController(QObject):
 
 
 def _is_followed(application: QApplication) -> bool | None:
-    """Say whether the system tells of its colours; None where it does not."""
+    """Return True where Qt follows the system's colours, None where it does not."""
     return None if application.styleHints().colorScheme() == Qt.ColorScheme.Unknown else True

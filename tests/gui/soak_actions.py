@@ -18,7 +18,7 @@ from occ_gui.files.file_controller import sample_photos
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.scene.gesture import NO_GESTURE, new_gesture
 from occ_gui.scene.settings_store import FIRST_SETTINGS
-from occ_gui.window.desktop_menus import THEMES
+from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
 from occ_model.results.teaching import Exploration
 from occ_model.scene.parameter_kinds import Choice, Quantity
@@ -245,7 +245,7 @@ class Monkey:
         slider.setValue(self._random.randint(slider.minimum(), slider.maximum()))
 
     def toggle_the_slider_strips(self) -> None:
-        self._trigger("margins")
+        self._trigger("slider_strips")
 
     def choose_a_theme(self) -> None:
         self._trigger(f"theme_{self._random.choice(THEMES)}")
@@ -260,7 +260,7 @@ class Monkey:
         self._trigger("clear_pins")
 
     def _guide(self) -> ExplorationView:
-        guide = self._application.teaching.guide.pane
+        guide = self._application.learning.explorations_pane
         if not guide.choices:
             self._trigger("explorations")
             self._qtbot.waitUntil(lambda: bool(guide.choices))
@@ -299,7 +299,7 @@ class Monkey:
             self._trigger("copy_figure")
         else:
             titles = self._application.desktop.figures.titles
-            self._application.desktop.export.controller.copy(self._random.choice(list(titles)))
+            self._application.desktop.export.copy(self._random.choice(list(titles)))
 
     def export_all(self) -> None:
         self._dialogs.path = self._folder / "all"

@@ -79,20 +79,20 @@ def test_the_reading_of_a_photo_is_shown_with_a_way_out_until_it_has_ended(
     qtbot.waitUntil(lambda: bar.progress.value() == bar.progress.maximum() // 2)
     bar.cancel.click()
     assert not bar.isVisible()
-    assert application.desk.is_idle
+    assert application.photo_wiring.is_idle
     go_on.set()
     application.open_photo(taken)
     user.wait_until_idle()
     assert not bar.isVisible()
-    assert application.desk.matching.photo is not None
-    assert application.desk.matching.match is None
+    assert application.photo_wiring.matching.photo is not None
+    assert application.photo_wiring.matching.match is None
 
 
 def test_a_match_finds_the_cameras_readout_time_and_one_step_applies_it(
     matched: Application, user: User, small_scene: Scene
 ) -> None:
     assert matched.store.scene == small_scene
-    found = matched.desk.matching.match
+    found = matched.photo_wiring.matching.match
     assert found is not None
     assert found.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
     steps = matched.store.undo_stack.count()
@@ -106,19 +106,19 @@ def test_a_match_finds_the_cameras_readout_time_and_one_step_applies_it(
 def test_after_applying_the_simulated_picture_lies_on_the_photo_pixel_on_pixel(
     matched: Application, user: User
 ) -> None:
-    corner = matched.desk.placements.placement
+    corner = matched.photo_wiring.placements.placement
     assert corner != Placement()
     matched.photo.result.apply.click()
     user.wait_until_idle()
-    assert matched.desk.placements.placement == Placement()
-    found = matched.desk.matching.match
+    assert matched.photo_wiring.placements.placement == Placement()
+    found = matched.photo_wiring.matching.match
     assert found is not None
     columns, levels = matched.profile.photo.getOriginalDataset()
     assert columns[0] == found.region.first_column
     simulated = matched.profile.simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
-    assert matched.desk.placements.placement == corner
+    assert matched.photo_wiring.placements.placement == corner
 
 
 def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> None:
@@ -132,19 +132,19 @@ def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> Non
 def test_moving_the_photo_by_hand_moves_it_in_picture_fields_and_profile_until_reset(
     matched: Application, user: User
 ) -> None:
-    before = matched.desk.placements.placement
+    before = matched.photo_wiring.placements.placement
     matched.photo.placement.by_mouse.click()
     assert matched.image.mode.key() == "blend"
     assert matched.image.overlay.frame.isVisible()
     matched.image.overlay.frame.setPos((199.5, 49.5))
-    assert matched.desk.placements.placement == Placement(200.0, 50.0)
+    assert matched.photo_wiring.placements.placement == Placement(200.0, 50.0)
     assert matched.photo.placement.column.value() == 200.0
     columns, _ = matched.profile.photo.getOriginalDataset()
-    found = matched.desk.matching.match
+    found = matched.photo_wiring.matching.match
     assert found is not None
     assert columns[0] == 200 + found.region.first_column
     matched.photo.placement.reset.click()
-    assert matched.desk.placements.placement == before
+    assert matched.photo_wiring.placements.placement == before
 
 
 def test_a_photo_that_shows_no_stripes_is_answered_by_a_sentence_everywhere(
@@ -333,10 +333,10 @@ def test_of_a_real_camera_that_saw_a_led_of_1_khz_the_readout_time_is_measured(
     assert application.photos.reading.scan_axis == "auto"
     application.photo.form.sent.show_key("square")
     user.choose("&Match photo")
-    found = application.desk.matching.match
+    found = application.photo_wiring.matching.match
     assert found is not None
     assert found.readout_time == pytest.approx(14.565e-6, rel=3e-3)
     user.choose("&Apply to the scene")
-    assert application.desk.placements.placement == Placement()
+    assert application.photo_wiring.placements.placement == Placement()
     told = application.profile.residual.numbers.toolTip()
     assert float(told.split("correlation ")[1].split(",")[0]) >= 0.99

@@ -16,8 +16,7 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.hold_brightness import HoldBrightness
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plot import Plot
-from occ_gui.window.command_palette import Command, CommandPalette
-from occ_gui.window.commands import commands_of, sheet_of
+from occ_gui.window.command_palette import Command, CommandPalette, commands_of, shortcuts_of
 from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_model.scene.scene import Scene
 
@@ -108,7 +107,7 @@ def luminance(colour: QColor) -> float:
 
 
 def test_the_sheet_lists_every_entry_with_keys(application: Application, qtbot: QtBot) -> None:
-    rows = list(sheet_of(application.window.menuBar()))
+    rows = list(shortcuts_of(application.window.menuBar()))
     assert ("File", "Save scene", "Ctrl+S") in rows
     assert ("Edit", "Hold brightness", "Ctrl+B") in rows
     assert len(rows) > 15
@@ -141,8 +140,8 @@ def test_the_palette_does_what_a_few_letters_find_by_keys_only(
 def test_the_palette_jumps_to_every_parameter(application: Application, qtbot: QtBot) -> None:
     window = application.window
     found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
-    (jump,) = [command for command in found if command.suits(["f-number", "main"])]
-    (other,) = [command for command in found if command.suits(["panel and camera", "gamma"])][:1]
+    (jump,) = [command for command in found if command.matches(["f-number", "main"])]
+    (other,) = [command for command in found if command.matches(["panel and camera", "gamma"])][:1]
     window.activateWindow()
     for command in (other, jump):
         command.run()

@@ -1,4 +1,4 @@
-"""Mistakes of ours and of the disk: the window lives, says what happened, and keeps the work."""
+"""Unhandled errors and full disks: the window works on, reports them, and keeps the work."""
 
 import logging
 import sys
@@ -15,7 +15,7 @@ from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.error_reports import Faults
+from occ_gui.app.error_reports import ErrorReports
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.guarded_paint import guarded
@@ -24,13 +24,13 @@ STILL_THERE = "Your work is still there."
 
 
 @pytest.fixture
-def faults(application: Application) -> Iterator[Faults]:
+def reports(application: Application) -> Iterator[ErrorReports]:
     """Let the window take all exceptions, in place of the tests' own hook."""
-    faults = application.desktop.faults
+    reports = application.desktop.error_reports
     with capture_exceptions():
-        faults.install()
-        yield faults
-        faults.remove()
+        reports.install()
+        yield reports
+        reports.remove()
 
 
 def works(application: Application, user: User) -> bool:
@@ -43,7 +43,7 @@ def broken(*_arguments: object) -> None:
 
 
 def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
-    application: Application, user: User, faults: Faults, caplog: pytest.LogCaptureFixture
+    application: Application, user: User, reports: ErrorReports, caplog: pytest.LogCaptureFixture
 ) -> None:
     with caplog.at_level(logging.ERROR):
         QTimer.singleShot(0, broken)
@@ -56,9 +56,9 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
     assert works(application, user)
 
 
-def test_an_exception_that_comes_again_and_again_is_told_of_once(faults: Faults) -> None:
+def test_an_exception_that_comes_again_and_again_is_told_of_once(reports: ErrorReports) -> None:
     messages: list[str] = []
-    faults.happened.connect(messages.append)
+    reports.reported.connect(messages.append)
     for _ in range(50):
         try:
             broken()
@@ -68,7 +68,7 @@ def test_an_exception_that_comes_again_and_again_is_told_of_once(faults: Faults)
 
 
 def test_an_exception_in_a_thread_is_a_sentence(
-    application: Application, user: User, faults: Faults, qtbot: QtBot
+    application: Application, user: User, reports: ErrorReports, qtbot: QtBot
 ) -> None:
     thread = threading.Thread(target=broken)
     thread.start()
@@ -93,7 +93,7 @@ def test_an_exception_in_the_simulation_is_a_sentence_and_the_last_picture_stays
 
 
 def test_an_exception_while_a_picture_is_painted_is_a_sentence(
-    application: Application, user: User, faults: Faults, monkeypatch: pytest.MonkeyPatch
+    application: Application, user: User, reports: ErrorReports, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as patched:
         patched.setattr(AveragedImage, "_averaged", broken)
@@ -108,7 +108,7 @@ def test_an_exception_while_a_picture_is_painted_is_a_sentence(
 
 
 def test_an_exception_while_a_widget_is_painted_is_a_sentence(
-    application: Application, user: User, faults: Faults, monkeypatch: pytest.MonkeyPatch
+    application: Application, user: User, reports: ErrorReports, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as patched:
         patched.setattr(BitStrip, "_draw_bit", broken)
@@ -140,9 +140,9 @@ def test_what_was_before_takes_exceptions_again_once_the_window_is_gone(
     qtbot: QtBot,
 ) -> None:
     before = (sys.excepthook, threading.excepthook)
-    faults = Faults()
-    faults.install()
-    faults.remove()
+    reports = ErrorReports()
+    reports.install()
+    reports.remove()
     assert (sys.excepthook, threading.excepthook) == before
 
 

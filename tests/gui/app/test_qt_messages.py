@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 from PySide6.QtCore import qCritical, qDebug, qInstallMessageHandler, qWarning
 
-from occ_gui.app.qt_messages import HARMLESS, log_qt_messages
+from occ_gui.app.error_reports import HARMLESS, log_qt_messages
 
 
 @pytest.fixture

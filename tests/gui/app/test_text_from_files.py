@@ -20,7 +20,7 @@ from occ_gui.explorations.exploration_view import ExplorationView
 from occ_gui.files.document import Document
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.window.commands import plain
+from occ_gui.window.command_palette import plain
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations

@@ -166,7 +166,7 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     application.window.show()
     strips = application.slider_strips.strips.values()
     assert all(strip.isVisible() for strip in strips)
-    application.window.actions_by_name["margins"].trigger()
+    application.window.actions_by_name["slider_strips"].trigger()
     QApplication.processEvents()
     assert not any(strip.isVisible() for strip in strips)
     assert application.detection_map.slider_strips.is_idle

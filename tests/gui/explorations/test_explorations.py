@@ -21,7 +21,7 @@ from occ_model.teaching.explorations import explorations
 def guide(application: Application, user: User, qtbot: QtBot) -> ExplorationView:
     """Open the explorations by the menu."""
     user.choose("&Explorations")
-    guide = application.teaching.guide.pane
+    guide = application.learning.explorations_pane
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.choices))
     return guide
 
@@ -173,7 +173,7 @@ def test_explorations_that_cannot_be_read_are_answered_in_a_sentence(
 
     monkeypatch.setattr(explorations_room, "explorations", fail)
     user.choose("&Explorations")
-    guide = application.teaching.guide.pane
+    guide = application.learning.explorations_pane
     qtbot.waitUntil(lambda: "&lt;song&gt;" in guide._invitation.text())
     assert guide.choices == []
 

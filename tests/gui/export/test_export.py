@@ -21,7 +21,7 @@ from occ_model.scene.provenance import ENDINGS, scene_inside
 
 
 def export(application: Application, user: User, name: str, path: Path) -> str:
-    application.desktop.export.controller.export(name, path)
+    application.desktop.export.export(name, path)
     user.wait_until_idle()
     return str(user.message)
 
@@ -94,7 +94,7 @@ def test_all_figures_go_into_a_folder_in_all_formats(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     folder = tmp_path / "new" / "report"
-    application.desktop.export.controller.export_all(folder)
+    application.desktop.export.export_all(folder)
     user.wait_until_idle()
     names = ("picture", "profile", "decoding-threshold", "decoding-matched")
     assert {path.name for path in folder.iterdir()} == {
@@ -116,7 +116,7 @@ def test_the_figure_that_is_copied_is_that_of_the_pane_at_the_front(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
     application.profile.enhanced.setFocus()
-    qtbot.waitUntil(lambda: application.desktop.export.front.name == "profile")
+    qtbot.waitUntil(lambda: application.desktop.export.current_pane.name == "profile")
     user.choose("Copy fi&gure")
     assert "Column profile" in QGuiApplication.clipboard().image().text("Title")
     application.decode.decoders.setCurrentIndex(1)
@@ -182,12 +182,12 @@ def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
 
     monkeypatch.setattr(Path, "write_bytes", full)
     folder = tmp_path / "report"
-    application.desktop.export.controller.export_all(folder)
+    application.desktop.export.export_all(folder)
     user.wait_until_idle()
     assert "No space left on device" in user.message
     assert len(written) > 5
     assert not folder.exists()
-    application.desktop.export.controller.export("profile", tmp_path / "one.pdf")
+    application.desktop.export.export("profile", tmp_path / "one.pdf")
     user.wait_until_idle()
     assert "No space left on device" in user.message
     assert list(tmp_path.iterdir()) == []
@@ -196,13 +196,13 @@ def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
 def test_a_write_protected_figure_is_not_replaced_nor_any_other_then(
     application: Application, user: User, tmp_path: Path
 ) -> None:
-    application.desktop.export.controller.export_all(tmp_path)
+    application.desktop.export.export_all(tmp_path)
     user.wait_until_idle()
     files = sorted(tmp_path.iterdir())
     for file in files:
         file.write_bytes(b"kept")
     files[-1].chmod(0o444)
-    application.desktop.export.controller.export_all(tmp_path)
+    application.desktop.export.export_all(tmp_path)
     user.wait_until_idle()
     assert f"{files[-1].name} is write-protected" in user.message
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == dict.fromkeys(files, b"kept")
@@ -226,7 +226,7 @@ def test_exports_that_come_quickly_are_all_written(
 ) -> None:
     paths = [tmp_path / f"{place}.csv" for place in range(4)]
     for path in paths:
-        application.desktop.export.controller.export("profile", path)
+        application.desktop.export.export("profile", path)
     user.wait_until_idle()
     assert sorted(tmp_path.iterdir()) == paths
 

@@ -51,9 +51,9 @@ def matched(application: Application, user: User, photo_file: Path) -> Applicati
     application.open_photo(photo_file)
     user.wait_until_idle()
     application.photo.form.sent.show_key("square")
-    application.desk.match()
+    application.photo_wiring.match()
     user.wait_until_idle()
-    assert application.desk.matching.match is not None, application.photo.failure.text()
+    assert application.photo_wiring.matching.match is not None, application.photo.failure.text()
     return application
 
 
@@ -112,8 +112,8 @@ def test_a_saved_match_is_listed_after_the_programs_presets_and_loaded(
     assert preset_named("my phone").title == "Measured from stripes.png"
     matched.controls.preset_chosen.emit("my phone")
     user.wait_until_idle()
-    assert matched.desk.matching.match is not None
-    assert matched.store.scene == matched.desk.matching.match.scene
+    assert matched.photo_wiring.matching.match is not None
+    assert matched.store.scene == matched.photo_wiring.matching.match.scene
     assert matched.controls.preset.currentText() == "my phone"
 
 

@@ -214,4 +214,4 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     assert np.array_equal(then, start)
     assert application.image.before.picture.isVisible()
     grey_picture(application.image)
-    assert application.teaching.before.before is not None
+    assert application.learning.before.before is not None

@@ -183,7 +183,7 @@ def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
 def test_states_are_pinned_by_key_compared_and_gone_back_to_in_one_step(
     qtbot: QtBot, application: Application, user: User, small_scene: Scene
 ) -> None:
-    window, compare = application.window, application.teaching.compare
+    window, compare = application.window, application.learning.compare
     both = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
     window.activateWindow()
     qtbot.waitActive(window)
@@ -203,4 +203,4 @@ def test_states_are_pinned_by_key_compared_and_gone_back_to_in_one_step(
     user.choose("&Undo")
     assert application.store.scene.camera.iso == 200.0
     compare.clear.click()
-    assert application.teaching.pins.pinned.a is None
+    assert application.learning.pins.pinned.a is None

@@ -177,26 +177,26 @@ def test_the_accuracy_pane_is_whole_at_every_size_and_its_plot_can_be_read(
 def test_the_panes_that_explain_and_compare_are_whole_at_every_size(
     qtbot: QtBot, application: Application, user: User, size: QSize
 ) -> None:
-    window, teaching = application.window, application.teaching
+    window, learning = application.window, application.learning
     window.resize(size)
     for changes in STATES[:2]:
-        teaching.pins.pin("A")
+        learning.pins.pin("A")
         window.bring_to_front("equations")
         window.bring_to_front("compare")
         application.store.change(**changes)
         user.wait_until_idle()
-        teaching.pins.pin("B")
+        learning.pins.pin("B")
         application.image.before.chosen.setChecked(True)
         assert_faultless(qtbot, window, changes)
         assert axis_labels_cut_off(window) == []
     window.bring_to_front("explorations")
     assert_faultless(qtbot, window, "list of explorations")
     for place in (0, 2):
-        teaching.guide.pane.choices[place].click()
-        teaching.guide.pane.reveal.click()
+        learning.explorations_pane.choices[place].click()
+        learning.explorations_pane.reveal.click()
         user.wait_until_idle()
         assert_faultless(qtbot, window, "answer")
-        teaching.guide.pane.all.click()
+        learning.explorations_pane.all.click()
     assert window.size() == size
 
 

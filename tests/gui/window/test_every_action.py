@@ -33,7 +33,7 @@ from shiboken6 import isValid
 
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.window.commands import entries, plain
+from occ_gui.window.command_palette import entries, plain
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 
@@ -204,7 +204,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
         image.simulation.box.viewRange(),
         application.photos.reading,
         application.desktop.theme.theme,
-        application.desk.matching.runner.is_running,
+        application.photo_wiring.matching.runner.is_running,
         window.windowTitle(),
         window.saveState().toBase64().data(),
         QGuiApplication.clipboard().image().size(),

@@ -1,4 +1,4 @@
-"""All that shows what changed and why, put together: before, pins, equations, explorations."""
+"""Learning panes: equations, comparison and explorations, created on demand in docks."""
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -19,17 +19,18 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.lazy_pane import LazyPane, PaneContent
 
 if TYPE_CHECKING:
-    from occ_gui.app.guide_desk import ExplorationWiring
     from occ_gui.explanation.wiring import ExplanationWiring
+    from occ_gui.explorations.exploration_controller import ExplorationController
+    from occ_gui.explorations.exploration_view import ExplorationView
     from occ_gui.pins.compare_view import CompareView
 
 
 class DockWindow(Protocol):
-    """A window that takes docks."""
+    """A window that panes can be added to."""
 
     @property
     def actions_by_name(self) -> Mapping[str, QAction]:
-        """The entries of its menus."""
+        """The menu entries, by name."""
 
     def add_pane(
         self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
@@ -37,28 +38,29 @@ class DockWindow(Protocol):
         """Add a pane before the window is shown."""
 
     def bring_to_front(self, name: str) -> None:
-        """Show a pane before those that share its place."""
+        """Show a pane in front of those that share its place."""
 
 
 class LearningPanes(QObject):
-    """The panes that explain and compare, with their controllers, as docks of a window.
+    """The panes that explain and compare, with their controllers, in docks of a window.
 
-    Each pane is made when it is first seen.
+    Each pane is created when it is first shown.
 
     Parameters
     ----------
     window
-        Gets the docks.
+        The window that the docks are added to.
     scenes
-        The scene.
+        The store of the scene.
     photos
-        Opens the photos of explorations.
+        Opens the photos of the explorations.
     image, profile
-        The panes that show what was before, and where a column is pointed at.
+        The panes that show the results before the last change; columns are selected in the
+        profile.
     """
 
     status_message = Signal(str)
-    """What was done, or why it was not; until the scene changes."""
+    """The outcome of an action, shown until the scene changes."""
 
     def __init__(
         self,
@@ -83,14 +85,14 @@ class LearningPanes(QObject):
         """The equations and the exposure of a column."""
         from occ_gui.explanation.wiring import ExplanationWiring
 
-        desk = ExplanationWiring(self._scenes, self._profile.plot)
+        explanation = ExplanationWiring(self._scenes, self._profile.plot)
         if self._snapshot is not None:
-            desk.show_snapshot(self._snapshot)
-        return desk
+            explanation.show_snapshot(self._snapshot)
+        return explanation
 
     @cached_property
     def compare(self) -> "CompareView":
-        """What differs between A and B."""
+        """The differences between the pinned states A and B."""
         from occ_gui.pins.compare_view import CompareView
 
         view = CompareView()
@@ -101,17 +103,29 @@ class LearningPanes(QObject):
         return view
 
     @cached_property
-    def guide(self) -> "ExplorationWiring":
-        """The explorations."""
-        from occ_gui.app.guide_desk import ExplorationWiring
+    def explorations_pane(self) -> "ExplorationView":
+        """The pane of the explorations."""
+        from occ_gui.explorations.exploration_view import ExplorationView
 
-        desk = ExplorationWiring(self._scenes, self._photos)
-        desk.explorations.status_message.connect(self.status_message)
-        desk.explorations.pane_wanted.connect(self._window.bring_to_front)
-        return desk
+        return ExplorationView()
+
+    @cached_property
+    def explorations(self) -> "ExplorationController":
+        """The controller of the explorations, connected with their pane."""
+        from occ_gui.explorations.exploration_controller import ExplorationController
+
+        pane = self.explorations_pane
+        controller = ExplorationController(self._scenes, self._photos, pane)
+        pane.chosen.connect(controller.choose)
+        pane.moved.connect(controller.go)
+        pane.list_asked.connect(controller.leave)
+        pane.again_asked.connect(controller.set_again)
+        controller.status_message.connect(self.status_message)
+        controller.pane_wanted.connect(self._window.bring_to_front)
+        return controller
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Hand these results to all that make use of them."""
+        """Pass new results on to the panes and controllers that use them."""
         self._snapshot = snapshot
         self.before.show_snapshot(snapshot)
         self.pins.show_snapshot(snapshot)
@@ -119,7 +133,7 @@ class LearningPanes(QObject):
             self.explanation.show_snapshot(snapshot)
 
     def show_pinned(self, pinned: Pinned) -> None:
-        """Show these two states where they are compared, if anybody has looked there yet."""
+        """Show the pinned states in the comparison, if that pane has been created."""
         if "compare" in vars(self):
             self.compare.show_pinned(pinned)
 
@@ -127,7 +141,7 @@ class LearningPanes(QObject):
         add = self._add_dock
         add("equations", self.tr("Equations"), self._explain, behind="decode")
         add("compare", self.tr("Compare"), self._compare, behind="profile")
-        add("explorations", self.tr("Explorations"), self._guide, below="controls")
+        add("explorations", self.tr("Explorations"), self._explore, below="controls")
 
     def _add_dock(
         self, name: str, title: str, make: Callable[[], PaneContent], **place: str
@@ -142,8 +156,8 @@ class LearningPanes(QObject):
     def _compare(self) -> PaneContent:
         return self.compare, self.compare.set_seen
 
-    def _guide(self) -> PaneContent:
-        return self.guide.pane, self.guide.explorations.set_seen
+    def _explore(self) -> PaneContent:
+        return self.explorations_pane, self.explorations.set_seen
 
     def _connect_menus(self) -> None:
         actions = self._window.actions_by_name

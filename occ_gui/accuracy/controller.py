@@ -10,7 +10,7 @@ from occ_gui.background.progressive import Progressive
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.request import SimulationRequest
+from occ_gui.simulation.snapshot import SimulationRequest
 from occ_model.results import AccuracyPoint
 from occ_model.study.accuracy import accuracy, point_count
 

@@ -24,6 +24,7 @@ from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController
@@ -33,7 +34,6 @@ from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Match
-from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -62,6 +62,7 @@ class Application(QObject):
     ) -> None:
         super().__init__()
         self.store, self.settings = SceneStore(scene), SettingsStore(settings)
+        self.editor = SceneEditor(self.store)
         self.memory = Memory(memory)
         # The first picture is simulated while the panes that show it are made.
         self.simulation = SimulationController(self.store, self.settings)
@@ -85,7 +86,8 @@ class Application(QObject):
         # What was before, and the comparison, go before the profile, which is drawn with them.
         first = (self.image, self.learning, self.photo_wiring.comparison)
         views = (*first, self.profile, self.decode, self.accuracy)
-        self.simulation.show_in([*views, self.files], [self.image])
+        self.simulation.picture_ready.connect(self.image.show_picture)
+        self.simulation.show_in([*views, self.files])
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
@@ -107,14 +109,15 @@ class Application(QObject):
         self._show_settings(settings)
 
     def _connect_scene(self) -> None:
-        self.controls.edited.connect(self._edit)
+        self.controls.connect_editor(self.editor)
+        self.editor.edit_started.connect(self._on_edit)
+        self.editor.input_refused.connect(self._say_refusal)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
         self.presets.status_message.connect(self.window.say)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
-        self.controls.refused.connect(self._say_refusal)
-        self.simulation.shown.connect(self._on_shown)
+        self.simulation.snapshot_shown.connect(self._on_snapshot)
         self.simulation.failed.connect(self._say_failure)
         self.files.status_message.connect(self.window.say)
         self.learning.status_message.connect(self._say_refusal)
@@ -140,7 +143,7 @@ class Application(QObject):
         self.window.reading.cancelled.connect(self._cancel_photo)
         self.photo.open_asked.connect(self.files.ask_for_photo)
         self.photo.form.refused.connect(self._say_refusal)
-        self.photo.form.edited.connect(self._edit)
+        self.photo.form.edited.connect(self.editor.edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.photo_wiring.matching.matched.connect(self._on_match)
         self.photo_wiring.matching.failed.connect(self._say_match_failure)
@@ -210,9 +213,8 @@ class Application(QObject):
         self.window.bring_to_front("photo")
         self.photo_wiring.match()
 
-    def _edit(self, name: str, value: ParameterValue, gesture: int) -> None:
-        self.window.happened(_CHANGE)  # also where the value that holds is entered again
-        self.desktop.brightness.change(gesture, name, value)
+    def _on_edit(self) -> None:
+        self.window.happened(_CHANGE)
 
     def _show_scene(self, scene: Scene) -> None:
         self.window.happened(_CHANGE)
@@ -261,7 +263,7 @@ class Application(QObject):
     def _say_refusal(self, sentence: str) -> None:
         self.window.say(spoken(sentence), until=_CHANGE)
 
-    def _on_shown(self, snapshot: Snapshot) -> None:
+    def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.window.happened(_PICTURE)
         self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
 

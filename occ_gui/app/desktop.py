@@ -23,7 +23,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.hold_brightness import HoldBrightness
+from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
@@ -48,6 +48,7 @@ class Parts(Protocol):
 
     window: MainWindow
     store: SceneStore
+    editor: SceneEditor
     settings: SettingsStore
     memory: Memory
     files: FileController
@@ -88,7 +89,7 @@ class Desktop(QObject):
         self.export = ExportController(window, self.figures, memory, pane, parts.decode.decoder)
         self.export.connect_actions(window.menus.figures)
         self.document = Document(window, parts.store, parts.files)
-        self.brightness = HoldBrightness(parts.store)
+        self.brightness = parts.editor.brightness
         self.theme = ThemeController()
         self.layout = Layout(window, window.docks, memory)
         self.session = SessionKeeper(
@@ -106,7 +107,7 @@ class Desktop(QObject):
 
     def _connect(self) -> None:
         parts, window = self._parts, self._parts.window
-        parts.simulation.shown.connect(self.figures.show_snapshot)
+        parts.simulation.snapshot_shown.connect(self.figures.show_snapshot)
         parts.photo_wiring.photos.opened.connect(self._on_photo)
         for teller in (self.export, self.brightness, self.session):
             teller.status_message.connect(window.say)

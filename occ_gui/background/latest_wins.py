@@ -26,9 +26,6 @@ class LatestWins(QObject, Generic[Request, Result]):
         What it is, for the thread's name and the log.
     """
 
-    early = Signal(object)
-    """A part of a result, handed over before the rest of it is ready."""
-
     finished = Signal(object)
     """A result."""
 
@@ -50,13 +47,8 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._thread.setObjectName(name)
         self._worker.moveToThread(self._thread)
         self._ask.connect(self._worker.run, Qt.ConnectionType.QueuedConnection)
-        self._worker.early.connect(self._on_early, Qt.ConnectionType.QueuedConnection)
         self._worker.done.connect(self._on_done, Qt.ConnectionType.QueuedConnection)
         self._thread.start()
-
-    def hand_over(self, part: object) -> None:
-        """Hand over a part of the result that is being worked on: for the work itself to call."""
-        self._worker.early.emit(part)
 
     @property
     def is_idle(self) -> bool:
@@ -77,11 +69,6 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._stopped = True
         self._thread.quit()
         self._thread.wait()
-
-    @Slot(object)
-    def _on_early(self, part: Any) -> None:
-        if not self._stopped:
-            self.early.emit(part)
 
     @Slot(object, str)
     def _on_done(self, result: Any, failure: str) -> None:
@@ -104,7 +91,6 @@ class LatestWins(QObject, Generic[Request, Result]):
 class _Worker(QObject):
     """The part that lives on the other thread."""
 
-    early = Signal(object)
     done = Signal(object, str)
 
     def __init__(self, work: Callable[[Any], Any], name: str) -> None:

@@ -1,4 +1,4 @@
-"""The code as a number and as bits, side by side."""
+"""Code entry: the transmitted code as a number and as bits, side by side."""
 
 import re
 
@@ -12,17 +12,17 @@ from occ_model.scene.scene import Scene
 
 
 class CodeEntry(QWidget):
-    """Shows the code twice and lets the user change it in either form."""
+    """Two fields that show the code as a number and as bits; either can be edited."""
 
     edited = Signal(str, object, int)
     """The parameter's name, the code, and the number of the gesture."""
 
     refused = Signal(str)
-    """Why what was entered is not taken."""
+    """The reason why an input is not valid."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._bits = 0
+        self._bits, self._code = 0, -1
         self._gestures = Gestures()
         self.number = QSpinBox()
         self.number.setKeyboardTracking(False)
@@ -39,35 +39,44 @@ class CodeEntry(QWidget):
             line.textEdited.connect(self._gestures.end)
         for field in (self.number, self.bits):
             leave_undo_to_window(field)
-        self.number.valueChanged.connect(self._tell)
+        self.number.valueChanged.connect(self._enter)
         self.bits.editingFinished.connect(self._read_bits)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show a scene's code without telling of it."""
+        """Show the code of a scene without emitting a signal."""
         transmitter = scene.transmitter
+        # A raw pattern is sent in place of the code.
+        self.setEnabled(not transmitter.pattern)
+        if (transmitter.bits, transmitter.code) == (self._bits, self._code):
+            return
         self._bits = transmitter.bits
         self.number.blockSignals(True)
         self.number.setRange(0, 2**self._bits - 1)
-        self.number.setValue(transmitter.code)
         self.number.blockSignals(False)
         self.number.setToolTip(
             self.tr("The code sent, from 0 to {largest}.").format(largest=2**self._bits - 1)
         )
-        self.bits.setText(f"{transmitter.code:0{self._bits}b}")
-        # A raw pattern is sent in place of the code.
-        self.setEnabled(not transmitter.pattern)
+        self._display(transmitter.code)
 
-    def _tell(self, code: int) -> None:
+    def _display(self, code: int) -> None:
+        self._code = code
+        self.number.blockSignals(True)
+        self.number.setValue(code)
+        self.number.blockSignals(False)
+        self.bits.setText(f"{code:0{self._bits}b}")
+
+    def _enter(self, code: int) -> None:
+        self._display(code)
         self.edited.emit("code", code, self._gestures.of_change())
 
     def _read_bits(self) -> None:
         text = "".join(self.bits.text().split())
         if re.fullmatch(f"[01]{{{self._bits}}}", text):
             self.bits.setText(text)
-            if int(text, 2) != self.number.value():
-                self._tell(int(text, 2))
+            if int(text, 2) != self._code:
+                self._enter(int(text, 2))
             return
-        self.bits.setText(f"{self.number.value():0{self._bits}b}")
+        self.bits.setText(f"{self._code:0{self._bits}b}")
         self.refused.emit(
             self.tr("The bits are {text!r}; allowed: {bits} characters 0 and 1.").format(
                 text=text, bits=self._bits

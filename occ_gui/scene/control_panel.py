@@ -1,4 +1,4 @@
-"""The controls of a scene: preset, code, sliders, and the rest on further pages."""
+"""Control panel: the preset, the code, and pages with the controls of all other parameters."""
 
 from collections.abc import Sequence
 
@@ -16,14 +16,15 @@ from PySide6.QtWidgets import (
 
 from occ_gui.scene.code_entry import CodeEntry
 from occ_gui.scene.parameter_panel import ParameterPanel
-from occ_gui.scene.parameter_rows import QuantityRow
+from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow
+from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 
 MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number", "distance")
-"""The parameters whose sliders are always at hand."""
+"""The parameters on the first page."""
 
 
 class ControlPanel(QWidget):
@@ -34,16 +35,10 @@ class ControlPanel(QWidget):
     presets
         Names and titles of the presets.
     effects
-        The parameters that effects are governed by: they have a page of their own.
+        The parameters of the effects, which have their own page.
     parent
         The parent widget.
     """
-
-    edited = Signal(str, object, int)
-    """Name, value in SI units, and the number of the gesture that the change belongs to."""
-
-    refused = Signal(str)
-    """Why what was entered is not taken."""
 
     preset_chosen = Signal(str)
     """The name of a preset to load."""
@@ -78,10 +73,15 @@ class ControlPanel(QWidget):
             self.tr("Model"): ParameterPanel(model),
         }
         self._lay_out()
-        parts: tuple[CodeEntry | ParameterPanel, ...] = (self.code, *self.panels.values())
-        for part in parts:
-            part.edited.connect(self.edited)
-            part.refused.connect(self.refused)
+
+    def connect_editor(self, editor: SceneEditor) -> None:
+        """Connect every row and the code directly with the editor of the scene."""
+        controls: list[CodeEntry | ParameterRow] = [self.code]
+        for panel in self.panels.values():
+            controls += panel.rows.values()
+        for control in controls:
+            control.edited.connect(editor.edit)
+            control.refused.connect(editor.input_refused)
 
     def _lay_out(self) -> None:
         layout = QVBoxLayout(self)
@@ -103,14 +103,14 @@ class ControlPanel(QWidget):
     def list_presets(
         self, presets: Sequence[tuple[str, str]], unreadable: Sequence[tuple[str, str]] = ()
     ) -> None:
-        """Offer these presets in place of the last ones.
+        """List these presets in place of the former ones.
 
         Parameters
         ----------
         presets
             Names and titles.
         unreadable
-            Names of those that cannot be loaded, and why: they are listed, and cannot be chosen.
+            Names of presets that cannot be loaded, with the reasons; they cannot be chosen.
         """
         self.preset.clear()
         for name, title in presets:
@@ -124,7 +124,7 @@ class ControlPanel(QWidget):
         self.preset.setCurrentIndex(-1)
 
     def _list(self, text: str, name: str | None, tip: str) -> int:
-        """Add an entry, and give its place."""
+        """Add an entry and return its index."""
         self.preset.addItem(text, name)
         place = self.preset.count() - 1
         tip = in_tool_tip(one_line(tip, LONGEST))
@@ -132,16 +132,16 @@ class ControlPanel(QWidget):
         return place
 
     def main_rows(self) -> dict[str, QuantityRow]:
-        """Give the rows of the main sliders, by the names of their parameters."""
+        """Return the rows of the first page, by the names of their parameters."""
         rows = {name: row for panel in self.panels.values() for name, row in panel.rows.items()}
         return {name: row for name in MAIN if isinstance(row := rows[name], QuantityRow)}
 
     def show_scene(self, scene: Scene) -> None:
-        """Show a scene's values without telling of them."""
+        """Show the values of a scene without emitting a signal."""
         self.code.show_scene(scene)
         for panel in self.panels.values():
             panel.show_scene(scene)
 
     def show_preset(self, name: str | None) -> None:
-        """Show which preset the scene is, none where it has been changed."""
+        """Show the name of the preset that the scene equals, or none."""
         self.preset.setCurrentIndex(-1 if name is None else self.preset.findData(name))

@@ -1,4 +1,4 @@
-"""Hold the brightness: the ISO speed moves against the exposure time."""
+"""Rule of held brightness: the ISO speed changes inversely to the exposure time."""
 
 from PySide6.QtCore import QObject, Signal
 
@@ -11,19 +11,19 @@ _EXPOSURE, _ISO = "exposure_time", "iso"
 
 
 class HoldBrightness(QObject):
-    """Changes parameters; while it is on, S t of equation (1) stays what it was.
+    """While it is on, the product S t of equation (1) stays constant as the exposure changes.
 
     Parameters
     ----------
     store
-        The scene.
+        The store of the scene.
     """
 
     switched = Signal(bool)
     """Whether the brightness is held from now on."""
 
     status_message = Signal(str)
-    """Why the brightness could not be held."""
+    """The reason why the brightness could not be held."""
 
     def __init__(self, store: SceneStore) -> None:
         super().__init__()
@@ -31,8 +31,9 @@ class HoldBrightness(QObject):
         self._on = False
         self._product = 0.0
         self._asked: tuple[float, float] | None = None
-        self._look(store.scene)
-        store.changed.connect(self._look)
+        self._limit = ""
+        self._note_product(store.scene)
+        store.changed.connect(self._note_product)
 
     @property
     def is_on(self) -> bool:
@@ -40,35 +41,39 @@ class HoldBrightness(QObject):
         return self._on
 
     def switch(self, on: bool) -> None:
-        """Hold the brightness that the scene has now, or let it go."""
+        """Hold the brightness of the scene as it is now, or stop holding it."""
         self._asked = None
-        self._look(self._store.scene)
+        self._note_product(self._store.scene)
         if on != self._on:
             self._on = on
             self.switched.emit(on)
 
-    def change(self, gesture: int, name: str, value: ParameterValue) -> None:
-        """Change a parameter, and the ISO speed with the exposure time."""
+    def changes(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
+        """Return the change of a parameter, together with that of the ISO speed if it follows."""
+        self._limit = ""
         time = value if isinstance(value, float) else 0.0
         if not self._on or name != _EXPOSURE or time <= 0.0:
-            self._store.change(gesture, **{name: value})
-            return
+            return {name: value}
         iso = quantity(_ISO)
         low, high = iso.slider
         wanted = self._product / time
         held = min(max(wanted, low), high)
         self._asked = (time, held)
-        self._store.change(gesture, **{_EXPOSURE: time, _ISO: held})
         if held != wanted:
-            self.status_message.emit(
-                self.tr(
-                    "The brightness cannot be held: it takes ISO {wanted}; the slider goes from "
-                    "{low} to {high}."
-                ).format(wanted=iso.format(wanted), low=iso.format(low), high=iso.format(high))
-            )
+            self._limit = self.tr(
+                "The brightness cannot be held: it takes ISO {wanted}; the slider goes from "
+                "{low} to {high}."
+            ).format(wanted=iso.format(wanted), low=iso.format(low), high=iso.format(high))
+        return {_EXPOSURE: time, _ISO: held}
 
-    def _look(self, scene: Scene) -> None:
-        """Take the brightness that others give; one at the slider's end is not what is wanted."""
+    def report_limit(self) -> None:
+        """Report, after the change, that the ISO speed has reached an end of its slider."""
+        if self._limit:
+            self.status_message.emit(self._limit)
+
+    def _note_product(self, scene: Scene) -> None:
+        # After a change of this rule's own, the ISO speed may be at the end of its slider: then
+        # its product is not the one to be held.
         camera = scene.camera
         if (camera.exposure_time, camera.iso) != self._asked:
             self._asked = None

@@ -1,8 +1,8 @@
-"""A form of parameter rows."""
+"""Parameter panel: a form of parameter rows with their labels."""
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from occ_gui.scene.parameter_rows import ParameterRow, explain, row_for
@@ -12,7 +12,7 @@ from occ_model.scene.scene import Scene
 
 
 class ParameterPanel(QWidget):
-    """Rows of controls for some of the parameters, made from their declarations.
+    """Rows of controls for some of the parameters, created from their declarations.
 
     Parameters
     ----------
@@ -22,12 +22,6 @@ class ParameterPanel(QWidget):
         The parent widget.
     """
 
-    edited = Signal(str, object, int)
-    """Name, value in SI units, and the number of the gesture that the change belongs to."""
-
-    refused = Signal(str)
-    """Why what was entered is not taken."""
-
     def __init__(self, names: Iterable[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.rows: dict[str, ParameterRow] = {}
@@ -35,8 +29,6 @@ class ParameterPanel(QWidget):
         layout.setSpacing(2)
         for name in names:
             row = row_for(PARAMETERS[name])
-            row.edited.connect(self.edited)
-            row.refused.connect(self.refused)
             self.rows[name] = row
             layout.addWidget(_label(PARAMETERS[name]))
             layout.addWidget(row)
@@ -44,9 +36,11 @@ class ParameterPanel(QWidget):
         layout.addStretch(1)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show a scene's values without telling of them."""
+        """Show a scene: each row whose value differs from the scene's shows the new one."""
         for name, row in self.rows.items():
-            row.show_value(scene.value(name))
+            value = scene.value(name)
+            if value != row.value:
+                row.show_value(value)
 
 
 def _label(declared: Parameter) -> QLabel:

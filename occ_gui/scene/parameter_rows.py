@@ -1,4 +1,4 @@
-"""The controls of one parameter, one class for every kind of declaration."""
+"""Parameter rows: the controls of one parameter, a class for each kind of declaration."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
@@ -35,7 +35,10 @@ class ParameterRow(QWidget):
     """Name, value in SI units, and the number of the gesture that the change belongs to."""
 
     refused = Signal(str)
-    """Why what was entered is not taken."""
+    """The reason why an input is not valid."""
+
+    value: ParameterValue | None = None
+    """The value that the controls show, or that the user has entered; None before the first."""
 
     def __init__(self, declaration: Declaration, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -43,11 +46,16 @@ class ParameterRow(QWidget):
         self._gestures = Gestures()
 
     def show_value(self, value: ParameterValue) -> None:
-        """Show a value without telling of it."""
+        """Show a value without emitting a signal."""
+        self.value = value
+        self._display(value)
+
+    def _display(self, value: ParameterValue) -> None:
         raise NotImplementedError
 
-    def _tell(self, value: ParameterValue, held: bool = False) -> None:
-        self.edited.emit(self.name, value, self._gestures.of_change(held))
+    def _enter(self, value: ParameterValue) -> None:
+        self.value = value
+        self.edited.emit(self.name, value, self._gestures.of_change())
 
 
 class QuantityRow(ParameterRow):
@@ -77,14 +85,13 @@ class QuantityRow(ParameterRow):
         self.field.refused.connect(self.refused)
         self.show_value(quantity.default)
 
-    def show_value(self, value: ParameterValue) -> None:
-        """Show a value without telling of it."""
+    def _display(self, value: ParameterValue) -> None:
         number = float(value)
         self.field.set_value(number)
         self._place_slider(number)
 
     def add_below(self, widget: QWidget) -> None:
-        """Put a widget under the slider, as wide as it."""
+        """Put a widget under the slider, as wide as the slider."""
         self._layout.addWidget(widget, 1, 0)
 
     def _place_slider(self, value: float) -> None:
@@ -93,13 +100,14 @@ class QuantityRow(ParameterRow):
         self.slider.blockSignals(False)
 
     def _slide(self, position: int) -> None:
-        value = self._quantity.at(position / _SLIDER_STEPS)
+        self.value = value = self._quantity.at(position / _SLIDER_STEPS)
         self.field.set_value(value)
-        self._tell(value, held=self.slider.isSliderDown())
+        gesture = self._gestures.of_change(held=self.slider.isSliderDown())
+        self.edited.emit(self.name, value, gesture)
 
     def _take(self, value: float) -> None:
         self._place_slider(value)
-        self._tell(value)
+        self._enter(value)
 
 
 class CountRow(ParameterRow):
@@ -114,17 +122,16 @@ class CountRow(ParameterRow):
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.lineEdit().textEdited.connect(self._gestures.end)
-        self.field.valueChanged.connect(self._tell)
+        self.field.valueChanged.connect(self._enter)
 
-    def show_value(self, value: ParameterValue) -> None:
-        """Show a value without telling of it."""
+    def _display(self, value: ParameterValue) -> None:
         self.field.blockSignals(True)
         self.field.setValue(int(value))
         self.field.blockSignals(False)
 
 
 class ChoiceRow(ParameterRow):
-    """A list of words."""
+    """A list of choices."""
 
     def __init__(self, declared: Choice, parent: QWidget | None = None) -> None:
         super().__init__(declared, parent)
@@ -132,15 +139,14 @@ class ChoiceRow(ParameterRow):
         self.field.addItems(declared.choices)
         keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
-        self.field.textActivated.connect(self._tell)
+        self.field.textActivated.connect(self._enter)
 
-    def show_value(self, value: ParameterValue) -> None:
-        """Show a value without telling of it."""
+    def _display(self, value: ParameterValue) -> None:
         self.field.setCurrentText(str(value))
 
 
 class PatternRow(ParameterRow):
-    """A line for chips."""
+    """A text field for a pattern of chips."""
 
     def __init__(self, declared: ChipPattern, parent: QWidget | None = None) -> None:
         super().__init__(declared, parent)
@@ -153,8 +159,7 @@ class PatternRow(ParameterRow):
         self.field.textEdited.connect(self._gestures.end)
         self.field.editingFinished.connect(self._read)
 
-    def show_value(self, value: ParameterValue) -> None:
-        """Show a value without telling of it."""
+    def _display(self, value: ParameterValue) -> None:
         self._shown = str(value)
         self.field.setText(self._shown)
 
@@ -170,11 +175,11 @@ class PatternRow(ParameterRow):
         unchanged = value == self._shown
         self.show_value(value)
         if not unchanged:
-            self._tell(value)
+            self._enter(value)
 
 
 def row_for(declared: Parameter) -> ParameterRow:
-    """Make the controls that suit a declaration."""
+    """Create the row for a declaration."""
     match declared:
         case Quantity():
             return QuantityRow(declared)

@@ -1,4 +1,4 @@
-"""The scene that the window shows: one frozen value, changed in one place, with undo."""
+"""Scene store: the current scene, an immutable value, with the steps to undo."""
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
@@ -10,23 +10,23 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
 _MOST_STEPS = 500
-"""Steps that can be undone: nobody goes back further, and each holds a scene."""
+"""Steps that can be undone; each of them keeps two scenes in memory."""
 
 
 class SceneStore(QObject):
-    """Holds the scene and tells when it changes.
+    """Stores the scene and emits a signal when it changes.
 
     Parameters
     ----------
     scene
-        The scene to begin with.
+        The first scene.
     """
 
     changed = Signal(object)
     """The new scene."""
 
     refused = Signal(str)
-    """Why a change was not made; the scene is as it was."""
+    """The reason why a change was not made; the scene is unchanged."""
 
     def __init__(self, scene: Scene) -> None:
         super().__init__()
@@ -36,11 +36,11 @@ class SceneStore(QObject):
 
     @property
     def scene(self) -> Scene:
-        """The scene as it is now."""
+        """The current scene."""
         return self._scene
 
     def change(self, gesture: int = NO_GESTURE, **changes: ParameterValue) -> None:
-        """Change parameters; what cannot be is refused with a sentence."""
+        """Change parameters; an invalid change is refused with a sentence."""
         try:
             scene = self._scene.replace(**changes)
         except OccError as error:
@@ -53,28 +53,32 @@ class SceneStore(QObject):
         """Replace the whole scene; ``title`` names the step in the undo menu."""
         if scene == self._scene:
             return
-        last = self._last_step()
+        last, new = self._last_step(), None
         if last is None or gesture == NO_GESTURE or gesture != last.gesture:
-            self.undo_stack.push(_Step(self, self._scene, scene, title, gesture))
-            return
-        # Not by a second step that Qt merges with the first: PySide keeps what was merged for ever.
-        last.after = scene
-        if last.after == last.before:
-            last.setObsolete(True)  # a gesture that ends where it began is no step
-            self.undo_stack.undo()  # which takes an obsolete step away, and does nothing else
-        self._show(scene)
+            new = _Step(self, self._scene, scene, title, gesture)
+        else:
+            # Not by QUndoCommand.mergeWith: PySide never frees a command that was merged.
+            last.after = scene
+            if last.after == last.before:
+                last.setObsolete(True)  # a gesture that ends where it began is no step
+                self.undo_stack.undo()  # only removes the obsolete step
+        self._scene = scene
+        self.changed.emit(scene)
+        if new is not None:
+            self.undo_stack.push(new)
 
     def _last_step(self) -> "_Step | None":
-        """Give the step that led here, None where it was saved, or there is none."""
+        """Return the step that led to the current scene, None at a saved state or if none did."""
         index = self.undo_stack.index()
         if index == 0 or index != self.undo_stack.count() or self.undo_stack.isClean():
             return None
         step = self.undo_stack.command(index - 1)
         return step if isinstance(step, _Step) else None
 
-    def _show(self, scene: Scene) -> None:
-        self._scene = scene
-        self.changed.emit(scene)
+    def _restore(self, scene: Scene) -> None:
+        if scene != self._scene:  # equal where a step that was made already is pushed
+            self._scene = scene
+            self.changed.emit(scene)
 
 
 class _Step(QUndoCommand):
@@ -83,13 +87,13 @@ class _Step(QUndoCommand):
     def __init__(
         self, store: SceneStore, before: Scene, after: Scene, title: str, gesture: int
     ) -> None:
-        super().__init__(one_line(title).replace("&", "&&"))  # for the menu, which marks keys by it
+        super().__init__(one_line(title).replace("&", "&&"))  # in a menu, & marks a shortcut
         self._store = store
         self.before, self.after = before, after
         self.gesture = gesture
 
     def redo(self) -> None:
-        self._store._show(self.after)
+        self._store._restore(self.after)
 
     def undo(self) -> None:
-        self._store._show(self.before)
+        self._store._restore(self.before)

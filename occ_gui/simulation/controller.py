@@ -1,27 +1,26 @@
-"""Simulate the store's scene whenever it or the settings change, and hand the results over."""
+"""Simulation controller: simulates and decodes the scene in the background after every change."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter, sleep
 from typing import Protocol
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 
 import occ_model as occ
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.request import SimulationRequest
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.transmitter.packet import bits_of
 
-_TURN = 0.004
-"""Seconds that the window has to paint a picture in before it is read."""
+_PAINT_TIME = 0.004
+"""Seconds between the delivery of a picture and its decoding, for the window to paint it."""
 
 
 class SnapshotView(Protocol):
@@ -31,42 +30,33 @@ class SnapshotView(Protocol):
         """Show these results in place of the last ones."""
 
 
-class PictureView(Protocol):
-    """A pane that shows a picture before it has been read."""
-
-    def show_picture(self, picture: Picture) -> None:
-        """Show this picture in place of the last one."""
-
-
-def simulate(
-    scene: Scene,
-    settings: SimulationSettings = FIRST_SETTINGS,
-    hand_over: Callable[[Frame], object] = lambda _frame: None,
-) -> Snapshot:
-    """Make everything that the views show of a scene.
+def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
+    """Simulate a scene and decode its picture.
 
     Parameters
     ----------
     scene
         The scene.
     settings
-        How it is simulated.
-    hand_over
-        Is given the picture before it is read, which takes longer than to simulate it.
+        The settings of its simulation.
 
     Raises
     ------
     ParameterError
-        A setting cannot be.
+        A setting is invalid.
     ProjectionError
         The panel has no picture in this pose.
     """
-    frame = occ.render(scene, **settings.arguments())
-    hand_over(frame)
+    return _snapshot_of(occ.render(scene, **settings.arguments()))
+
+
+def _snapshot_of(frame: Frame) -> Snapshot:
+    """Decode a picture and compute the other results that the panes show."""
+    scene = frame.scene
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)
     reading_seconds = perf_counter() - start
-    others = tuple(_read_alike(decoded, scene))
+    others = tuple(_decode_with_others(decoded, scene))
     band, undefined = None, ""
     try:
         band = occ.band_profile(scene)
@@ -89,12 +79,12 @@ def simulate(
     )
 
 
-def _read_alike(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
-    """Let the other decoders read the signal that one has taken from the picture."""
+def _decode_with_others(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
+    """Decode the signal that one decoder has located in the picture with the other decoders."""
     for name, decoder in DECODERS.items():
         if name == decoded.decoder:
             continue
-        if decoded.signal is None:  # no panel found: the same for all
+        if decoded.signal is None:  # no panel found, which holds for all decoders
             yield DecodeResult(name, failure=decoded.failure)
         else:
             result = decoder.read(decoded.signal, scene)
@@ -102,71 +92,63 @@ def _read_alike(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
 
 
 class SimulationController(QObject):
-    """Connects the stores, the simulation's thread and the views.
+    """Connects the stores, the thread of the simulation and the panes.
 
     Parameters
     ----------
     scenes
-        Its scene is simulated, at once and after every change.
+        The store of the scene, which is simulated at once and after every change.
     settings
-        How it is simulated.
+        The store of the settings of the simulation.
     """
 
-    shown = Signal(object)
-    """The snapshot that the views have just been given."""
+    picture_ready = Signal(object)
+    """The Picture of a scene, before it is decoded; emitted once the event loop runs."""
+
+    snapshot_shown = Signal(object)
+    """The Snapshot that the panes show from now on."""
 
     failed = Signal(str)
-    """Why the scene has no picture; the views keep the last one."""
+    """The reason why a scene has no picture; the panes keep the last one."""
+
+    _rendered = Signal(object)
 
     def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
         super().__init__()
         self._scenes = scenes
         self._settings = settings
         self._views: Sequence[SnapshotView] = ()
-        self._pictures: Sequence[PictureView] = ()
+        # Emitted on the simulation's thread, received on the window's.
+        self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
         )
-        self.runner.early.connect(self._show_picture)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         for store in (scenes, settings):
             store.changed.connect(self._submit)
         self._submit()
 
-    def show_in(self, views: Sequence[SnapshotView], pictures: Sequence[PictureView] = ()) -> None:
-        """Show in these panes what comes from now on: nothing does before the event loop runs.
-
-        Parameters
-        ----------
-        views
-            The panes that show the results.
-        pictures
-            Those that show the picture while it is still being read.
-        """
-        self._views, self._pictures = views, pictures
+    def show_in(self, views: Sequence[SnapshotView]) -> None:
+        """Set the panes that show the results; none arrives before the event loop runs."""
+        self._views = views
 
     def _submit(self) -> None:
         self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
-        return simulate(request.scene, request.settings, self._hand_over)
-
-    def _hand_over(self, frame: Frame) -> None:
-        self.runner.hand_over(Picture.of(frame))
-        # The window paints it meanwhile. Reading at once would make it wait: for the interpreter,
-        # and for the memory that both read the picture from.
-        sleep(_TURN)
-
-    def _show_picture(self, picture: Picture) -> None:
-        for view in self._pictures:
-            view.show_picture(picture)
+        frame = occ.render(request.scene, **request.settings.arguments())
+        self._rendered.emit(Picture.of(frame))
+        # Decoding at once would delay the painting, which needs the same interpreter and memory.
+        sleep(_PAINT_TIME)
+        return _snapshot_of(frame)
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:
             view.show_snapshot(snapshot)
-        self.shown.emit(snapshot)
+        self.snapshot_shown.emit(snapshot)
 
     def stop(self) -> None:
-        """Stop simulating."""
+        """Stop simulating; no picture or snapshot arrives from now on."""
         self.runner.stop()
+        self.blockSignals(True)

@@ -1,4 +1,4 @@
-"""A simulated picture, with smaller ones of it that are quick to draw."""
+"""Preview: a simulated picture before it is decoded, with smaller copies for fast drawing."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -10,19 +10,19 @@ from occ_model.arrays import ByteArray
 from occ_model.results import Frame
 
 _SMALLEST = 256
-"""Pixels a side below which a picture is drawn quickly as it is."""
+"""Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
-    """A simulated picture before it has been read.
+    """A simulated picture that has not been decoded yet.
 
     Parameters
     ----------
     frame
         The picture.
     halves : tuple of ndarray of uint8
-        The picture at a half of its size, a quarter and so on: each pixel the mean of four.
+        The picture at a half of its size, at a quarter and so on; each pixel is the mean of four.
     """
 
     frame: Frame
@@ -30,7 +30,7 @@ class Picture:
 
     @classmethod
     def of(cls, frame: Frame) -> Self:
-        """Make the smaller ones, off the window's thread."""
+        """Compute the smaller copies; to be called on a background thread."""
         halves = []
         pixels = frame.image
         while min(pixels.shape) >= 2 * _SMALLEST:
@@ -42,7 +42,7 @@ class Picture:
 def halved(pixels: ByteArray) -> ByteArray:
     """Average squares of four pixels; an odd row or column at the edge is left out.
 
-    It is what OpenCV averages many times faster than any other ratio.
+    For this ratio OpenCV is many times faster than for any other.
     """
     half = (pixels.shape[1] // 2, pixels.shape[0] // 2)
     even = pixels[: 2 * half[1], : 2 * half[0]]

@@ -1,27 +1,45 @@
-"""What one simulation gives the views to show."""
+"""Snapshot: the results of one simulation, and the request for it."""
 
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult, Frame
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationRequest:
+    """A scene to be simulated.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        The settings of its simulation.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Snapshot:
-    """The results for one scene.
+    """The results for one scene, as the panes show them.
 
     Parameters
     ----------
     frame
         The simulated picture.
     decoded
-        What the paper's decoder made of it.
+        The result of the paper's decoder.
     others
-        What the other decoders made of the same signal.
+        The results of the other decoders for the same signal.
     sent
-        The bits sent, the first sent first; empty where a raw pattern is sent.
+        The transmitted bits in order of time; empty where a raw pattern is transmitted.
     packet_columns
-        Columns that one period of what is sent spans in the picture.
+        Columns that one period of the transmitted signal spans in the picture.
     panel_origin
         Column and row of the panel's upper left corner in the picture, or of the picture's where
         the panel reaches beyond it.
@@ -30,7 +48,7 @@ class Snapshot:
     band_undefined
         A sentence, empty where there is a profile.
     reading_seconds
-        Time that the paper's decoder took.
+        Computing time of the paper's decoder.
     """
 
     frame: Frame
@@ -45,5 +63,5 @@ class Snapshot:
 
     @property
     def simulation_seconds(self) -> float:
-        """Time that the simulation of the picture took."""
+        """Computing time of the picture."""
         return sum(self.frame.timings.values())

@@ -13,7 +13,7 @@ def main() -> None:
     """End once the picture pane has painted a frame; what it says is read a little later."""
     qt, application = start(occ.load_preset("phone-68us"), sys.argv[:1])
     pictures: list[object] = []
-    application.simulation.runner.early.connect(pictures.append)
+    application.simulation.picture_ready.connect(pictures.append)
     application.window.show()
     while not pictures:
         qt.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)

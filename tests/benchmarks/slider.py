@@ -30,7 +30,7 @@ class _Painted(QObject):
         super().__init__()
         self.shown = False
         # The picture comes first, what was read from it a little later.
-        application.simulation.runner.early.connect(self._note)
+        application.simulation.picture_ready.connect(self._note)
 
     def _note(self) -> None:
         self.shown = True

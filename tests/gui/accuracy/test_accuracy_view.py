@@ -82,7 +82,7 @@ def test_a_switch_forces_its_effect_and_the_picture_changes(
     qtbot: QtBot, in_front: Application, user: User
 ) -> None:
     pictures: list[Any] = []
-    in_front.simulation.shown.connect(lambda shown: pictures.append(shown.frame.image))
+    in_front.simulation.snapshot_shown.connect(lambda shown: pictures.append(shown.frame.image))
     for _ in range(2):  # auto, on, off
         choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Down)
         user.wait_until_idle()

@@ -13,7 +13,7 @@ from occ_gui.accuracy.controller import AccuracyController, measure
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.request import SimulationRequest
+from occ_gui.simulation.snapshot import SimulationRequest
 from occ_model.results import AccuracyPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

@@ -150,7 +150,9 @@ def test_closing_while_a_simulation_runs_lets_nothing_arrive_in_the_closed_windo
     application: Application,
 ) -> None:
     arrived: list[int] = []
-    application.simulation.shown.connect(lambda shown: arrived.append(shown.frame.image.size))
+    application.simulation.snapshot_shown.connect(
+        lambda shown: arrived.append(shown.frame.image.size)
+    )
     application.store.change(rows=4608)
     application.window.close()
     QApplication.processEvents()

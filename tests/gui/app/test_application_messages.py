@@ -25,7 +25,7 @@ def test_a_bad_value_is_answered_by_a_sentence_and_the_picture_stays(
     application: Application, user: User, small_scene: Scene, name: str, text: str, shown: float
 ) -> None:
     results: list[object] = []
-    application.simulation.shown.connect(results.append)
+    application.simulation.snapshot_shown.connect(results.append)
     user.enter(name, text)
     assert "allowed" in user.message
     assert name == "bits" or name not in user.message  # but the label, which the user sees

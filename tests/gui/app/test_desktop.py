@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.gesture import new_gesture
-from occ_gui.scene.hold_brightness import HoldBrightness
+from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plot import Plot
 from occ_gui.window.command_palette import Command, CommandPalette, commands_of, shortcuts_of
@@ -173,13 +173,13 @@ def test_the_status_line_tells_column_row_and_level_under_the_mouse(
 
 
 @pytest.fixture
-def held(qtbot: QtBot) -> tuple[SceneStore, HoldBrightness, list[str]]:
+def held(qtbot: QtBot) -> tuple[SceneStore, SceneEditor, list[str]]:
     store = SceneStore(Scene().replace(exposure_time=100e-6, iso=200.0))
+    editor = SceneEditor(store)
     messages: list[str] = []
-    held = HoldBrightness(store)
-    held.status_message.connect(messages.append)
-    held.switch(True)
-    return store, held, messages
+    editor.brightness.status_message.connect(messages.append)
+    editor.brightness.switch(True)
+    return store, editor, messages
 
 
 def product(store: SceneStore) -> float:
@@ -187,11 +187,11 @@ def product(store: SceneStore) -> float:
 
 
 def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> None:
-    store, holder, messages = held
+    store, editor, messages = held
     before, light = store.scene, product(store)
     gesture = new_gesture()
     for time in (90e-6, 50e-6, 60e-6):
-        holder.change(gesture, "exposure_time", time)
+        editor.edit("exposure_time", time, gesture)
         assert product(store) == pytest.approx(light, rel=1e-12)
     assert store.undo_stack.count() == 1
     store.undo_stack.undo()
@@ -200,22 +200,22 @@ def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> No
 
 
 def test_at_the_sliders_end_iso_stops_with_a_sentence_and_comes_back(held: Any) -> None:
-    store, holder, messages = held
+    store, editor, messages = held
     light = product(store)
-    holder.change(new_gesture(), "exposure_time", 1e-9)
+    editor.edit("exposure_time", 1e-9, new_gesture())
     assert "cannot be held" in messages[-1]
     assert product(store) < light
-    holder.change(new_gesture(), "exposure_time", 100e-6)
+    editor.edit("exposure_time", 100e-6, new_gesture())
     assert product(store) == pytest.approx(light, rel=1e-12)
 
 
 def test_brightness_that_is_chosen_otherwise_is_the_one_that_is_held(held: Any) -> None:
-    store, holder, _ = held
-    holder.change(new_gesture(), "iso", 400.0)
-    holder.change(new_gesture(), "exposure_time", 50e-6)
+    store, editor, _ = held
+    editor.edit("iso", 400.0, new_gesture())
+    editor.edit("exposure_time", 50e-6, new_gesture())
     assert store.scene.camera.iso == pytest.approx(800.0)
-    holder.switch(False)
-    holder.change(new_gesture(), "exposure_time", 100e-6)
+    editor.brightness.switch(False)
+    editor.edit("exposure_time", 100e-6, new_gesture())
     assert store.scene.camera.iso == pytest.approx(800.0)
 
 

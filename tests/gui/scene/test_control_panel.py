@@ -9,6 +9,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.scene.control_panel import MAIN, ControlPanel
 from occ_gui.scene.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
+from occ_gui.scene.scene_editor import SceneEditor
+from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
@@ -67,7 +69,8 @@ def test_every_row_names_its_parameter_and_tells_the_allowed_range(panel: Contro
 
 def test_all_pages_show_the_scene_and_tell_nothing(panel: ControlPanel) -> None:
     told: list[object] = []
-    panel.edited.connect(lambda *edit: told.append(edit))
+    for row in (panel.code, *(row for page in panel.panels.values() for row in page.rows.values())):
+        row.edited.connect(lambda *edit: told.append(edit))
     scene = Scene().replace(
         code=5, bits=4, pattern="01", distance=0.7, gamma=1.8, averaging="light", rows=77
     )
@@ -86,10 +89,14 @@ def test_all_pages_show_the_scene_and_tell_nothing(panel: ControlPanel) -> None:
     assert told == []
 
 
-def test_edits_and_refusals_of_every_part_are_passed_on(panel: ControlPanel) -> None:
+def test_edits_and_refusals_of_every_part_are_passed_on(
+    panel: ControlPanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
     told: list[object] = []
-    panel.edited.connect(lambda *edit: told.append(edit[0]))
-    panel.refused.connect(told.append)
+    editor = SceneEditor(SceneStore(Scene()))
+    monkeypatch.setattr(SceneStore, "change", lambda _store, _gesture, **edit: told.extend(edit))
+    panel.connect_editor(editor)
+    editor.input_refused.connect(told.append)
     for page in panel.panels.values():
         for name, row in page.rows.items():
             row.edited.emit(name, 1, 1)

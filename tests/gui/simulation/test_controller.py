@@ -99,8 +99,8 @@ def test_all_views_are_shown_the_same_results_and_then_it_is_told(
     bench: Bench, qtbot: QtBot
 ) -> None:
     counts: list[int] = []
-    bench.controller.shown.connect(lambda _: counts.append(len(bench.views[1].shown)))
-    with qtbot.waitSignal(bench.controller.shown) as shown:
+    bench.controller.snapshot_shown.connect(lambda _: counts.append(len(bench.views[1].shown)))
+    with qtbot.waitSignal(bench.controller.snapshot_shown) as shown:
         bench.store.change(iso=200.0)
     assert [shown.args[0]] == [bench.views[0].shown[-1]] == [bench.views[1].shown[-1]]
     assert counts == [2]
@@ -208,7 +208,10 @@ def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
 def test_stopping_while_a_simulation_runs_returns_and_nothing_arrives_any_more(
     bench: Bench,
 ) -> None:
+    pictures: list[object] = []
+    bench.controller.picture_ready.connect(pictures.append)
     bench.store.change(iso=200.0)
     bench.controller.stop()
     QApplication.processEvents()
+    assert pictures == []
     assert len(bench.scenes) == 1

@@ -1,30 +1,75 @@
-"""Functions that tests let other processes call."""
+"""Functions that tests let other processes call, and workers that need no processes."""
 
 import os
 import time
-from typing import Any
+from concurrent.futures import BrokenExecutor, CancelledError, Future
+from typing import Any, NoReturn
 
-from occ_gui.background.parcel import Pulse
+from occ_model.parallel.job import Heartbeat, Job, JobResult, do_job
 
 
-def echo(value: Any, pulse: Pulse) -> Any:
+def echo(value: Any, heartbeat: Heartbeat) -> Any:
     """Give it back."""
     return value
 
 
-def fail(value: Any, pulse: Pulse) -> Any:
+def fail(value: Any, heartbeat: Heartbeat) -> NoReturn:
     """Make a mistake."""
     raise ValueError(f"no {value}")
 
 
-def process_id(pulse: Pulse) -> int:
+def process_id(heartbeat: Heartbeat) -> int:
     """Say which process it is, after a while."""
     time.sleep(0.05)
     return os.getpid()
 
 
-def count_for_ever(pulse: Pulse) -> None:
-    """Pulse until that ends it."""
+def count_for_ever(heartbeat: Heartbeat) -> NoReturn:
+    """Work until a heartbeat ends it."""
     while True:
-        pulse()
+        heartbeat()
         time.sleep(0.001)
+
+
+class HeldWorker:
+    """One worker that does a job when it is let, and that can die."""
+
+    count = 1
+    lost_by: tuple[type[Exception], ...] = (BrokenExecutor, CancelledError)
+
+    def __init__(self) -> None:
+        self.held: list[tuple[Job, Future[JobResult]]] = []
+        self.sent: list[Any] = []
+        """The first arguments of all jobs, in the order in which they were sent."""
+        self.abandoned: list[tuple[int, int]] = []
+        self.renewed = self.closed = 0
+
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        future: Future[JobResult] = Future()
+        self.held.append((job, future))
+        self.sent.append(job.arguments[0])
+        return future
+
+    def finish(self, number: int = 1) -> None:
+        """Do the first jobs that are held."""
+        for _ in range(number):
+            job, future = self.held.pop(0)
+            future.set_result(do_job(job, lambda: None))
+
+    def die(self) -> None:
+        """Lose all jobs that are held."""
+        held, self.held = self.held, []
+        for _, future in held:
+            future.set_exception(BrokenExecutor("It was killed."))
+
+    def abandon(self, channel: int, run: int) -> None:
+        self.abandoned.append((channel, run))
+
+    def counted(self, counter: int) -> int:
+        return 0
+
+    def renew(self) -> None:
+        self.renewed += 1
+
+    def close(self) -> None:
+        self.closed += 1

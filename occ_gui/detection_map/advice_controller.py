@@ -6,12 +6,12 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer
 
-from occ_gui.background.crew import Crew, Lane
-from occ_gui.background.parcel import Parcel, Stage
+from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.detection_map.worker import advise, rate_settings
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_model.parallel.job import Job, Stage
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice
 from occ_model.scene.scene import Scene
@@ -29,7 +29,7 @@ _USUAL = 95
 _LOOK_MS = 100
 
 _RANK = -1
-"""Somebody waits for it: it goes before all that is measured unasked."""
+"""Below all others: somebody waits for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +51,12 @@ class AdviceRequest:
     with_image_effects: bool
 
     def stages(self) -> Iterator[Stage]:
-        """Give one parcel a decoder."""
-        parcels = []
-        for slot, decoder in enumerate(DECODERS):
+        """Give one job for each decoder."""
+        jobs = []
+        for counter, decoder in enumerate(DECODERS, 1):
             settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
-            parcels.append(Parcel(advise, (self.scene, settings, decoder, RATE), slot + 1))
-        yield Stage(_RANK, tuple(parcels))
+            jobs.append(Job(advise, (self.scene, settings, decoder, RATE), counter))
+        yield Stage(_RANK, tuple(jobs))
 
 
 class AdvicePane(Protocol):
@@ -85,7 +85,7 @@ class AdvisorController(QObject):
     ----------
     scenes, settings
         What is searched.
-    crew, lane
+    queue, channel
         Do the work.
     pane
         Shows what is found.
@@ -95,28 +95,28 @@ class AdvisorController(QObject):
         self,
         scenes: SceneStore,
         settings: SettingsStore,
-        crew: Crew,
-        lane: Lane,
+        queue: WorkQueue,
+        channel: JobChannel,
         pane: AdvicePane,
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
-        self._crew, self._lane, self._pane = crew, lane, pane
+        self._queue, self._channel, self._pane = queue, channel, pane
         self._with_image_effects = False
         self._counted = 0
         self._look = QTimer(self)
         self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._tell_progress)
-        lane.came.connect(self._take)
-        lane.finished.connect(lambda _request: self._end(""))
-        lane.failed.connect(self._end)
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(lambda _request: self._end(""))
+        channel.failed.connect(self._end)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
 
     @property
     def is_idle(self) -> bool:
         """Whether nothing is being searched."""
-        return self._lane.is_idle
+        return self._channel.is_idle
 
     def use_image_effects(self, wanted: bool) -> None:
         """Make whole images where the scene calls for them, or leave out what needs them."""
@@ -129,13 +129,13 @@ class AdvisorController(QObject):
         )
         self._counted = self._count()
         self._pane.show_advice_begun()
-        self._lane.put(request, request.stages)
+        self._channel.put(request, request.stages)
         self._look.start()
 
     def cancel(self) -> None:
         """Search no more."""
-        if not self._lane.is_idle:
-            self._lane.cancel()
+        if not self._channel.is_idle:
+            self._channel.cancel()
             self._end(self.tr("Cancelled."))
 
     def take_there(self, name: str, value: float) -> None:
@@ -143,7 +143,7 @@ class AdvisorController(QObject):
         self._scenes.change(NO_GESTURE, **{name: value})
 
     def _count(self) -> int:
-        return sum(self._crew.counted(slot + 1) for slot in range(len(DECODERS)))
+        return sum(self._queue.counted(counter) for counter, _ in enumerate(DECODERS, 1))
 
     def _tell_progress(self) -> None:
         share = (self._count() - self._counted) / (_USUAL * IMAGES * len(DECODERS))
@@ -154,10 +154,10 @@ class AdvisorController(QObject):
             self._pane.show_advice(advice)
 
     def _move_on(self) -> None:
-        if self._lane.is_idle:
+        if self._channel.is_idle:
             self._pane.show_advice_outdated()
         else:
-            self._lane.cancel()
+            self._channel.cancel()
             self._end(self.tr("The scene has changed; ask again."))
 
     def _end(self, sentence: str) -> None:

@@ -7,15 +7,15 @@ from typing import Any, Protocol
 
 from PySide6.QtCore import QObject
 
-from occ_gui.background.crew import Lane
-from occ_gui.background.parcel import Stage
+from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
-from occ_gui.detection_map.worker import Points, leaves_out
+from occ_gui.detection_map.worker import leaves_out
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
+from occ_model.parallel.job import Stage
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -23,6 +23,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.sweep.counts import rate_intervals
+from occ_model.study.sweep.points import MeasuredPoints
 
 FIRST_AXES = ("switching_frequency", "distance")
 
@@ -100,35 +101,35 @@ class DetectionMapController(QObject):
     ----------
     scenes, settings
         What is measured, and what a click changes.
-    lane
+    channel
         Does the work.
     pane
         Shows the map; nothing is measured until it is said to be seen.
     """
 
     def __init__(
-        self, scenes: SceneStore, settings: SettingsStore, lane: Lane, pane: MapPane
+        self, scenes: SceneStore, settings: SettingsStore, channel: JobChannel, pane: MapPane
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
-        self._lane, self._pane = lane, pane
+        self._channel, self._pane = channel, pane
         self._axes = FIRST_AXES
         self._with_image_effects = False
         self._seen = False
         self._asked: MapRequest | None = None
         self._shown: MapRequest | None = None
         self.map: RateMap | None = None
-        lane.came.connect(self._take)
-        lane.finished.connect(self._finish)
-        lane.failed.connect(self._fail)
-        lane.said.connect(pane.show_failure)
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(self._finish)
+        channel.failed.connect(self._fail)
+        channel.status_message.connect(pane.show_failure)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
 
     @property
     def is_idle(self) -> bool:
         """Whether all that was asked for is shown."""
-        return self._lane.is_idle
+        return self._channel.is_idle
 
     @property
     def is_current(self) -> bool:
@@ -188,7 +189,7 @@ class DetectionMapController(QObject):
         held = self.map if request == self._shown else None
         known = self._empty(request) if held is None else held
         stages = partial(request.stages, known.images.copy(), known.theory is None)
-        self._lane.put(request, stages)
+        self._channel.put(request, stages)
 
     def _empty(self, request: MapRequest) -> RateMap:
         x, y = request.x, request.y
@@ -203,7 +204,7 @@ class DetectionMapController(QObject):
                 effects = ()
         self._pane.show_left_out(effects)
 
-    def _take(self, request: MapRequest, results: list[Points | TheoryFields]) -> None:
+    def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
         if request != self._shown or self.map is None:
             self.map, self._shown = self._empty(request), request
         for result in results:
@@ -227,7 +228,7 @@ class DetectionMapController(QObject):
         self._pane.show_failure(sentence)
 
     def _stop(self) -> None:
-        self._lane.cancel()
+        self._channel.cancel()
         self._asked = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:

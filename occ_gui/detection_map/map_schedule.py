@@ -5,13 +5,14 @@ from itertools import groupby, islice
 
 import numpy as np
 
-from occ_gui.background.parcel import Parcel, Stage
 from occ_gui.detection_map.rate_map import STRIDES, lattice
-from occ_gui.detection_map.worker import measure_points, rate_settings, theory_fields
+from occ_gui.detection_map.worker import rate_settings, theory_fields
 from occ_model.arrays import IndexArray
+from occ_model.parallel.job import Job, Stage
 from occ_model.results import SweepRequest
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.sweep.points import measure_points
 
 SHAPE = (25, 13)
 """Points along both axes: of two processes the first stage takes some 40 ms, all of them under a
@@ -82,21 +83,21 @@ def map_stages(
         on = _on_lattice(first.shape, stride)
         new = [i for i in order if on[i] and done[i] < first.settings.images]
         done = np.where(on, np.maximum(done, first.settings.images), done)
-        parcels = _parcels(first, new, whole_images)
+        jobs = _jobs(first, new, whole_images)
         coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
-            # Last, so that it fills the gap that one process leaves at the end.
-            parcels = (*parcels, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
+            # Last, so that it occupies a process that has no more points to measure.
+            jobs = (*jobs, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
         # A whole image takes too long to be waited for.
-        yield Stage(COARSE if coarse else FINE, parcels, stays=coarse and not whole_images)
+        yield Stage(COARSE if coarse else FINE, jobs, uninterruptible=coarse and not whole_images)
     for request in others:
         new = [i for i in order if done[i] < request.settings.images]
-        yield Stage(SURE, _parcels(request, new, whole_images))
+        yield Stage(SURE, _jobs(request, new, whole_images))
 
 
-def _theory(request: SweepRequest, shape: tuple[int, int]) -> Parcel:
+def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:
     x, y = request.axes
-    return Parcel(theory_fields, (request.scene, x, y, shape))
+    return Job(theory_fields, (request.scene, x, y, shape))
 
 
 def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
@@ -105,17 +106,17 @@ def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
     return np.asarray(np.logical_and.outer(*along).ravel())
 
 
-def _parcels(request: SweepRequest, indices: list[int], whole_images: bool) -> tuple[Parcel, ...]:
-    """Make a parcel of each line of points: along it decoders need not prepare themselves anew."""
+def _jobs(request: SweepRequest, indices: list[int], whole_images: bool) -> tuple[Job, ...]:
+    """Make a job of each line of points: along it decoders keep what they have prepared."""
     if whole_images:
-        return tuple(_parcel(request, (index,)) for index in indices)
+        return tuple(_job(request, (index,)) for index in indices)
     along_y = request.shape[1]
     first, second = islice(request.in_order_of_work(), 2)
     by_x = first // along_y == second // along_y
     lines = groupby(indices, lambda i: i // along_y if by_x else i % along_y)
-    return tuple(_parcel(request, line) for _, line in lines)
+    return tuple(_job(request, line) for _, line in lines)
 
 
-def _parcel(request: SweepRequest, indices: Iterable[int]) -> Parcel:
+def _job(request: SweepRequest, indices: Iterable[int]) -> Job:
     points = tuple((index, request.values(index)) for index in indices)
-    return Parcel(measure_points, (request.scene, request.settings, points))
+    return Job(measure_points, (request.scene, request.settings, points))

@@ -7,13 +7,13 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject
 
-from occ_gui.background.crew import Lane
-from occ_gui.background.parcel import Parcel, Stage
+from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_controller import UNSEEN
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.worker import Along, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_model.parallel.job import Job, Stage
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -75,19 +75,19 @@ def strip_stages(missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"]) -
     for stride, rank in zip(STRIDES, RANKS, strict=True):
         now = set(range(0, POSITIONS, stride)) - done
         done |= now
-        parcels = tuple(
-            _parcel(request, name, sorted(now & places))
+        jobs = tuple(
+            _job(request, name, sorted(now & places))
             for name, (request, places) in missing.items()
             if now & places
         )
-        yield Stage(rank, parcels, stays=stride == STRIDES[0])
+        yield Stage(rank, jobs, uninterruptible=stride == STRIDES[0])
 
 
-def _parcel(request: SliderStripRequest, name: str, places: list[int]) -> Parcel:
+def _job(request: SliderStripRequest, name: str, places: list[int]) -> Job:
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), False)
     values = lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
-    return Parcel(measure_along, (request.scene, settings, name, points))
+    return Job(measure_along, (request.scene, settings, name, points))
 
 
 class SliderStripController(QObject):
@@ -99,7 +99,7 @@ class SliderStripController(QObject):
     ----------
     scenes, settings
         What is measured.
-    lane
+    channel
         Does the work.
     pane
         Shows the strips; nothing is measured until they are said to be seen.
@@ -111,26 +111,26 @@ class SliderStripController(QObject):
         self,
         scenes: SceneStore,
         settings: SettingsStore,
-        lane: Lane,
+        channel: JobChannel,
         pane: SliderStripPane,
         names: Iterable[str],
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
-        self._lane, self._pane = lane, pane
+        self._channel, self._pane = channel, pane
         self._names = tuple(names)
         self._decoder = PAPER_DECODER
         self._seen = False
         self._asked: SliderStripRequest | None = None
         self._known: dict[str, tuple[SliderStripRequest, dict[int, float | None]]] = {}
-        lane.came.connect(self._take)
+        channel.results_ready.connect(self._take)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
 
     @property
     def is_idle(self) -> bool:
         """Whether all that was asked for is shown."""
-        return self._lane.is_idle
+        return self._channel.is_idle
 
     def set_seen(self, seen: bool) -> None:
         """Say whether anybody can see the strips."""
@@ -138,7 +138,7 @@ class SliderStripController(QObject):
         if seen:
             self._move_on()
         else:
-            self._lane.cancel()
+            self._channel.cancel()
             self._asked = None
 
     def choose_decoder(self, decoder: str) -> None:
@@ -159,7 +159,7 @@ class SliderStripController(QObject):
             known = self._known.get(name)
             there = set(known[1]) if known is not None and known[0] == along else set()
             missing[name] = (along, set(range(POSITIONS)) - there)
-        self._lane.put(request, partial(strip_stages, missing))
+        self._channel.put(request, partial(strip_stages, missing))
 
     def _take(self, request: SliderStripRequest, results: list[Along]) -> None:
         for result in results:

@@ -2,8 +2,7 @@
 
 from PySide6.QtCore import QObject, QTimer
 
-from occ_gui.background.crew import Crew
-from occ_gui.background.parcel import Workers
+from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map.advice_controller import AdvisorController
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
@@ -12,8 +11,12 @@ from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.worker import PRELOAD
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_model.parallel.job import Workers
 
 PROCESSES = 2
+
+NICENESS = 10
+"""How far the processes yield to the window."""
 
 START_MS = 400
 """How long the strips wait at first: the window and its first picture come before them."""
@@ -22,9 +25,9 @@ START_MS = 400
 def new_workers() -> Workers:
     """Make the processes that work beside the window."""
     # Only who needs processes pays for importing what starts them.
-    from occ_gui.background.worker_processes import WorkerProcesses
+    from occ_model.parallel.process_pool import ProcessPool
 
-    return WorkerProcesses(PROCESSES, PRELOAD)
+    return ProcessPool(PROCESSES, PRELOAD, NICENESS)
 
 
 class DetectionMapWiring(QObject):
@@ -45,13 +48,13 @@ class DetectionMapWiring(QObject):
     ) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
-        self.crew = Crew(3, lambda: new_workers())
-        for_map, for_strips, for_advice = self.crew.lanes
+        self.queue = WorkQueue(3, lambda: new_workers())
+        for_map, for_strips, for_advice = self.queue.channels
         self.map = DetectionMapController(scenes, settings, for_map, pane)
         self.slider_strips = SliderStripController(
             scenes, settings, for_strips, strips, strips.strips
         )
-        self.advisor = AdvisorController(scenes, settings, self.crew, for_advice, pane.advice)
+        self.advisor = AdvisorController(scenes, settings, self.queue, for_advice, pane.advice)
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
         self._start.timeout.connect(lambda: self.slider_strips.set_seen(True))
@@ -82,4 +85,4 @@ class DetectionMapWiring(QObject):
     def stop(self) -> None:
         """Measure no more, and end the processes."""
         self._start.stop()
-        self.crew.stop()
+        self.queue.stop()

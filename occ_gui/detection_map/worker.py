@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_gui.background.parcel import Pulse
 from occ_gui.detection_map.rate_map import LINES, TheoryFields
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
+from occ_model.parallel.job import Heartbeat
 from occ_model.results import RateSettings, SignalPath, SweepPoint
 from occ_model.results.advice import Advice
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -21,7 +21,7 @@ from occ_model.study import theory
 from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits
 from occ_model.study.observation import panel_span
-from occ_model.study.sweep.points import measure_point
+from occ_model.study.sweep.points import measure_points
 
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
 """Effects that need whole images, and make a point 50 to 100 times slower."""
@@ -31,22 +31,6 @@ SEED = 1
 
 PRELOAD = __name__
 """What a process needs to do the work."""
-
-
-@dataclass(frozen=True, slots=True)
-class Points:
-    """Points that were measured.
-
-    Parameters
-    ----------
-    points
-        The points.
-    images
-        Images that were read at each.
-    """
-
-    points: tuple[SweepPoint, ...]
-    images: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,30 +86,19 @@ def leaves_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
     return effects if panel_span(scene) is not None else ("a panel that is not level", *effects)
 
 
-def measure_points(
-    scene: Scene,
-    settings: RateSettings,
-    points: tuple[tuple[int, dict[str, ParameterValue]], ...],
-    pulse: Pulse,
-) -> Points:
-    """Measure some points; what the model refuses becomes a note."""
-    found = (measure_point(scene, settings, index, values, pulse) for index, values in points)
-    return Points(tuple(found), settings.images)
-
-
 def measure_along(
     scene: Scene,
     settings: RateSettings,
     name: str,
     points: tuple[tuple[int, dict[str, ParameterValue]], ...],
-    pulse: Pulse,
+    heartbeat: Heartbeat,
 ) -> Along:
     """Measure positions along one slider."""
-    return Along(name, measure_points(scene, settings, points, pulse).points)
+    return Along(name, measure_points(scene, settings, points, heartbeat).points)
 
 
 def theory_fields(
-    scene: Scene, x: str, y: str, counts: tuple[int, int], pulse: Pulse
+    scene: Scene, x: str, y: str, counts: tuple[int, int], heartbeat: Heartbeat
 ) -> TheoryFields:
     """Say on which side of each limit the points of a coarse lattice lie.
 
@@ -135,7 +108,7 @@ def theory_fields(
     places = (np.linspace(0.0, 1.0, counts[0]), np.linspace(0.0, 1.0, counts[1]))
     sides = {name: np.full(counts, math.nan) for name in LINES}
     for i, at_x in enumerate(places[0].tolist()):
-        pulse()
+        heartbeat()
         for j, at_y in enumerate(places[1].tolist()):
             try:
                 values = {x: quantity(x).at(at_x), y: quantity(y).at(at_y)}
@@ -160,7 +133,9 @@ def _sides(scene: Scene) -> dict[str, float]:
     return {name: math.log(ratio) for name, ratio in ratios.items()}
 
 
-def advise(scene: Scene, settings: RateSettings, decoder: str, rate: float, pulse: Pulse) -> Advice:
+def advise(
+    scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
+) -> Advice:
     """Find how far a decoder reaches, with the numbers that theory gives.
 
     Raises
@@ -170,6 +145,6 @@ def advise(scene: Scene, settings: RateSettings, decoder: str, rate: float, puls
     """
     found = limits(
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
-        tolerance=settings.tolerance, force=settings.force, path=settings.path, pulse=pulse,
+        tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
     )  # fmt: skip
     return advice_of(found)

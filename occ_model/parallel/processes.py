@@ -13,10 +13,6 @@ from typing import Any
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 """What tells linear algebra how many threads it may start."""
 
-NO_PROCESSES = (OSError, ImportError, NotImplementedError)
-"""What is raised where a system has no processes to give: no semaphores (a /dev/shm that cannot be
-written to), no memory or files left for one more."""
-
 _LONGEST_FOLDER = 70
 """Bytes of a temporary folder's path. A server's socket has a name of 32 bytes in it, and a path of
 at most 103 bytes on macOS and 107 on Linux."""

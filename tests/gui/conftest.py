@@ -3,7 +3,7 @@
 import gc
 import math
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future
+from concurrent.futures import BrokenExecutor, Future
 from pathlib import Path
 
 import numpy as np
@@ -18,10 +18,10 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.background.parcel import Outcome, Task
 from occ_gui.detection_map import wiring
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -30,30 +30,31 @@ Grey = NDArray[np.uint8]
 
 
 class InlineWorkers:
-    """Workers in this process: what they are given is done when they are given it."""
+    """Workers in this process, which do a job as soon as they are given it."""
 
     count = 2
+    lost_by: tuple[type[Exception], ...] = (BrokenExecutor,)
 
     def __init__(self) -> None:
-        self.tasks: list[Task] = []
+        self.jobs: list[Job] = []
         self.closed = self.renewed = 0
 
-    def submit(self, task: Task) -> "Future[Outcome]":
-        self.tasks.append(task)
-        future: Future[Outcome] = Future()
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        self.jobs.append(job)
+        future: Future[JobResult] = Future()
         try:
-            future.set_result(self.outcome(task))
+            future.set_result(self.result(job))
         except Exception as error:  # noqa: BLE001 - as an executor does
             future.set_exception(error)
         return future
 
-    def outcome(self, task: Task) -> Outcome:
-        return Outcome(task.parcel.function(*task.parcel.arguments, lambda: None))
+    def result(self, job: Job) -> JobResult:
+        return do_job(job, lambda: None)
 
-    def abandon(self, lane: int, run: int) -> None:
+    def abandon(self, channel: int, run: int) -> None:
         pass
 
-    def counted(self, slot: int) -> int:
+    def counted(self, counter: int) -> int:
         return 0
 
     def renew(self) -> None:
@@ -64,15 +65,15 @@ class InlineWorkers:
 
 
 class LazyWorkers(InlineWorkers):
-    """Workers that do nothing, at once, and forget that they were asked."""
+    """Workers that do nothing, at once, and keep no jobs."""
 
-    def submit(self, task: Task) -> "Future[Outcome]":
-        future = super().submit(task)
-        self.tasks.clear()
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        future = super().submit(job, channel, run)
+        self.jobs.clear()
         return future
 
-    def outcome(self, task: Task) -> Outcome:
-        return Outcome(None, abandoned=True)
+    def result(self, job: Job) -> JobResult:
+        return JobResult(is_abandoned=True)
 
 
 @pytest.fixture

@@ -1,18 +1,39 @@
-"""The work at a sweep's points: one after the other, or handed out in parcels."""
+"""Points of a sweep: measured one after the other, in this process or as a worker's job."""
 
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass
 from time import perf_counter
+from typing import TypeAlias
 
 from occ_model.errors import OccError
+from occ_model.parallel.job import Heartbeat
 from occ_model.results import RateSettings, SweepPoint, SweepRequest
 from occ_model.results.sweep_csv import one_line
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import check_rate, right_bits
 
-Pulse = Callable[[], object]
-"""Is called again and again while there is work; what it raises ends it."""
+PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]
+"""A point's index and the values of the parameters that are varied."""
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredPoints:
+    """Points that were measured together.
+
+    Parameters
+    ----------
+    points
+        The points.
+    images
+        Images that were read at each.
+    seconds
+        Time that all of them took.
+    """
+
+    points: tuple[SweepPoint, ...]
+    images: int
+    seconds: float
 
 
 def measure_point(
@@ -20,68 +41,33 @@ def measure_point(
     settings: RateSettings,
     index: int,
     values: dict[str, ParameterValue],
-    pulse: Pulse = lambda: None,
+    heartbeat: Heartbeat = lambda: None,
 ) -> SweepPoint:
-    """Measure one point; what the model refuses becomes a note."""
+    """Measure one point; an error of the model becomes the point's note."""
     try:
         at = scene.replace(**values)
         check_rate(at, settings)
-        right = right_bits(at, settings, pulse)
+        right = right_bits(at, settings, heartbeat)
     except OccError as refusal:
         return SweepPoint(index, 0, (0,) * len(settings.decoders), one_line(str(refusal)))
     return SweepPoint(index, settings.images * at.transmitter.bits, right)
 
 
+def measure_points(
+    scene: Scene, settings: RateSettings, points: Iterable[PointValues], heartbeat: Heartbeat
+) -> MeasuredPoints:
+    """Measure some points."""
+    start = perf_counter()
+    found = tuple(
+        measure_point(scene, settings, index, values, heartbeat) for index, values in points
+    )
+    return MeasuredPoints(found, settings.images, perf_counter() - start)
+
+
 def measure_here(
-    request: SweepRequest, indices: Iterable[int], pulse: Pulse = lambda: None
+    request: SweepRequest, indices: Iterable[int], heartbeat: Heartbeat = lambda: None
 ) -> Generator[SweepPoint, None, None]:
     """Measure points in this process, one after the other."""
     for index in indices:
         values = request.values(index)
-        yield measure_point(request.scene, request.settings, index, values, pulse)
-
-
-@dataclass(frozen=True, slots=True)
-class Parcel:
-    """Some points for a worker, with all that it needs to know."""
-
-    scene: Scene
-    settings: RateSettings
-    points: tuple[tuple[int, dict[str, ParameterValue]], ...]
-
-    @property
-    def indices(self) -> tuple[int, ...]:
-        """Which points."""
-        return tuple(index for index, _ in self.points)
-
-
-@dataclass(frozen=True, slots=True)
-class Delivery:
-    """What a worker found in a parcel.
-
-    Parameters
-    ----------
-    points
-        What was measured.
-    seconds
-        Time that it took.
-    error
-        What the model failed with: it is handed over as a value, so that whatever an executor
-        itself raises is known to be the executor's.
-    """
-
-    points: tuple[SweepPoint, ...]
-    seconds: float
-    error: Exception | None = None
-
-
-def measure_parcel(parcel: Parcel) -> Delivery:
-    """Measure some points in a worker."""
-    start = perf_counter()
-    found = []
-    try:
-        for index, values in parcel.points:
-            found.append(measure_point(parcel.scene, parcel.settings, index, values))
-    except Exception as error:  # noqa: BLE001 - raised again where the sweep runs
-        return Delivery((), perf_counter() - start, error)
-    return Delivery(tuple(found), perf_counter() - start)
+        yield measure_point(request.scene, request.settings, index, values, heartbeat)

@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import TypeAlias
 
 from occ_model.errors import one_line
+from occ_model.parallel.job import NO_PROCESSES, Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results import RateSettings, SignalPath, SweepPoint, SweepRequest, SweepTable
 from occ_model.results.sweep_request import MOST_JOBS
@@ -18,10 +19,10 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.counts import Counts, rate_intervals
-from occ_model.study.sweep.points import Pulse, measure_here
+from occ_model.study.sweep.points import measure_here
 from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import ResultsFile
-from occ_model.study.sweep.workers import GivenWorkers, measure_by
+from occ_model.study.sweep.workers import PRELOAD, GivenExecutor, measure_by
 
 Progress: TypeAlias = Callable[[int, int, float], object]
 """Called with the number of points done, of all points, and of seconds left."""
@@ -147,7 +148,7 @@ def _measured_table(
     jobs = processes_for(jobs, request.points - counts.entered)
     # Closed here, whatever ends it: workers that are not closed would go on.
     with closing(
-        measure(request, remainder, executor=executor, jobs=jobs, pulse=clock.pulse)
+        measure(request, remainder, executor=executor, jobs=jobs, heartbeat=clock.show_life)
     ) as points:
         for point in points:
             if file is not None:
@@ -166,7 +167,7 @@ def measure(
     *,
     executor: Executor | None = None,
     jobs: int = 1,
-    pulse: Pulse = lambda: None,
+    heartbeat: Heartbeat = lambda: None,
 ) -> Generator[SweepPoint, None, None]:
     """Measure points of a sweep, each given as soon as it is ready and then forgotten.
 
@@ -181,19 +182,18 @@ def measure(
         Which points, by default all, in the order in which they take the least time.
     executor, jobs
         As for :func:`sweep`.
-    pulse
-        Called several times a second; what it raises ends the work.
+    heartbeat
+        Called several times a second; whatever it raises ends the work.
     """
     todo = request.in_order_of_work() if indices is None else iter(indices)
     if executor is not None:
-        return measure_by(GivenWorkers(executor), request, todo, pulse)
+        return measure_by(GivenExecutor(executor), request, todo, heartbeat)
     if jobs > 1:
         # Only who wants processes pays for importing what starts them.
-        from occ_model.parallel.processes import NO_PROCESSES
-        from occ_model.study.sweep.pool import OwnWorkers
+        from occ_model.parallel.process_pool import ProcessPool
 
         try:
-            return measure_by(OwnWorkers(jobs), request, todo, pulse)
+            return measure_by(ProcessPool(jobs, PRELOAD), request, todo, heartbeat)
         except NO_PROCESSES as error:
             warnings.warn(
                 f"No processes can be started ({one_line(str(error))}); this one does the sweep "
@@ -201,7 +201,7 @@ def measure(
                 RuntimeWarning,
                 stacklevel=2,
             )
-    return measure_here(request, todo, pulse)
+    return measure_here(request, todo, heartbeat)
 
 
 class _Clock:
@@ -225,7 +225,7 @@ class _Clock:
         self._done += 1
         self._tell()
 
-    def pulse(self) -> None:
+    def show_life(self) -> None:
         """Report the progress again where the last report was long ago."""
         if perf_counter() - self._told >= _BEAT:
             self._tell()

@@ -1,173 +1,166 @@
-"""Handing a sweep's points to workers, and carrying on when workers die."""
+"""Workers of a sweep: they measure its points, and this process completes it where they die."""
 
 import warnings
-from collections.abc import Generator, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from collections.abc import Generator, Iterable, Iterator
+from concurrent.futures import Executor, Future, wait
 from itertools import chain, islice
-from typing import Protocol
+from typing import Any
 
+from occ_model.parallel.job import (
+    Heartbeat,
+    Job,
+    JobResult,
+    Stage,
+    Workers,
+    WorkersLostError,
+    do_job_apart,
+)
+from occ_model.parallel.request import Run
+from occ_model.parallel.scheduler import Scheduler
 from occ_model.results import SweepPoint, SweepRequest
-from occ_model.study.sweep.points import Delivery, Parcel, Pulse, measure_here, measure_parcel
+from occ_model.study.sweep.points import MeasuredPoints, measure_here, measure_points
 
-_PARCEL_SECONDS = 0.1
-"""Work in a parcel: so much that handing it over costs little, so little that none waits long."""
+PRELOAD = "occ_model.study.sweep.points"
+"""The module that a worker process needs."""
+
+_JOB_SECONDS = 0.1
+"""Work in a job: long against the time to send it, short against the patience of who waits."""
 
 _BEAT = 0.2
-"""Seconds after which whoever waits for workers shows a sign of life."""
+"""Seconds between two heartbeats while this process waits for workers."""
 
 _UNKNOWN_WORKERS = 32
-"""Workers that an executor is taken to have that does not say."""
-
-_TRIES = 3
-"""How often workers may die one after the other with nothing delivered in between."""
+"""Workers assumed of an executor that does not say how many it has."""
 
 
-class Workers(Protocol):
-    """Whoever does the work."""
-
-    count: int
-
-    def submit(self, parcel: Parcel) -> "Future[Delivery]":
-        """Hand over a parcel."""
-
-    def renew(self) -> bool:
-        """Replace workers that died; say whether that can be done."""
-
-    def close(self) -> None:
-        """Let them go, whatever they are at."""
-
-
-class GivenWorkers:
+class GivenExecutor:
     """An executor that belongs to the caller: it is neither renewed nor closed."""
+
+    # Each kind of executor has its own exceptions for workers that died.
+    lost_by: tuple[type[Exception], ...] = (Exception,)
 
     def __init__(self, executor: Executor) -> None:
         self._executor = executor
+        self._futures: set[Future[JobResult]] = set()
         self.count: int = getattr(executor, "_max_workers", _UNKNOWN_WORKERS)
 
-    def submit(self, parcel: Parcel) -> "Future[Delivery]":
-        """Hand over a parcel."""
-        return self._executor.submit(measure_parcel, parcel)
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":  # noqa: ARG002
+        """Queue a job."""
+        future = self._executor.submit(do_job_apart, job)
+        self._futures.add(future)
+        future.add_done_callback(self._futures.discard)
+        return future
 
-    def renew(self) -> bool:
-        """Say that it cannot be renewed."""
-        return False
+    def abandon(self, channel: int, run: int) -> None:
+        """Do nothing: these workers share no memory with this process."""
 
-    def close(self) -> None:
-        """Leave it to its owner."""
+    def counted(self, counter: int) -> int:  # noqa: ARG002
+        """Give none: these workers share no memory with this process."""
+        return 0
 
-
-class WorkersLostError(Exception):
-    """All workers are gone; the points that were in flight are the argument."""
-
-
-def measure_by(
-    workers: Workers, request: SweepRequest, indices: Iterator[int], pulse: Pulse
-) -> Generator[SweepPoint, None, None]:
-    """Measure points by workers, in the order in which they are ready.
-
-    A bounded number of parcels is in flight at a time. When workers die the points that they had
-    are measured again, by new ones, or here where there are none: a point depends on nothing but
-    itself.
-    """
-    in_flight = _InFlight(workers, request, indices)
-    failures = 0
-    try:
-        while in_flight.fill():
-            pulse()
-            try:
-                for point in in_flight.delivered():
-                    failures = 0
-                    yield point
-            except WorkersLostError as loss:
-                failures += 1
-                if failures >= _TRIES or not workers.renew():
-                    warnings.warn(
-                        f"The sweep's workers are gone ({loss}); this process finishes it alone.",
-                        RuntimeWarning,
-                        stacklevel=2,
-                    )
-                    break
-        yield from measure_here(request, in_flight.left(), pulse)
-    finally:
-        in_flight.cancel()
-        workers.close()
-
-
-class _InFlight:
-    """The parcels in flight, and the points that are still to be sent."""
-
-    def __init__(self, workers: Workers, request: SweepRequest, indices: Iterator[int]) -> None:
-        self._workers = workers
-        self._request = request
-        self._indices = indices
-        self._flying: dict[Future[Delivery], Parcel] = {}
-        self._pace = 0.0
-        self._lost_by = ""
-
-    def fill(self) -> bool:
-        """Send parcels until there are enough in flight; say whether any are, or are to be."""
-        while not self._lost_by and len(self._flying) < 2 * self._workers.count:
-            chosen = tuple(islice(self._indices, self._size()))
-            if not chosen:
-                break
-            values = tuple((index, self._request.values(index)) for index in chosen)
-            parcel = Parcel(self._request.scene, self._request.settings, values)
-            try:
-                self._flying[self._workers.submit(parcel)] = parcel
-            except Exception as error:  # noqa: BLE001 - each executor has its own for being gone
-                self._indices = chain(chosen, self._indices)
-                self._lost_by = _cause(error)
-        return bool(self._flying or self._lost_by)
-
-    def _size(self) -> int:
-        """Give the points to a parcel: one until their time is known."""
-        return max(1, int(_PARCEL_SECONDS / self._pace)) if self._pace else 1
-
-    def delivered(self) -> Iterator[SweepPoint]:
-        """Wait a little for parcels to come back, and give the points in them.
+    def renew(self) -> None:
+        """Withdraw the jobs that have not begun.
 
         Raises
         ------
-        WorkersLostError
-            Workers died; their points are to be sent again.
+        NotImplementedError
+            Always: only its owner can replace the workers.
         """
-        ready, _ = wait(self._flying, timeout=_BEAT, return_when=FIRST_COMPLETED)
-        again: list[int] = []
-        for future in ready:
-            parcel = self._flying[future]
-            try:
-                delivery = future.result()
-            except Exception as error:  # noqa: BLE001 - each executor has its own for being gone
-                self._lost_by = _cause(error)
-                again += parcel.indices
-                del self._flying[future]
-                continue
-            del self._flying[future]
-            if delivery.error is not None:
-                raise delivery.error
-            self._pace = delivery.seconds / len(delivery.points)
-            yield from delivery.points
-        if self._lost_by:
-            # What else is in flight is lost, too, or not: to measure it again harms nobody.
-            again += chain.from_iterable(parcel.indices for parcel in self._flying.values())
-            self.cancel()
-            self._indices = chain(again, self._indices)
-            cause, self._lost_by = self._lost_by, ""
-            raise WorkersLostError(cause)
-
-    def left(self) -> Iterator[int]:
-        """Give the points that nobody has measured."""
-        return self._indices
-
-    def cancel(self) -> None:
-        """Call back what is in flight."""
-        for future in self._flying:
+        # An executor that breaks ends its futures one by one; one withdrawn meanwhile confuses it.
+        wait(list(self._futures), timeout=_BEAT)
+        for future in list(self._futures):
             future.cancel()
-        self._flying.clear()
+        raise NotImplementedError("only the owner of an executor can replace its workers")
+
+    def close(self) -> None:
+        """Leave the executor to its owner."""
 
 
-def _cause(error: BaseException) -> str:
-    """Say in words what became of the workers."""
-    text = " ".join(str(error).split()).rstrip(".")
-    name = type(error).__name__
-    return f"{name}: {text}" if text else name
+def measure_by(
+    workers: Workers, request: SweepRequest, indices: Iterator[int], heartbeat: Heartbeat
+) -> Generator[SweepPoint, None, None]:
+    """Measure points by workers, in the order in which they are ready.
+
+    A bounded number of jobs is in flight at a time. When workers die the points that they had
+    are measured again, by new ones, or here where there are none: a point depends on nothing but
+    itself.
+    """
+    progress = _Progress(request, indices)
+    scheduler = Scheduler(lambda: workers, progress)
+    scheduler.put(Run(0, 1, lambda: (Stage(0, progress.jobs()),)))
+    try:
+        while not progress.is_ended:
+            heartbeat()
+            scheduler.step(_BEAT)
+            yield from progress.newly_measured()
+        if isinstance(progress.error, WorkersLostError):
+            reason = progress.error.reason
+            warnings.warn(
+                f"The sweep's workers are gone ({reason}); this process finishes it alone.",
+                RuntimeWarning,
+                stacklevel=2,
+            )
+        elif progress.error is not None:
+            raise progress.error
+        yield from measure_here(request, progress.left(), heartbeat)
+    finally:
+        scheduler.end_workers()
+
+
+class _Progress:
+    """The points of a sweep that are to be sent, that workers have, and that are measured."""
+
+    def __init__(self, request: SweepRequest, indices: Iterator[int]) -> None:
+        self._request = request
+        self._unsent = indices
+        self._sent: dict[int, None] = {}
+        self._measured: list[SweepPoint] = []
+        self._seconds_a_point = 0.0
+        self.is_ended = False
+        self.error: Exception | None = None
+
+    def jobs(self) -> Iterator[Job]:
+        """Make jobs of the points, each only when it is needed."""
+        while chosen := tuple(islice(self._unsent, self._size())):
+            self._sent.update(dict.fromkeys(chosen))
+            points = tuple((index, self._request.values(index)) for index in chosen)
+            yield Job(measure_points, (self._request.scene, self._request.settings, points))
+
+    def _size(self) -> int:
+        """Give the number of points in a job: one until their time is known."""
+        each = self._seconds_a_point
+        return max(1, int(_JOB_SECONDS / each)) if each else 1
+
+    def newly_measured(self) -> list[SweepPoint]:
+        """Give the points that were measured since the last call."""
+        measured, self._measured = self._measured, []
+        return measured
+
+    def left(self) -> Iterable[int]:
+        """Give the points without a result."""
+        return chain(self._sent, self._unsent)
+
+    def results_ready(self, _channel: int, _run: int, results: list[Any]) -> None:
+        """Take the points of jobs that have come back."""
+        for result in results:
+            self._take(result)
+
+    def _take(self, result: MeasuredPoints) -> None:
+        self._seconds_a_point = result.seconds / len(result.points)
+        for point in result.points:
+            del self._sent[point.index]
+        self._measured += result.points
+
+    def finished(self, _channel: int, _run: int) -> None:
+        """Note that all points are measured."""
+        self.is_ended = True
+
+    def failed(self, _channel: int, _run: int, error: Exception) -> None:
+        """Note that workers measure no more, and why."""
+        self.is_ended, self.error = True, error
+
+    def workers_replaced(self, _channel: int, _run: int) -> None:
+        """Do nothing: the work goes on."""
+
+    def workers_missing(self, _channel: int, _run: int, _error: Exception) -> None:
+        """Do nothing: it does not happen without a fallback."""

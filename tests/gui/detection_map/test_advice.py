@@ -1,6 +1,7 @@
 """The advice says in sentences what the model's own search finds, and leads there."""
 
 import re
+from concurrent.futures import BrokenExecutor, Future
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,7 @@ from occ_gui.detection_map import wiring, worker
 from occ_gui.detection_map.advice_sentences import AdviceWords
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import sentences
+from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.advice import Advice, TheoryLimits
@@ -161,16 +163,15 @@ def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
 ) -> None:
     class Never:
         count = 2
+        lost_by = (BrokenExecutor,)
 
-        def submit(self, task: Any) -> Any:
-            from concurrent.futures import Future
-
+        def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
             return Future()
 
-        def abandon(self, lane: int, run: int) -> None:
+        def abandon(self, channel: int, run: int) -> None:
             pass
 
-        def counted(self, slot: int) -> int:
+        def counted(self, counter: int) -> int:
             return 0
 
         def close(self) -> None:

@@ -8,8 +8,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.background.crew import Crew
-from occ_gui.background.parcel import Outcome, Task
+from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import map_controller as module
 from occ_gui.detection_map import map_schedule
 from occ_gui.detection_map.map_controller import DetectionMapController
@@ -17,6 +16,7 @@ from occ_gui.detection_map.rate_map import PointFacts, RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 
@@ -65,11 +65,11 @@ class Bench:
     def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
         self._qtbot = qtbot
         self.workers = workers
-        self.crew = Crew(1, lambda: workers)
+        self.queue = WorkQueue(1, lambda: workers)
         self.scenes, self.settings = SceneStore(scene), SettingsStore()
         self.pane = RecordingPane()
         self.controller = DetectionMapController(
-            self.scenes, self.settings, self.crew.lanes[0], self.pane
+            self.scenes, self.settings, self.queue.channels[0], self.pane
         )
 
     def wait_until_idle(self) -> RateMap:
@@ -97,7 +97,7 @@ def bench_of(
 
     yield make
     for bench in benches:
-        bench.crew.stop()
+        bench.queue.stop()
 
 
 def test_the_map_is_the_sweeps_table_of_the_same_points(bench_of: Callable[..., Bench]) -> None:
@@ -122,10 +122,10 @@ def test_a_coarse_map_comes_first_and_every_point_is_measured_once_a_number_of_i
     bench = bench_of()
     bench.look()
     points = [
-        (index, task.parcel.arguments[1].images)
-        for task in bench.workers.tasks
-        if task.parcel.function.__name__ == "measure_points"
-        for index, _ in task.parcel.arguments[2]
+        (index, job.arguments[1].images)
+        for job in bench.workers.jobs
+        if job.function.__name__ == "measure_points"
+        for index, _ in job.arguments[2]
     ]
     assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(91))
     assert {index for index, _ in points[:6]} == {7 * x + y for x in (0, 6, 12) for y in (0, 6)}
@@ -137,14 +137,14 @@ def test_nothing_is_measured_while_nobody_looks(
     bench = bench_of()
     bench.scenes.change(iso=200.0)
     qtbot.wait(30)
-    assert bench.workers.tasks == []
-    assert bench.crew.workers is None
+    assert bench.workers.jobs == []
+    assert bench.queue.workers is None
     bench.look()
     bench.controller.set_seen(False)
-    before = len(bench.workers.tasks)
+    before = len(bench.workers.jobs)
     bench.scenes.change(iso=400.0)
     qtbot.wait(30)
-    assert len(bench.workers.tasks) == before
+    assert len(bench.workers.jobs) == before
 
 
 def test_what_is_known_is_not_measured_again_when_shown_again(
@@ -152,10 +152,10 @@ def test_what_is_known_is_not_measured_again_when_shown_again(
 ) -> None:
     bench = bench_of()
     bench.look()
-    before = len(bench.workers.tasks)
+    before = len(bench.workers.jobs)
     bench.controller.set_seen(False)
     bench.look()
-    assert len(bench.workers.tasks) == before
+    assert len(bench.workers.jobs) == before
 
 
 @pytest.mark.parametrize("change", [{FREQUENCY: 7e3}, {DISTANCE: 2.0}, {"start_time": 1e-3}])
@@ -164,10 +164,10 @@ def test_what_the_map_does_not_depend_on_measures_nothing_anew(
 ) -> None:
     bench = bench_of()
     bench.look()
-    before = len(bench.workers.tasks)
+    before = len(bench.workers.jobs)
     bench.scenes.change(-1, **change)
     bench.wait_until_idle()
-    assert len(bench.workers.tasks) == before
+    assert len(bench.workers.jobs) == before
     assert bench.controller.is_full
 
 
@@ -229,13 +229,13 @@ def test_image_effects_are_left_out_said_and_taken_in_when_asked(
     bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
     bench.look()
     assert bench.pane.left_out == ("Vignetting",)
-    settings = bench.workers.tasks[0].parcel.arguments[1]
+    settings = bench.workers.jobs[0].arguments[1]
     assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
-    bench.workers.tasks.clear()
+    bench.workers.jobs.clear()
     bench.controller.use_image_effects(True)
     bench.wait_until_idle()
     assert bench.pane.left_out == ()
-    settings = bench.workers.tasks[0].parcel.arguments[1]
+    settings = bench.workers.jobs[0].arguments[1]
     assert (settings.force, settings.path) == ({}, "auto")
 
 
@@ -243,13 +243,13 @@ def test_a_failure_is_said_and_the_last_map_stays(bench_of: Callable[..., Bench]
     bench = bench_of()
     before = bench.look()
 
-    def refuse(task: Task) -> Outcome:
-        raise MemoryError("no room")
+    def refuse(job: Job) -> JobResult:
+        raise MemoryError("no memory")
 
-    bench.workers.outcome = refuse
+    bench.workers.result = refuse
     bench.scenes.change(iso=200.0)
     assert bench.wait_until_idle() is before
-    assert bench.pane.failures == ["The work in the background failed: MemoryError: no room."]
+    assert bench.pane.failures == ["The work in the background failed: MemoryError: no memory."]
 
 
 def test_choosing_one_parameter_twice_exchanges_both(bench_of: Callable[..., Bench]) -> None:

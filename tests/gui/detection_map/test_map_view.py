@@ -11,7 +11,6 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.background.worker_processes import WorkerProcesses
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, painted
@@ -24,6 +23,7 @@ from occ_gui.detection_map.rate_map import (
     lattice,
 )
 from occ_gui.detection_map.worker import PRELOAD
+from occ_model.parallel.process_pool import ProcessPool
 from occ_model.results import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -213,7 +213,7 @@ def test_a_click_in_the_window_is_undone_as_one_step(
 def test_closing_the_window_ends_its_processes(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    workers = WorkerProcesses(2, PRELOAD)
+    workers = ProcessPool(2, PRELOAD)
     monkeypatch.setattr(wiring, "new_workers", lambda: workers)
     application = Application(small_scene)
     application.window.show()

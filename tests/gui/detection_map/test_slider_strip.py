@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.background.crew import Crew
+from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
 from occ_gui.detection_map.colour_map import RATES, painted
 from occ_gui.detection_map.rate_map import lattice
@@ -44,10 +44,10 @@ class Bench:
     def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
         self._qtbot = qtbot
         self.workers, self.strips = workers, RecordingStrips()
-        self.crew = Crew(1, lambda: workers)
+        self.queue = WorkQueue(1, lambda: workers)
         self.scenes = SceneStore(scene)
         self.controller = SliderStripController(
-            self.scenes, SettingsStore(), self.crew.lanes[0], self.strips, NAMES
+            self.scenes, SettingsStore(), self.queue.channels[0], self.strips, NAMES
         )
 
     def wait_until_idle(self) -> dict[str, Shares]:
@@ -56,8 +56,8 @@ class Bench:
 
     def measured(self) -> list[str]:
         """Name the sliders along which was measured, and forget it."""
-        names = [str(task.parcel.arguments[2]) for task in self.workers.tasks]
-        self.workers.tasks.clear()
+        names = [str(job.arguments[2]) for job in self.workers.jobs]
+        self.workers.jobs.clear()
         return names
 
 
@@ -68,7 +68,7 @@ def bench(
     monkeypatch.setattr(module, "POSITIONS", POSITIONS)
     bench = Bench(qtbot, small_scene, inline_workers)
     yield bench
-    bench.crew.stop()
+    bench.queue.stop()
 
 
 @pytest.mark.parametrize("decoder", ["threshold", "matched"])

@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.parallel import process_pool
 from occ_model.results import RateSettings, SweepTable
 from occ_model.results.sweep_request import MOST_AXES
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.study.sweep import pool
 from occ_model.study.sweep.request_check import checked_request
 
 BOTH = ("threshold", "matched")
@@ -183,12 +183,12 @@ def test_no_more_processes_are_started_than_have_points_or_cores(
     class Stop(Exception):  # noqa: N818
         pass
 
-    def start(number: int) -> NoReturn:
+    def start(number: int, _preload: str) -> NoReturn:
         counts.append(number)
         raise Stop
 
     monkeypatch.setattr(os, "cpu_count", lambda: cores)
-    monkeypatch.setattr(pool, "OwnWorkers", start)
+    monkeypatch.setattr(process_pool, "ProcessPool", start)
     axes = {"iso": [100.0 + place for place in range(points)]}
     with suppress(Stop):
         occ.sweep(occ.load_preset("phone-68us").replace(rows=60), axes, 1, jobs=jobs)

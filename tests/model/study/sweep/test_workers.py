@@ -16,10 +16,11 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.parallel.job import Job, JobResult
 from occ_model.results import RateSettings, SweepPoint, SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
-from occ_model.study.sweep.points import Delivery, Parcel
+from occ_model.study.sweep.points import MeasuredPoints
 from occ_model.study.sweep.request_check import checked_request
 from occ_model.study.sweep.sweep import measure
 
@@ -167,10 +168,10 @@ class EnoughError(Exception):
 def test_what_progress_raises_ends_the_sweep_and_calls_back_what_is_pending(
     scene: Scene, kind: type[ThreadPoolExecutor] | None
 ) -> None:
-    futures: list[Future[Delivery]] = []
+    futures: list[Future[JobResult]] = []
 
     class Watched(ThreadPoolExecutor):
-        def submit(self, *args: object) -> "Future[Delivery]":  # type: ignore[override]
+        def submit(self, *args: object) -> "Future[JobResult]":  # type: ignore[override]
             futures.append(super().submit(*args))  # type: ignore[arg-type]
             return futures[-1]
 
@@ -205,19 +206,19 @@ def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
     axes = {"iso": range(50, 550), "distance": np.linspace(1.0, 2.0, 400)}
     request = checked_request(scene, axes, RateSettings(1, ("threshold",)))
     assert request.points == 200_000
-    waiting: list[Future[Delivery]] = []
+    waiting: list[Future[JobResult]] = []
     most = 0
 
     class Immediate(Executor):
         _max_workers = 3
 
-        def submit(self, _work: object, parcel: Parcel) -> "Future[Delivery]":  # type: ignore[override]
+        def submit(self, _work: object, job: Job) -> "Future[JobResult]":  # type: ignore[override]
             nonlocal most
-            future: Future[Delivery] = Future()
+            future: Future[JobResult] = Future()
             waiting.append(future)
             most = max(most, len(waiting))
-            points = tuple(SweepPoint(index, 10, (10,)) for index in parcel.indices)
-            future.set_result(Delivery(points, 0.001 * len(points)))
+            points = tuple(SweepPoint(index, 10, (10,)) for index, _ in job.arguments[2])
+            future.set_result(JobResult(MeasuredPoints(points, 1, 0.001 * len(points))))
             return future
 
     tracemalloc.start()
@@ -229,5 +230,5 @@ def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
-    assert 1 < most <= 2 * 3
+    assert 1 < most <= 2 * 3 + 1  # in flight, and one whose points are taken
     assert peak < 1_000_000  # 25 bytes a point

@@ -1,0 +1,200 @@
+"""Jobs: calls that workers make, and what workers and receivers of results must be able to do."""
+
+import traceback
+from collections.abc import Callable, Iterable, MutableSequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeAlias
+
+from occ_model.errors import OccError
+
+Heartbeat: TypeAlias = Callable[[], object]
+"""Called repeatedly by work that takes long; whatever it raises ends the work."""
+
+CHANNELS = 8
+"""Most channels that can share workers, and most counters of heartbeats."""
+
+NO_PROCESSES = (OSError, ImportError, NotImplementedError)
+"""Raised where the system cannot start processes: no semaphores (a /dev/shm that cannot be written
+to), no memory or files left for one more."""
+
+
+class Abandoned(Exception):  # noqa: N818 - no error: the result is no longer wanted
+    """Ends a job whose result is no longer wanted."""
+
+
+class WorkersLostError(OccError):
+    """Workers ended, and no others could take over their jobs.
+
+    Parameters
+    ----------
+    reason
+        How the last workers ended.
+    times
+        How often workers ended one after the other without a result.
+    """
+
+    def __init__(self, reason: str, times: int) -> None:
+        super().__init__(f"Processes in the background ended {times} times without a result.")
+        self.reason = reason
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """A call that a worker makes.
+
+    Parameters
+    ----------
+    function
+        A function of some module. It takes a :data:`Heartbeat` after the arguments and must not
+        need Qt.
+    arguments
+        Values that can be sent to a process.
+    counter
+        The counter that the job's heartbeats are added to.
+    """
+
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...]
+    counter: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class JobResult:
+    """The outcome of a job: a value, an error, or neither where the job was abandoned.
+
+    An error is a value here, so that an exception of a future is always the workers' own.
+    """
+
+    value: Any = None
+    error: Exception | None = None
+    is_abandoned: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """Jobs that belong together.
+
+    Parameters
+    ----------
+    rank
+        The jobs of the stage with the lowest rank go first.
+    jobs
+        The jobs, in the order in which they are begun. Each is asked for only when it is needed.
+    uninterruptible
+        Whether the stage, once begun, is completed although something newer is asked for.
+    """
+
+    rank: int
+    jobs: Iterable[Job]
+    uninterruptible: bool = False
+
+
+Stages: TypeAlias = Callable[[], Iterable[Stage]]
+"""Gives the stages of a request, one after the other; called where the scheduler runs."""
+
+
+class Workers(Protocol):
+    """Processes or threads that do jobs."""
+
+    count: int
+    """How many jobs they do at a time."""
+
+    lost_by: tuple[type[Exception], ...]
+    """Exceptions of a future, or raised by ``submit``, that mean that workers ended."""
+
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        """Queue a job that belongs to a run of a channel."""
+
+    def abandon(self, channel: int, run: int) -> None:
+        """Let the jobs of all runs of a channel that are earlier than ``run`` end."""
+
+    def counted(self, counter: int) -> int:
+        """Give the number of heartbeats in a counter."""
+
+    def renew(self) -> None:
+        """Replace workers that ended.
+
+        Raises
+        ------
+        OSError, ImportError or NotImplementedError
+            There are none to replace them.
+        """
+
+    def close(self) -> None:
+        """End the workers, also in the middle of a job."""
+
+
+class Listener(Protocol):
+    """Receives what becomes of the runs; called where the scheduler runs."""
+
+    def results_ready(self, channel: int, run: int, results: list[Any]) -> None:
+        """Receive results of a run."""
+
+    def finished(self, channel: int, run: int) -> None:
+        """Note that all results of a run were given."""
+
+    def failed(self, channel: int, run: int, error: Exception) -> None:
+        """Note that no more results of a run come, and why."""
+
+    def workers_replaced(self, channel: int, run: int) -> None:
+        """Note that workers ended, and that others repeat the jobs that they had."""
+
+    def workers_missing(self, channel: int, run: int, error: Exception) -> None:
+        """Note that no processes can be started, and that the fallback does the jobs."""
+
+
+def do_job(job: Job, heartbeat: Heartbeat) -> JobResult:
+    """Do a job; an error becomes a part of the result."""
+    try:
+        heartbeat()
+        return JobResult(job.function(*job.arguments, heartbeat))
+    except Abandoned:
+        return JobResult(is_abandoned=True)
+    except Exception as error:  # noqa: BLE001 - raised or logged where the result is wanted
+        return JobResult(error=error)
+
+
+def do_job_apart(job: Job, heartbeat: Heartbeat = lambda: None) -> JobResult:
+    """Do a job in another process; an error keeps its traceback as a note."""
+    result = do_job(job, heartbeat)
+    if result.error is not None:
+        # A traceback cannot be sent to another process.
+        result.error.add_note("".join(traceback.format_exception(result.error)))
+    return result
+
+
+def counting_heartbeat(
+    job: Job,
+    channel: int,
+    run: int,
+    first_runs: MutableSequence[int],
+    counts: MutableSequence[int],
+) -> Heartbeat:
+    """Make a heartbeat that counts itself and ends a job of an abandoned run.
+
+    Parameters
+    ----------
+    job
+        The job that the heartbeat is for.
+    channel, run
+        Where the job belongs.
+    first_runs
+        The earliest run of each channel that is still wanted.
+    counts
+        The heartbeats of each counter.
+    """
+
+    def heartbeat() -> None:
+        if first_runs[channel] > run:
+            raise Abandoned
+        counts[job.counter] += 1
+
+    return heartbeat
+
+
+def reason_of(error: BaseException) -> str:
+    """Give an exception's type and text in one line."""
+    text = " ".join(str(error).split()).rstrip(".")
+    name = type(error).__name__
+    return f"{name}: {text}" if text else name

@@ -1,0 +1,194 @@
+"""The job scheduler in the window: results and failures arrive on the window's thread."""
+
+import errno
+import os
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from typing import Any, NoReturn
+
+import pytest
+from pytestqt.qtbot import QtBot
+from worker_calls import HeldWorker, echo, fail
+
+from occ_gui.background.signals import JobChannel, WorkQueue
+from occ_model.parallel.job import Job, JobResult, Stage, Stages
+
+
+def stages_of(*values: Any, rank: int = 0, whole: bool = False) -> Stages:
+    return lambda: [Stage(rank, tuple(Job(echo, (v,)) for v in values), whole)]
+
+
+class Received:
+    """All that a channel gives."""
+
+    def __init__(self, channel: JobChannel) -> None:
+        self.results: list[tuple[Any, Any]] = []
+        self.threads: set[int] = set()
+        self.finished: list[Any] = []
+        self.failures: list[str] = []
+        self.messages: list[str] = []
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(self.finished.append)
+        channel.failed.connect(self.failures.append)
+        channel.status_message.connect(self.messages.append)
+
+    def _take(self, request: Any, found: list[Any]) -> None:
+        self.threads.add(threading.get_ident())
+        self.results.extend((request, each) for each in found)
+
+
+@pytest.fixture
+def queue_of(qtbot: QtBot) -> Iterator[Callable[..., WorkQueue]]:
+    queues: list[WorkQueue] = []
+
+    def make(workers: Any, channels: int = 1) -> WorkQueue:
+        queues.append(WorkQueue(channels, lambda: workers))
+        return queues[-1]
+
+    yield make
+    for queue in queues:
+        queue.stop()
+
+
+def test_all_results_arrive_on_this_thread_and_then_the_end(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue], inline_workers: Any
+) -> None:
+    (channel,) = queue_of(inline_workers).channels
+    received = Received(channel)
+    channel.put("request", lambda: [*stages_of(1, 2)(), *stages_of(3)()])
+    assert not channel.is_idle
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.results == [("request", 1), ("request", 2), ("request", 3)]
+    assert received.finished == ["request"]
+    assert received.threads == {threading.get_ident()}
+
+
+def test_results_go_to_the_channel_that_asked(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue], inline_workers: Any
+) -> None:
+    one, other = queue_of(inline_workers, 2).channels
+    first, second = Received(one), Received(other)
+    one.put("one", stages_of(1))
+    other.put("other", stages_of(2))
+    qtbot.waitUntil(lambda: one.is_idle and other.is_idle)
+    assert (first.results, second.results) == ([("one", 1)], [("other", 2)])
+
+
+def test_of_a_request_that_was_replaced_no_more_results_arrive(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
+) -> None:
+    worker = HeldWorker()
+    (channel,) = queue_of(worker).channels
+    received = Received(channel)
+    channel.put("old", stages_of("a", "b", "c"))
+    qtbot.waitUntil(lambda: len(worker.held) == 2)
+    channel.put("new", stages_of("x"))
+    qtbot.waitUntil(lambda: (0, 2) in worker.abandoned)
+    worker.finish(2)
+    qtbot.waitUntil(lambda: len(worker.held) == 1)
+    worker.finish()
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.results == [("new", "x")]
+    assert received.finished == ["new"]
+
+
+def test_results_of_an_uninterruptible_stage_arrive_before_those_of_a_newer_request(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
+) -> None:
+    worker = HeldWorker()
+    (channel,) = queue_of(worker).channels
+    received = Received(channel)
+    channel.put("old", stages_of("a", "b", whole=True))
+    qtbot.waitUntil(lambda: len(worker.held) == 2)
+    channel.put("new", stages_of("x"))
+    worker.finish(2)
+    qtbot.waitUntil(lambda: len(worker.held) == 1)
+    worker.finish()
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.results == [("old", "a"), ("old", "b"), ("new", "x")]
+
+
+def test_after_cancelling_nothing_arrives(qtbot: QtBot, queue_of: Callable[..., WorkQueue]) -> None:
+    worker = HeldWorker()
+    (channel,) = queue_of(worker).channels
+    received = Received(channel)
+    channel.put("request", stages_of("a", "b"))
+    qtbot.waitUntil(lambda: len(worker.held) == 2)
+    channel.cancel()
+    worker.finish()
+    assert channel.is_idle
+    qtbot.wait(30)
+    assert (received.results, received.finished) == ([], [])
+
+
+def test_an_error_is_a_sentence_and_the_next_request_is_done(
+    qtbot: QtBot,
+    queue_of: Callable[..., WorkQueue],
+    inline_workers: Any,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    (channel,) = queue_of(inline_workers).channels
+    received = Received(channel)
+    channel.put("bad", lambda: [Stage(0, (Job(fail, ("luck",)),))])
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.failures == ["The work in the background failed: ValueError: no luck."]
+    assert "failed for 'bad'" in caplog.text
+    channel.put("good", stages_of(1))
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.results == [("good", 1)]
+
+
+def test_workers_that_keep_dying_are_reported(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
+) -> None:
+    class Dying(HeldWorker):
+        def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+            future = super().submit(job, channel, run)
+            self.die()
+            return future
+
+    worker = Dying()
+    (channel,) = queue_of(worker).channels
+    received = Received(channel)
+    channel.put("request", stages_of(1))
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.failures == ["Processes in the background ended 3 times without a result."]
+    assert received.messages == 2 * ["A process in the background ended; its work is done again."]
+    assert worker.renewed == 3
+
+
+def test_where_there_are_no_processes_the_work_is_done_all_the_same(qtbot: QtBot) -> None:
+    def no_processes() -> NoReturn:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    queue = WorkQueue(1, no_processes)
+    (channel,) = queue.channels
+    received = Received(channel)
+    channel.put("request", stages_of(1, 2, 3))
+    qtbot.waitUntil(lambda: channel.is_idle)
+    queue.stop()
+    assert [found for _, found in received.results] == [1, 2, 3]
+    assert received.failures == []
+    (sentence,) = received.messages
+    assert sentence.startswith("No processes can be started (")
+    assert sentence.endswith(
+        "): the window does their work itself, and answers more slowly meanwhile."
+    )
+
+
+def test_stopping_ends_the_workers_and_nothing_arrives_any_more(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
+) -> None:
+    worker = HeldWorker()
+    queue = queue_of(worker)
+    (channel,) = queue.channels
+    received = Received(channel)
+    channel.put("request", stages_of("a"))
+    qtbot.waitUntil(lambda: len(worker.held) == 1)
+    queue.stop()
+    queue.stop()
+    assert worker.closed == 1
+    channel.put("late", stages_of("b"))
+    qtbot.wait(30)
+    assert (received.results, received.failures) == ([], [])

@@ -1,0 +1,115 @@
+"""Worker processes: they do jobs, count heartbeats, are replaced when they die, and all end."""
+
+import errno
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from typing import NoReturn
+
+import pytest
+from model.parallel.bench import Bench
+from worker_calls import count_for_ever, echo, fail, process_id
+
+from occ_model.parallel.job import Job, JobResult, Stage
+from occ_model.parallel.process_pool import ProcessPool
+from occ_model.parallel.worker_thread import WorkerThread
+
+PATIENCE_S = 20.0
+
+
+@pytest.fixture
+def pool() -> Iterator[ProcessPool]:
+    pool = ProcessPool(2, "worker_calls")
+    yield pool
+    pool.close()
+
+
+def wait_until(happened: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not happened():
+        assert time.monotonic() < deadline
+        time.sleep(0.001)
+
+
+def run_until(bench: Bench, happened: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not happened():
+        assert time.monotonic() < deadline
+        assert bench.scheduler.step(0.05)
+
+
+def result(future: "Future[JobResult]") -> JobResult:
+    return future.result(PATIENCE_S)
+
+
+def test_an_error_keeps_the_traceback_of_its_process(pool: ProcessPool) -> None:
+    error = result(pool.submit(Job(fail, ("luck",)), 0, 1)).error
+    assert repr(error) == "ValueError('no luck')"
+    assert error is not None
+    assert "in fail" in "".join(error.__notes__)
+
+
+def test_an_abandoned_job_ends_at_its_next_heartbeat(pool: ProcessPool) -> None:
+    endless = pool.submit(Job(count_for_ever, (), 3), 1, 1)
+    wait_until(lambda: pool.counted(3) > 0)
+    assert pool.counted(2) == 0
+    pool.abandon(0, 2)
+    assert not endless.done()
+    pool.abandon(1, 2)
+    assert result(endless).is_abandoned
+    assert result(pool.submit(Job(echo, ("new",)), 1, 2)).value == "new"
+
+
+def test_closing_ends_the_processes_in_the_middle_of_a_job(pool: ProcessPool) -> None:
+    for counter in (3, 4):
+        pool.submit(Job(count_for_ever, (), counter), 0, 1)
+    wait_until(lambda: pool.counted(3) > 0 and pool.counted(4) > 0)
+    processes = pool.processes
+    assert len(processes) == 2
+    pool.close()
+    for number in processes:
+        with pytest.raises(ProcessLookupError):
+            os.kill(number, 0)
+
+
+def test_a_killed_process_is_replaced_and_its_jobs_are_done_again(pool: ProcessPool) -> None:
+    bench = Bench(pool)
+    bench.ask(0, 1, Stage(0, tuple(Job(process_id, ()) for _ in range(12))))
+    run_until(bench, lambda: bool(bench.results))
+    before = pool.processes
+    os.kill(bench.results[0], signal.SIGKILL)
+    run_until(bench, lambda: bool(bench.ended))
+    assert bench.notices == [("replaced", 0, 1)]
+    assert len(bench.results) == 12
+    assert set(bench.results) <= {*before, *pool.processes}
+    assert set(bench.results) & set(pool.processes)
+
+
+def test_a_thread_takes_over_from_processes_that_cannot_be_replaced(
+    pool: ProcessPool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_processes() -> NoReturn:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    monkeypatch.setattr(pool, "_start", no_processes)
+    bench = Bench(pool, fallback=WorkerThread)
+    bench.ask(0, 1, Stage(0, tuple(Job(process_id, ()) for _ in range(12))))
+    run_until(bench, lambda: bool(bench.results))
+    os.kill(bench.results[0], signal.SIGKILL)
+    run_until(bench, lambda: bool(bench.ended))
+    bench.scheduler.end_workers()
+    assert bench.notices == [("missing", 0, 1)]
+    assert bench.results[-1] == os.getpid()
+    assert len(bench.results) == 12
+
+
+def test_arguments_that_cannot_be_sent_fail_their_request_only(pool: ProcessPool) -> None:
+    bench = Bench(pool)
+    bench.ask(0, 1, Stage(0, (Job(echo, (lambda: None,)),)))
+    bench.ask(1, 1, Stage(0, (Job(echo, ("sent",)),)))
+    run_until(bench, lambda: bool(bench.errors and bench.ended))
+    assert [(channel, run) for channel, run, _ in bench.errors] == [(0, 1)]
+    assert bench.results == ["sent"]
+    assert bench.notices == []

@@ -48,7 +48,7 @@ def _run(options: argparse.Namespace) -> int:
             rate=options.rate,
             images=options.images,
             seed=options.seed,
-            pulse=bar.update,
+            heartbeat=bar.update,
         )
     for line in sentences(advice_of(found)):
         print(line)

@@ -1,12 +1,13 @@
 """The advisor: how fast a scene can go, and how long it can be exposed, before reading stops."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from numbers import Real
 
 import numpy as np
 
 from occ_model.errors import ParameterError, shown
+from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results import (
     Limits,
@@ -30,8 +31,6 @@ STEP = 1.15
 NEAR = 1.003
 """Ratio of the values on both sides of an edge at which the search for it ends."""
 
-Pulse = Callable[[], object]
-
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     scene: Scene,
@@ -43,7 +42,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     tolerance: float = TOLERANCE.default,
     force: Mapping[str, bool] | None = None,
     path: SignalPath = "auto",
-    pulse: Pulse = lambda: None,
+    heartbeat: Heartbeat = lambda: None,
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
@@ -71,8 +70,8 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     tolerance, force, path
         As for :func:`occ_model.success_rate`; where the profile path holds the answer takes some
         seconds, by whole images it takes minutes.
-    pulse
-        Called before each image; what it raises ends the search.
+    heartbeat
+        Called before each image; whatever it raises ends the search.
 
     Returns
     -------
@@ -91,7 +90,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     wanted = _checked(rate)
     found = {}
     for name in ("switching_frequency", "exposure_time"):
-        found[name] = _Search(scene, name, wanted, settings, pulse).working_range()
+        found[name] = _Search(scene, name, wanted, settings, heartbeat).working_range()
     return Limits(
         scene, decoder, wanted, images, seed, found["switching_frequency"], found["exposure_time"]
     )
@@ -108,13 +107,13 @@ class _Search:
     """The search for the values of one parameter at which a scene is read."""
 
     def __init__(
-        self, scene: Scene, name: str, rate: float, settings: RateSettings, pulse: Pulse
+        self, scene: Scene, name: str, rate: float, settings: RateSettings, heartbeat: Heartbeat
     ) -> None:
         self._scene = scene
         self._name = name
         self._rate = rate
         self._settings = settings
-        self._pulse = pulse
+        self._heartbeat = heartbeat
         parameter = PARAMETERS[name]
         assert isinstance(parameter, Quantity)  # noqa: S101 - the two that are searched are
         self._parameter = parameter
@@ -178,7 +177,7 @@ class _Search:
 
     def _try(self, value: float) -> Trial:
         scene = self._scene.replace(**{self._name: value})
-        right = right_bits(scene, self._settings, self._pulse)
+        right = right_bits(scene, self._settings, self._heartbeat)
         sent = self._settings.images * scene.transmitter.bits
         ((low, high),) = rate_intervals(SweepPoint(0, sent, right))
         return Trial(value, right[0], sent, low, high)

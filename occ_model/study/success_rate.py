@@ -1,7 +1,7 @@
 """The success rate, as the paper defines it."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
+from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.results import DecodeResult, RateSettings, Region, SignalPath
@@ -77,7 +78,7 @@ def success_rate(
 
 
 def right_bits(
-    scene: Scene, settings: RateSettings, pulse: Callable[[], object] = lambda: None
+    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[int, ...]:
     """Count the bits that each decoder reads rightly, all from the same images.
 
@@ -88,8 +89,8 @@ def right_bits(
     ----------
     scene, settings
         As :func:`check_rate` allows them.
-    pulse
-        Called before each image; what it raises ends the count.
+    heartbeat
+        Called before each image; whatever it raises ends the count.
 
     Returns
     -------
@@ -109,7 +110,7 @@ def right_bits(
     root = np.random.default_rng(settings.seed)
     span = None if settings.path == "image" else panel_span(scene)
     for _ in range(settings.images):
-        pulse()
+        heartbeat()
         (stream,) = root.spawn(1)
         changes = {"start_time": float(stream.uniform(0.0, duration))}
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets

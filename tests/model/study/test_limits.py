@@ -26,7 +26,7 @@ SCENE = Scene()
 def reads_where(good: Callable[[float], bool], name: str = "switching_frequency") -> object:
     """Stand in for all decoding: bits are right where ``good`` says so, half of them elsewhere."""
 
-    def right_bits(scene: Scene, settings: RateSettings, _pulse: object) -> tuple[int]:
+    def right_bits(scene: Scene, settings: RateSettings, _heartbeat: object) -> tuple[int]:
         all_bits = settings.images * scene.transmitter.bits
         return (all_bits if good(float(scene.value(name))) else all_bits // 2,)
 
@@ -191,12 +191,12 @@ def test_what_cannot_be_asked_is_refused_with_a_sentence(
         occ.limits(SCENE, **arguments)  # type: ignore[arg-type]
 
 
-def test_what_the_pulse_raises_ends_the_search() -> None:
+def test_what_the_heartbeat_raises_ends_the_search() -> None:
     def stop() -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        occ.limits(SCENE, pulse=stop)
+        occ.limits(SCENE, heartbeat=stop)
 
 
 def test_the_band_model_ends_where_theory_says() -> None:

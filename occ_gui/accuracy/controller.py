@@ -1,12 +1,11 @@
 """Measure what accuracy costs in time, while the scene is at rest and somebody looks."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer
 
-from occ_gui.background.progressive import Progressive
+from occ_gui.background.cancellable import Cancellable, Report
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
@@ -45,8 +44,8 @@ class Measured:
     total: int
 
 
-def measure(request: SimulationRequest) -> Iterator[Measured]:
-    """Measure point by point.
+def measure(request: SimulationRequest, report: Report) -> None:
+    """Measure the points of a study and report each.
 
     Raises
     ------
@@ -55,7 +54,7 @@ def measure(request: SimulationRequest) -> Iterator[Measured]:
     """
     total = point_count(request.scene, request.settings)
     for point in accuracy(request.scene, request.settings):
-        yield Measured(point, total)
+        report(Measured(point, total))
 
 
 class AccuracyController(QObject):
@@ -90,10 +89,8 @@ class AccuracyController(QObject):
         self._count = 0
         self._idle_timer = QTimer(self, singleShot=True)
         self._idle_timer.timeout.connect(self._start)
-        self.runner: Progressive[SimulationRequest, Measured] = Progressive(
-            measure, "accuracy study"
-        )
-        self.runner.item.connect(self._show)
+        self.runner: Cancellable[SimulationRequest, None] = Cancellable(measure, "accuracy study")
+        self.runner.reported.connect(self._show)
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
         for store in (scenes, settings):
@@ -141,7 +138,7 @@ class AccuracyController(QObject):
         self._count += 1
         self._pane.show_point(measured.point, self._count, measured.total)
 
-    def _finish(self) -> None:
+    def _finish(self, _result: object) -> None:
         self._done = self._request()
         self._pane.show_study_finished()
 

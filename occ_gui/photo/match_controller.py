@@ -7,7 +7,7 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable, Progress
+from occ_gui.background.cancellable import Cancellable, Report
 from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
@@ -70,7 +70,7 @@ def request_of(photo: Photo, scene: Scene, choice: MatchChoice) -> MatchRequest:
     return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma)
 
 
-def match(request: MatchRequest, progress: Progress) -> Match:
+def match(request: MatchRequest, report: Report) -> Match:
     """Match a photo.
 
     Raises
@@ -78,13 +78,14 @@ def match(request: MatchRequest, progress: Progress) -> Match:
     MatchError
         No scene explains the photo's stripes.
     """
+    report(0.0)
     return match_photo(
         request.photo,
         request.scene,
         estimate=request.estimate,
         sent=request.sent,
         fit_gamma=request.fit_gamma,
-        progress=progress,
+        progress=report,
     )
 
 
@@ -133,7 +134,7 @@ class MatchController(QObject):
         self._known = self._asked_known = ""
         self.match: Match | None = None
         self.runner: Cancellable[MatchRequest, Match] = Cancellable(match, "match of the photo")
-        self.runner.progressed.connect(pane.show_progress)
+        self.runner.reported.connect(pane.show_progress)
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(self._fail)
 

@@ -8,7 +8,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
-from occ_gui.background.cancellable import Cancellable, Progress
+from occ_gui.background.cancellable import Cancellable, Report
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 
 
@@ -35,9 +35,10 @@ class PhotoReading:
     channel: str = CHANNELS[0]
 
 
-def _read(request: tuple[Path, PhotoReading], progress: Progress) -> Photo:
+def _read(request: tuple[Path, PhotoReading], report: Report) -> Photo:
+    report(0.0)
     path, reading = request
-    return occ.load_photo(path, reading.scan_axis, channel=reading.channel, progress=progress)
+    return occ.load_photo(path, reading.scan_axis, channel=reading.channel, progress=report)
 
 
 class PhotoController(QObject):
@@ -76,7 +77,7 @@ class PhotoController(QObject):
         self.runner: Cancellable[tuple[Path, PhotoReading], Photo] = Cancellable(
             _read, "reading of the photo"
         )
-        self.runner.progressed.connect(self.progressed)
+        self.runner.reported.connect(self.progressed.emit)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self._keep_last)
 

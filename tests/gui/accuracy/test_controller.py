@@ -178,7 +178,8 @@ def test_a_study_that_fails_tells_why_and_is_not_tried_again(
 
 def test_the_models_own_study_has_as_many_points_as_it_says() -> None:
     scene = occ.load_preset("phone-68us").replace(rows=30, columns=60)
-    points = list(measure(SimulationRequest(scene, FIRST_SETTINGS)))
+    points: list[Measured] = []
+    measure(SimulationRequest(scene, FIRST_SETTINGS), points.append)
     assert {point.total for point in points} == {len(points)}
     parts = [point.point.part for point in points]
     assert sum(one != other for one, other in pairwise(parts)) == 3

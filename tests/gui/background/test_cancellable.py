@@ -1,4 +1,4 @@
-"""Work that tells how far it is, and that ends when nobody wants it any more."""
+"""Work that reports its progress, and that ends when its result is not wanted any more."""
 
 import logging
 import threading
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.background.cancellable import Cancellable, Progress
+from occ_gui.background.cancellable import Cancellable, Report
 from occ_model.errors import MatchError
 
 PATIENCE_S = 10.0
@@ -26,10 +26,10 @@ class Bench:
         self.failures: list[str] = []
         self.task: Cancellable[int, int] = Cancellable(self._work, "test work")
         self.task.finished.connect(self.results.append)
-        self.task.progressed.connect(self.shares.append)
+        self.task.reported.connect(self.shares.append)
         self.task.failed.connect(self.failures.append)
 
-    def _work(self, request: int, progress: Progress) -> int:
+    def _work(self, request: int, report: Report) -> int:
         try:
             self.begun.set()
             assert self.go_on.wait(PATIENCE_S)
@@ -38,7 +38,7 @@ class Bench:
             if request == 0:
                 return 1 // request
             for share in (0.25, 0.5, 1.0):
-                progress(share)
+                report(share)
                 self.steps.append((request, share))
             return 10 * request
         finally:
@@ -63,7 +63,7 @@ def test_the_result_arrives_and_before_it_how_far_the_work_was(qtbot: QtBot, ben
     assert bench.task.is_running
     wait_until_idle(qtbot, bench)
     assert bench.results == [40]
-    assert bench.shares == [0.0, 0.25, 0.5, 1.0]
+    assert bench.shares == [0.25, 0.5, 1.0]
     assert bench.failures == []
 
 

@@ -1,4 +1,4 @@
-"""Items come one by one and in order; of a cancelled run nothing comes any more."""
+"""Reports arrive one by one and in order; of a cancelled run nothing arrives any more."""
 
 import threading
 from collections.abc import Iterator
@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.background.progressive import Progressive
+from occ_gui.background.cancellable import Cancellable, Report
 
 PATIENCE_S = 10.0
 
@@ -24,12 +24,12 @@ class Bench:
         self.made: list[object] = []
         self.items: list[object] = []
         self.ends: list[str] = []
-        self.runner: Progressive[str, str] = Progressive(self._work, "test of the runner")
-        self.runner.item.connect(self.items.append)
-        self.runner.finished.connect(lambda: self.ends.append("finished"))
+        self.runner: Cancellable[str, None] = Cancellable(self._work, "test of the runner")
+        self.runner.reported.connect(self.items.append)
+        self.runner.finished.connect(lambda _: self.ends.append("finished"))
         self.runner.failed.connect(self.ends.append)
 
-    def _work(self, request: str) -> Iterator[str]:
+    def _work(self, request: str, report: Report) -> None:
         self.threads.add(threading.get_ident())
         for number in range(3):
             self.at_work.set()
@@ -39,7 +39,7 @@ class Bench:
             if request == "mistake" and number == 1:
                 raise RuntimeError("out of luck")
             self.made.append(f"{request} {number}")
-            yield f"{request} {number}"
+            report(f"{request} {number}")
 
     def allow(self, items: int = 1) -> None:
         self._allowed.release(items)

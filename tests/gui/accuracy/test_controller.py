@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.accuracy import controller as module
-from occ_gui.accuracy.controller import AccuracyController, measure
+from occ_gui.accuracy.controller import AccuracyController, Measured, measure
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController

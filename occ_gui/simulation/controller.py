@@ -17,6 +17,7 @@ from occ_model.receiver.decoders import DECODERS
 from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.render import render_with
 from occ_model.transmitter.packet import bits_of
 
 _PAINT_TIME = 0.004
@@ -47,7 +48,7 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
     ProjectionError
         The panel has no picture in this pose.
     """
-    return _snapshot_of(occ.render(scene, **settings.arguments()))
+    return _snapshot_of(render_with(scene, settings))
 
 
 def _snapshot_of(frame: Frame) -> Snapshot:
@@ -137,7 +138,7 @@ class SimulationController(QObject):
         self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
-        frame = occ.render(request.scene, **request.settings.arguments())
+        frame = render_with(request.scene, request.settings)
         self._rendered.emit(Picture.of(frame))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)

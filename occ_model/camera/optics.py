@@ -109,7 +109,7 @@ def picture_rows(
     optics: Optics,
     panel: FloatArray,
     surroundings: FloatArray,
-    done: Callable[[str], object],
+    stage_ended: Callable[[str], object],
 ) -> Iterator[Rows]:
     """Give the picture's mean pixel values, from the first rows to the last.
 
@@ -121,15 +121,15 @@ def picture_rows(
         How the panel is pictured.
     panel, surroundings : ndarray of float64, shape (columns,)
         Pixel values of each column before saturation.
-    done
-        Is told of each stage that has just ended.
+    stage_ended
+        Called with the name of each stage that has just ended.
     """
     if optics.is_plain:
         parts = _plain_rows(scene.camera, optics.outline, panel, surroundings)
     else:
-        parts = _mixed_rows(scene.camera, optics, panel, surroundings, done)
+        parts = _mixed_rows(scene.camera, optics, panel, surroundings, stage_ended)
     for rows in parts:
-        done(STAGE)
+        stage_ended(STAGE)
         yield rows
 
 
@@ -163,7 +163,7 @@ def _mixed_rows(
     optics: Optics,
     panel: FloatArray,
     surroundings: FloatArray,
-    done: Callable[[str], object],
+    stage_ended: Callable[[str], object],
 ) -> Iterator[Rows]:
     coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
     dark = luminance_of(surroundings, camera)
@@ -174,16 +174,16 @@ def _mixed_rows(
         stop = min(start + BLOCK_ROWS, camera.rows)
         light = coverage.rows(start, stop)
         inside = light >= np.float32(0.5)
-        done(optics.cover_stage)
+        stage_ended(optics.cover_stage)
         for gain in optics.emission:
             light *= gain.rows(start, stop)
-            done(gain.stage)
+            stage_ended(gain.stage)
         light *= own
         light += around
-        done(STAGE)
+        stage_ended(STAGE)
         for gain in optics.transmission:
             light *= gain.rows(start, stop)
-            done(gain.stage)
+            stage_ended(gain.stage)
         values = np.asarray(cv2.pow(light, 1.0 / camera.gamma), dtype=np.float32)
         values *= np.float32(unit)
         yield Rows(start, stop, values, inside)

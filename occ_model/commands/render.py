@@ -14,7 +14,7 @@ from occ_model.commands.options import (
 from occ_model.errors import one_line
 from occ_model.files.writing import write_image
 from occ_model.scene.from_text import write_scene_file
-from occ_model.simulation.render import render
+from occ_model.simulation.render import render_with
 
 
 def add_to(commands: Commands) -> None:
@@ -30,7 +30,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     settings = simulation_settings_of(options)
-    frame = render(scene, **settings.arguments())
+    frame = render_with(scene, settings)
     write_image(options.out, frame.image)
     if options.save_scene:
         write_scene_file(options.save_scene, scene)

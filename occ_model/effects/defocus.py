@@ -1,7 +1,7 @@
-"""The lens makes a spot of a point: the panel's rim is soft, the stripes are not.
+"""Defocus and point spread: the lens softens the panel's rim, not the stripes.
 
-Inside a panel that is evenly bright, light that goes astray is replaced by as much from beside. The
-stripes are made by the shutter, behind the lens, and stay as sharp as they are.
+Inside an evenly bright panel a pixel receives as much light from its neighbours as it loses to
+them. The stripes are made by the shutter, behind the lens, and stay sharp.
 """
 
 import math
@@ -14,13 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import pixel_value
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import (
-    contrast,
-    just_white,
-    paper_view_of,
-    reachable_luminances,
-    shown_change,
-)
+from occ_model.effects.paper_view import PaperView, reachable_luminances
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -47,20 +41,20 @@ class Defocus(OpticsEffect):
     label = "Defocus and point spread"
     parameters = ("point_spread", "focus_distance", "pixel_pitch")
 
-    def bound(self, scene: Scene, observable: Observable) -> float:
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether the lens makes more than a point of a point."""
+        return blur_of(scene) != 0.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:
         """Bound the change by that along the rim of a lit panel."""
-        blur = blur_of(scene)
-        if blur == 0.0:
-            return 0.0
-        paper_view = paper_view_of(scene)
-        region, largest = paper_view.region, contrast(scene)
-        sides = paper_view.sides
-        if not paper_view.is_seen and not _reaches(paper_view.corners, scene, blur):
+        scene, region, sides = view.scene, view.region, view.sides
+        blur, largest = blur_of(scene), view.contrast
+        if not view.is_seen and not _reaches(view.corners, scene, blur):
             return 0.0
         if _REACH * blur > min(region.rows, region.columns) / 2.0:
             return largest
-        both = sides is None or scene.lens.distorts or not paper_view.is_seen
-        energy, loss = _rim(scene, both)
+        both = sides is None or scene.lens.distorts or not view.is_seen
+        energy, loss = _rim(view, both)
         if sides is None:
             length = 2.0 * (region.rows + region.columns)
             return min(largest, math.sqrt(length * blur * energy / (region.rows * region.columns)))
@@ -92,7 +86,7 @@ def blur_of(scene: Scene) -> float:
 
 
 def _reaches(corners: FloatArray, scene: Scene, blur: float) -> bool:
-    """Say whether light of a panel beside the picture can get into it."""
+    """Say whether light of a panel beside the picture can reach it."""
     if scene.lens.distorts:
         return True
     reach = _REACH * blur + 1.0
@@ -106,21 +100,22 @@ def _near(side: float, size: int, blur: float) -> int:
     return int(-reach < side < size + reach)
 
 
-def _rim(scene: Scene, both: bool) -> tuple[float, float]:
+def _rim(view: PaperView, both: bool) -> tuple[float, float]:
     """Integrate the squared and the absolute change across the rim, in standard deviations.
 
     Only the panel's side of it where the observed rectangle ends there.
     """
+    scene = view.scene
     distance, share = _tail()
     dark, bright = reachable_luminances(scene)
     # On the panel's side columns that are just not saturated, under the strongest vignetting,
     # change most; on the other side the brightest ones do.
     change = np.zeros((2, len(share)))
-    for lit in (bright, max(min(bright, just_white(scene)), dark)):
+    for lit in (bright, max(min(bright, view.just_white), dark)):
         light = dark + (lit - dark) * np.stack([1.0 - share, share])
         full = pixel_value(np.array([[lit], [dark]]), scene.camera)
         seen = pixel_value(light, scene.camera)
-        moved = shown_change(np.minimum(seen, full), np.maximum(seen, full), scene)
+        moved = view.largest_changes(np.minimum(seen, full), np.maximum(seen, full))
         change = np.maximum(change, moved)
     change = change[: 2 if both else 1]
     step = distance[1]

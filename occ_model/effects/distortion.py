@@ -1,6 +1,6 @@
-"""The lens bends straight lines: the panel's outline, not the stripes.
+"""Lens distortion: straight lines are bent, the panel's outline but not the stripes.
 
-A stripe is where the shutter was when the light changed, and stays a straight column whatever the
+A stripe is made by the shutter when the light changes, and stays a straight column whatever the
 lens does.
 """
 
@@ -15,7 +15,7 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.effects.defocus import blur_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import contrast, paper_view_of
+from occ_model.effects.paper_view import PaperView
 from occ_model.effects.polygon import clipped, subdivided
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Camera, Lens, Scene
@@ -49,19 +49,21 @@ class Distortion(OpticsEffect):
     label = "Lens distortion"
     parameters = ("radial_k1", "radial_k2", "tangential_p1", "tangential_p2")
 
-    def bound(self, scene: Scene, observable: Observable) -> float:
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether any coefficient of the lens is not 0."""
+        return scene.lens.distorts
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:
         """Bound the change by the strip between the straight outline and the bent one.
 
         Pixels in it show the panel in place of the surroundings, or the other way round. It is a
         pixel wider than the outline moves, as a pixel's centre is in or out.
         """
-        if not scene.lens.distorts:
-            return 0.0
+        scene, region = view.scene, view.region
         try:
-            straight, bent = _outlines(scene)
+            straight, bent = _outlines(scene, view.corners)
         except ProjectionError:  # refused where it is to be simulated
             return math.inf
-        region = paper_view_of(scene).region
         reach = 4.0 * blur_of(scene) + 1.0
         seen = _within(straight, scene.camera, reach) | _within(bent, scene.camera, reach)
         seen |= np.roll(seen, -1)  # a part is seen where either of its ends is
@@ -73,10 +75,10 @@ class Distortion(OpticsEffect):
         length = np.minimum(parts[seen].sum(axis=0), [2.0 * region.columns, 2.0 * region.rows])
         area = float(length[0] * moved[1] + length[1] * moved[0])
         share = math.sqrt(min(area / (region.rows * region.columns), 1.0))
-        if observable == "profile" and paper_view_of(scene).sides is not None:
+        if observable == "profile" and view.sides is not None:
             ends = math.sqrt(min(2.0 * moved[0] / region.columns, 1.0))
             share = min(share, ends + min(2.0 * moved[1] / region.rows, 1.0))
-        return contrast(scene) * share
+        return view.contrast * share
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         """Bend the panel's outline.
@@ -86,9 +88,9 @@ class Distortion(OpticsEffect):
         ProjectionError
             The distortion folds the picture back within its own corners.
         """
-        if not scene.lens.distorts:
+        if not self.is_present(scene):
             return optics
-        return replace(optics, outline=_outlines(scene)[1], cover_stage=self.name)
+        return replace(optics, outline=_outlines(scene, optics.outline)[1], cover_stage=self.name)
 
 
 def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
@@ -111,15 +113,14 @@ def _within(points: FloatArray, camera: Camera, reach: float) -> np.ndarray:
     return np.asarray(((points > -reach) & (points < size + reach)).all(axis=1))
 
 
-@lru_cache(maxsize=16)
-def _outlines(scene: Scene) -> tuple[FloatArray, FloatArray]:
-    """Give the panel's outline without and with distortion, point by point.
+def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the outline of a panel with these corners, without and with distortion, by points.
 
     What lies so far outside that no light of it reaches the picture is cut off first: out there
     the equations need not make sense.
     """
     camera = scene.camera
-    rays = image_rays(paper_view_of(scene).corners, camera)
+    rays = image_rays(corners, camera)
     focal = camera.focal_length_pixels
     corner = (math.hypot(camera.rows, camera.columns) / 2 + 1.0) / focal
     needed = corner + 4.0 * blur_of(scene) / focal

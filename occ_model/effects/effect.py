@@ -1,8 +1,8 @@
-"""The door that every effect has.
+"""The interface of an effect: something that the paper's model leaves out.
 
-An effect is something that the paper's model leaves out. It stands in a file of its own, belongs
-to one stage of the light's way, says how much leaving it out can change what is observed
-(``bound``), and does it (``apply``).
+An effect belongs to one stage of the light's way from the panel to the file. It says whether a
+scene has it (``is_present``) and how much leaving it out can change what is observed (``bound``),
+and simulates it (``apply``).
 """
 
 from abc import ABC, abstractmethod
@@ -14,12 +14,12 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import ColumnLight
+from occ_model.effects.paper_view import PaperView
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
 """Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""
-
 
 Values = TypeVar("Values", FloatArray, Pixels)
 """Pixel values of either precision."""
@@ -28,7 +28,7 @@ _TABULATED: FloatArray = np.arange(0.0, 255.25, 0.25)
 
 
 class Effect(ABC):
-    """What all effects have."""
+    """An effect, of whatever stage."""
 
     name: ClassVar[str]
     """The identifier, as in a plan."""
@@ -37,19 +37,22 @@ class Effect(ABC):
     """The field's term for it, as on screen."""
 
     kind: ClassVar[Kind]
-    """What it makes of the rows of a picture."""
+    """How it leaves the rows of a picture."""
 
     parameters: ClassVar[tuple[str, ...]]
-    """The parameters of a scene that it is governed by."""
+    """The parameters of a scene that it depends on, by name."""
 
     @abstractmethod
-    def bound(self, scene: Scene, observable: Observable) -> float:
-        """Say how much leaving the effect out can change what is observed.
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether a scene has the effect; where not, it is exactly nothing."""
+
+    def bound(self, view: PaperView, observable: Observable) -> float:
+        """Give the most by which leaving the effect out can change what is observed.
 
         Parameters
         ----------
-        scene
-            The scene.
+        view
+            The paper's view of the scene.
         observable
             ``"image"``: the pixels of the panel's bounding rectangle; ``"profile"``: the means of
             its columns.
@@ -58,12 +61,17 @@ class Effect(ABC):
         -------
         float
             Root mean square in grey levels, before contrast enhancement and rounding; never too
-            small, whichever other effects are there. 0 where the effect is exactly nothing.
+            small, whichever other effects are there. 0 where the scene has not the effect.
         """
+        return self._bound(view, observable) if self.is_present(view.scene) else 0.0
+
+    @abstractmethod
+    def _bound(self, view: PaperView, observable: Observable) -> float:
+        """Give the bound for a scene that has the effect."""
 
 
 class LightEffect(Effect):
-    """An effect on the light that each column gets."""
+    """An effect on the light that reaches each column."""
 
     kind = "column"
 
@@ -73,7 +81,7 @@ class LightEffect(Effect):
 
 
 class OpticsEffect(Effect):
-    """An effect of the panel's and the lens's geometry."""
+    """An effect on how the lens pictures the panel."""
 
     kind = "image"
 
@@ -83,7 +91,7 @@ class OpticsEffect(Effect):
 
 
 class PixelEffect(Effect):
-    """An effect on each pixel's mean value that depends on nothing but that value."""
+    """An effect on a pixel's mean value that depends on that value alone."""
 
     kind = "column"
 
@@ -148,19 +156,20 @@ class FileEffect(Effect):
         """Return the picture as it is read back from the file."""
 
     @abstractmethod
-    def propagated_change(self, scene: Scene, change: float, dithered: bool) -> float:
-        """Say how much a change of the picture can change what is read back.
+    def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
+        """Give the most by which a change of the picture can change what is read back.
 
-        Rounding makes steps of the smallest changes: what comes out can differ more than what went
-        in.
+        Rounding makes steps of the smallest changes: the output can differ by more than the input
+        does.
 
         Parameters
         ----------
-        scene
-            The scene.
+        view
+            The paper's view of the scene.
         change
             Root mean square of the change in grey levels.
         dithered
-            Whether noise spreads the pixels over the steps. What comes out is then an expectation,
-            from which a single picture differs by its sampling error; without, it is the most.
+            Whether noise spreads the pixels over the steps. The result is then an expectation,
+            from which a single picture differs by its sampling error; without noise it is the
+            largest value.
         """

@@ -1,4 +1,4 @@
-"""A panel whose light is bundled looks darker from the side."""
+"""Bundled emission: a panel that is not Lambertian looks darker from the side."""
 
 from dataclasses import replace
 
@@ -8,12 +8,7 @@ from occ_model.arrays import Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import (
-    just_white,
-    largest_change,
-    paper_view_of,
-    reachable_luminances,
-)
+from occ_model.effects.paper_view import PaperView, reachable_luminances
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -31,18 +26,21 @@ class Emission(OpticsEffect):
     label = "Bundled emission"
     parameters = ("lambertian_order",)
 
-    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - rows alike
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether the panel is other than Lambertian."""
+        return scene.transmitter.lambertian_order != 1.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
         """Bound the change by that of a lit column at the corner seen most from the side."""
+        scene = view.scene
         order = scene.transmitter.lambertian_order
-        if order == 1.0:
-            return 0.0
-        x, y = paper_view_of(scene).corner_rays.T
+        x, y = view.corner_rays.T
         cosines = _cosine(scene, x, y)
         # Where the panel's plane is seen edge-on between the corners, none of them is the least.
         is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())
         least = 0.0 if is_crossed else float(np.abs(cosines).min()) ** (order - 1.0)
         dark, bright = reachable_luminances(scene)
-        return _largest_loss(scene, dark, bright - dark, least)
+        return _largest_loss(view, dark, bright - dark, least)
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         """Darken the panel by the angle at which each pixel sees it."""
@@ -64,8 +62,8 @@ def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.asarray(along / np.sqrt(1.0 + x * x + y * y))
 
 
-def _largest_loss(scene: Scene, dark: float, emitted: float, factor: float) -> float:
+def _largest_loss(view: PaperView, dark: float, emitted: float, factor: float) -> float:
     """Give the most grey levels that are lost to ``factor``, at any share of the light."""
     # The loss grows with the light until that saturates, under the strongest vignetting.
-    light = min(max(just_white(scene) - dark, 0.0), emitted)
-    return largest_change(dark + light * factor, dark + light, scene)
+    light = min(max(view.just_white - dark, 0.0), emitted)
+    return view.largest_change(dark + light * factor, dark + light)

@@ -1,4 +1,4 @@
-"""Lamps on the mains flicker, at twice the mains' frequency."""
+"""Mains flicker: the light of other lamps swings at twice the mains' frequency."""
 
 import math
 from dataclasses import replace
@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import cycle_phases
 from occ_model.camera.photometry import ColumnLight, luminance_levels
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.paper_view import largest_change
+from occ_model.effects.paper_view import PaperView
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -27,17 +27,23 @@ class Flicker(LightEffect):
     label = "Mains flicker"
     parameters = ("flicker_depth", "flicker_frequency", "flicker_phase")
 
-    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - columns alike
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether an exposure leaves anything of the flicker."""
+        return _seen_depth(scene) != 0.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
         """Bound the change by that of a dark panel at the trough, where the gamma is steepest."""
-        depth = scene.surroundings.flicker_depth * abs(response(scene))
-        if depth == 0.0:
-            return 0.0
-        dark = float(luminance_levels(scene)[0])
-        return largest_change(dark * (1.0 - depth), dark, scene)
+        dark = float(luminance_levels(view.scene)[0])
+        return view.largest_change(dark * (1.0 - _seen_depth(view.scene)), dark)
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Let the light from elsewhere change from column to column."""
         return replace(light, ambient=light.ambient * ambient_shares(scene))
+
+
+def _seen_depth(scene: Scene) -> float:
+    """Give the flicker's depth in the mean light of an exposure."""
+    return scene.surroundings.flicker_depth * abs(response(scene))
 
 
 def ambient_shares(scene: Scene) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The camera keeps its picture as a JPEG file."""
+"""JPEG: the camera's file keeps cosine coefficients, rounded."""
 
 import math
 from functools import lru_cache
@@ -9,7 +9,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import FileEffect
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.paper_view import PaperView
 from occ_model.errors import ParameterError
 from occ_model.files.writing import LONGEST_SIDE
 from occ_model.results import Region
@@ -44,25 +44,25 @@ class Jpeg(FileEffect):
     label = "JPEG"
     parameters = ("jpeg_quality",)
 
-    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - rows alike
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether the camera writes a JPEG file."""
+        return scene.camera.jpeg_quality != 0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
         """Bound the change by half a step of every coefficient, and the pixels' rounding.
 
-        What is wrong in a block can all lie in the part of it that is observed.
+        The error of a block can all lie in the part of it that is observed.
         """
-        if scene.camera.jpeg_quality == 0:
-            return 0.0
-        error = (
-            _step(scene.camera.jpeg_quality) / 2.0 * _block_dilution(paper_view_of(scene).region)
-        )
+        error = _step(view.scene.camera.jpeg_quality) / 2.0 * _block_dilution(view.region)
         return min(error + 2.0 * _ROUNDING, WHITE)
 
-    def propagated_change(self, scene: Scene, change: float, dithered: bool) -> float:
+    def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
         """Add the steps that a change makes: as often as it is large against a step.
 
         Of dithered pixels that change by c, c / 1 round to another level; of coefficients that
         change by c, c / q round to another step q. Without noise all may do so at once.
         """
-        step = _step(scene.camera.jpeg_quality) * _block_dilution(paper_view_of(scene).region)
+        step = _step(view.scene.camera.jpeg_quality) * _block_dilution(view.region)
         if not dithered:
             return change + 2.0 * _ROUNDING + step
         rounded = math.hypot(change, math.sqrt(change))
@@ -76,7 +76,7 @@ class Jpeg(FileEffect):
         ParameterError
             The picture is larger than such a file can hold.
         """
-        if scene.camera.jpeg_quality == 0:
+        if not self.is_present(scene):
             return image
         if max(image.shape) > LONGEST_SIDE["JPEG"]:
             raise ParameterError(
@@ -100,7 +100,7 @@ def quantization_steps(quality: int) -> FloatArray:
 
 
 def _block_dilution(region: Region) -> float:
-    """Give how much larger the error in a region can be than in the blocks that it lies in."""
+    """Give the most by which a region's error exceeds that of the blocks that it lies in."""
     high = (region.last_row - 1) // 8 - region.first_row // 8 + 1
     wide = (region.last_column - 1) // 8 - region.first_column // 8 + 1
     return math.sqrt(64.0 * high * wide / (region.rows * region.columns))

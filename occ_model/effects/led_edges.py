@@ -1,4 +1,4 @@
-"""The LED takes time to light up and to go dark."""
+"""LED rise and fall: the light follows the chips with ramps in place of steps."""
 
 import math
 from dataclasses import replace
@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import ColumnLight, pixel_value
 from occ_model.effects.effect import LightEffect
-from occ_model.effects.paper_view import paper_view_of, reachable_luminances, shown_change
+from occ_model.effects.paper_view import PaperView, reachable_luminances
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 from occ_model.transmitter.edges import EdgedWaveform, most_changes
@@ -30,16 +30,18 @@ class LedEdges(LightEffect):
     label = "LED rise and fall"
     parameters = ("edge_time",)
 
-    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - columns alike
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether the LED takes any time to switch."""
+        return scene.transmitter.edge_time != 0.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
         """Bound the change by the columns that see one, and how much each of them sees.
 
         A column's light changes where a chip does within its exposure or the edge time before it,
         and then by at most tau / 2: what one ramp keeps back.
         """
-        edge_time = scene.transmitter.edge_time
-        if edge_time == 0.0:
-            return 0.0
-        share = min(edge_time / (2.0 * scene.camera.exposure_time), 1.0)
+        scene = view.scene
+        share = min(scene.transmitter.edge_time / (2.0 * scene.camera.exposure_time), 1.0)
         dark, bright = reachable_luminances(scene)
         if scene.model.averaging == "light":
             # The gamma encoding is steepest in the dark: there the share counts most.
@@ -47,19 +49,20 @@ class LedEdges(LightEffect):
         else:
             low, high = pixel_value(np.array([dark, bright]), scene.camera)
             steps = np.array([low, low + (high - low) * share])
-        change = float(shown_change(steps[:1], steps[1:], scene)[0])
-        return change * math.sqrt(_share_of_columns(scene))
+        change = float(view.largest_changes(steps[:1], steps[1:])[0])
+        return change * math.sqrt(_share_of_columns(view))
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Let the columns see the ramps."""
-        if scene.transmitter.edge_time == 0.0:
+        if not self.is_present(scene):
             return light
         return replace(light, lit=edged_lit_fraction(scene))
 
 
-def _share_of_columns(scene: Scene) -> float:
-    """Give the most of the observed columns in which a chip can change."""
-    columns, readout_time = paper_view_of(scene).region.columns, scene.camera.readout_time
+def _share_of_columns(view: PaperView) -> float:
+    """Give the largest share of the observed columns in which a chip can change."""
+    scene = view.scene
+    columns, readout_time = view.region.columns, scene.camera.readout_time
     frequency = scene.transmitter.switching_frequency
     window = scene.camera.exposure_time + scene.transmitter.edge_time
     span = (columns * readout_time + window) * frequency

@@ -1,12 +1,12 @@
-"""What the bounds of all effects are drawn from: where the panel is seen, and how bright.
+"""The paper's view of a scene: where the panel is seen and how bright, without any effect.
 
-Everything here is of the paper's model, without any effect; how far the other effects can move the
-light is allowed for, so that a bound holds whichever of them are there.
+A simulation starts from it, and the bounds of all effects are computed from it. The bounds allow
+for what the other effects can do to the light, so that each holds whichever of them are there.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -31,12 +31,18 @@ _BINS = 64
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PaperView:
-    """How the panel is seen.
+    """The picture of a scene by the paper's model.
 
     Parameters
     ----------
+    scene
+        The scene.
     corners : ndarray of float64, shape (4, 2)
         Of the panel in the image.
+    light
+        What reaches each column.
+    values : ndarray of float64, shape (columns,)
+        Pixel value of each column on the panel before saturation.
     sides
         Left, top, right and bottom of a panel that is pictured level and so fills its bounding
         rectangle, None of any other.
@@ -54,7 +60,10 @@ class PaperView:
         Share of the region's columns between two of them.
     """
 
+    scene: Scene
     corners: FloatArray
+    light: ColumnLight
+    values: FloatArray
     sides: tuple[float, float, float, float] | None
     is_seen: bool
     region: Region
@@ -63,18 +72,61 @@ class PaperView:
     levels: FloatArray
     shares: FloatArray
 
+    @property
+    def off_axis_factor(self) -> float:
+        """The cosine of the largest angle off the optical axis within the observed rectangle."""
+        x, y = np.abs(self.corner_rays).max(axis=0).tolist()
+        return 1.0 / math.sqrt(1.0 + x * x + y * y)
 
-def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
-    left, top = corners.min(axis=0).tolist()
-    right, bottom = corners.max(axis=0).tolist()
-    slack = 1e-6 * max(right - left, bottom - top, 1.0)
-    on_rim = (np.abs(corners - (left, top)) < slack) | (np.abs(corners - (right, bottom)) < slack)
-    return (left, top, right, bottom) if on_rim.all() else None
+    @property
+    def dimmest_light(self) -> float:
+        """The least share of the light that vignetting leaves in the observed rectangle."""
+        exponent = self.scene.lens.vignetting_exponent
+        return self.off_axis_factor**exponent if exponent else 1.0
+
+    @property
+    def just_white(self) -> float:
+        """The luminance that still reaches the largest pixel value where most light is lost."""
+        white = luminance_of(np.array([WHITE]), self.scene.camera)
+        return float(white[0]) / self.dimmest_light
+
+    @property
+    def contrast(self) -> float:
+        """The most by which the lit panel can differ from its dark surroundings, in grey levels."""
+        return self.largest_change(*reachable_luminances(self.scene))
+
+    def largest_change(self, dark: float, bright: float) -> float:
+        """Give the most by which two luminances can differ in a picture, in grey levels."""
+        low, high = pixel_value(np.array([[dark], [bright]]), self.scene.camera)
+        return float(self.largest_changes(low, high)[0])
+
+    def largest_changes(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Give the most by which pixel values can differ in a picture, in grey levels.
+
+        Vignetting may dim both by the same factor: they differ most where the higher just
+        saturates.
+
+        Parameters
+        ----------
+        low, high : ndarray of float64
+            Before saturation, none of ``high`` below that of ``low``.
+        """
+        dimmest = self.dimmest_light ** (1.0 / self.scene.camera.gamma)
+        dimmed = np.clip(WHITE / np.maximum(high, WHITE), dimmest, 1.0)
+        return saturate(dimmed * high) - saturate(dimmed * low)
 
 
-@lru_cache(maxsize=16)
-def paper_view_of(scene: Scene) -> PaperView:
-    """Look at a scene.
+def paper_view_of(
+    scene: Scene, stage_ended: Callable[[str], object] = lambda _stage: None
+) -> PaperView:
+    """Compute the paper's view of a scene: one projection and one exposure.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    stage_ended
+        Called with the name of each stage that has just ended.
 
     Raises
     ------
@@ -82,26 +134,45 @@ def paper_view_of(scene: Scene) -> PaperView:
         Part of the panel is behind the camera.
     """
     corners = panel_corners(scene)
-    values = panel_values(scene, ColumnLight.of(scene))
+    stage_ended("projection")
+    light = ColumnLight.of(scene)
+    values = panel_values(scene, light)
+    stage_ended("exposure")
     seen = saturate(values)
     seen_region = region_of(corners, scene.camera.rows, scene.camera.columns)
     region = seen_region or Region(0, scene.camera.rows, 0, scene.camera.columns)
-    inside = values[region.first_column : region.last_column]
-    low, high = float(inside.min()), float(inside.max())
-    # A little beyond both ends, so that no rounding puts a column outside.
-    levels = np.linspace(low * (1 - 1e-9), high * (1 + 1e-9) + 1e-9, _BINS + 1)
-    step = levels[1] - levels[0]
-    counts = np.bincount(((inside - levels[0]) / step).astype(np.int64), minlength=_BINS)
+    levels, shares = _histogram(values[region.first_column : region.last_column])
     return PaperView(
+        scene=scene,
         corners=corners,
+        light=light,
+        values=values,
         sides=_sides(corners),
         is_seen=seen_region is not None,
         region=region,
         corner_rays=_corner_rays(region, scene.camera),
         swing=max(float(seen.max() - seen.min()), FLAT),
         levels=levels,
-        shares=counts[:_BINS] / len(inside),
+        shares=shares,
     )
+
+
+def _histogram(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give levels from the smallest value to the largest, and the share of values between them."""
+    low, high = float(values.min()), float(values.max())
+    # A little beyond both ends, so that no rounding puts a column outside.
+    levels = np.linspace(low * (1 - 1e-9), high * (1 + 1e-9) + 1e-9, _BINS + 1)
+    step = levels[1] - levels[0]
+    counts = np.bincount(((values - levels[0]) / step).astype(np.int64), minlength=_BINS)
+    return levels, counts[:_BINS] / len(values)
+
+
+def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
+    left, top = corners.min(axis=0).tolist()
+    right, bottom = corners.max(axis=0).tolist()
+    slack = 1e-6 * max(right - left, bottom - top, 1.0)
+    on_rim = (np.abs(corners - (left, top)) < slack) | (np.abs(corners - (right, bottom)) < slack)
+    return (left, top, right, bottom) if on_rim.all() else None
 
 
 def _corner_rays(region: Region, camera: Camera) -> FloatArray:
@@ -135,50 +206,6 @@ def reachable_luminances(scene: Scene) -> tuple[float, float]:
     return dark * (1.0 - depth), bright + dark * depth
 
 
-def shown_value(luminance: float, scene: Scene) -> float:
-    """Give the pixel value of a luminance, saturated."""
+def saturated_value(luminance: float, scene: Scene) -> float:
+    """Give the pixel value of a luminance, at most the largest one."""
     return min(float(pixel_value(np.array([luminance]), scene.camera)[0]), WHITE)
-
-
-def shown_change(low: FloatArray, high: FloatArray, scene: Scene) -> FloatArray:
-    """Give the most by which pixel values can differ in a picture, in grey levels.
-
-    Vignetting may dim both by the same factor: they differ most where the higher just saturates.
-
-    Parameters
-    ----------
-    low, high : ndarray of float64
-        Before saturation, none of ``high`` below that of ``low``.
-    """
-    dimmest = dimmest_light(scene) ** (1.0 / scene.camera.gamma)
-    dimmed = np.clip(WHITE / np.maximum(high, WHITE), dimmest, 1.0)
-    return saturate(dimmed * high) - saturate(dimmed * low)
-
-
-def contrast(scene: Scene) -> float:
-    """Give the most by which the lit panel can differ from its dark surroundings, grey levels."""
-    dark, bright = reachable_luminances(scene)
-    return largest_change(dark, bright, scene)
-
-
-def largest_change(dark: float, bright: float, scene: Scene) -> float:
-    """Give the most by which two luminances can differ in a picture, in grey levels."""
-    low, high = pixel_value(np.array([[dark], [bright]]), scene.camera)
-    return float(shown_change(low, high, scene)[0])
-
-
-def just_white(scene: Scene) -> float:
-    """Give the luminance that still reaches the largest pixel value where most light is lost."""
-    return float(luminance_of(np.array([WHITE]), scene.camera)[0]) / dimmest_light(scene)
-
-
-def dimmest_light(scene: Scene) -> float:
-    """Give the least share of the light that vignetting leaves in the observed rectangle."""
-    exponent = scene.lens.vignetting_exponent
-    return off_axis_factor(scene) ** exponent if exponent else 1.0
-
-
-def off_axis_factor(scene: Scene) -> float:
-    """Give cos of the largest angle off the optical axis within the observed rectangle."""
-    x, y = np.abs(paper_view_of(scene).corner_rays).max(axis=0).tolist()
-    return 1.0 / math.sqrt(1.0 + x * x + y * y)

@@ -1,4 +1,4 @@
-"""The plan: which effects a scene calls for."""
+"""The plan: which effects are simulated for a scene, at a tolerance."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import Effect, FileEffect
-from occ_model.effects.noise_bound import noise_amplification, noise_bound
-from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS
+from occ_model.effects.noise_bound import NoiseBounds
+from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS, moves_light
 from occ_model.results import Decision, Plan
-from occ_model.scene.argument_checks import check_choice, check_switches
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.scene.simulation_settings import OBSERVABLES, TOLERANCE, Observable
+from occ_model.scene.simulation_settings import TOLERANCE, Observable, SimulationSettings
 
 _DITHERING = 0.5
 """Grey levels of noise that spread a pixel evenly over the steps of rounding."""
@@ -59,22 +58,41 @@ def plan(
     ProjectionError
         Part of the panel is behind the camera.
     """
-    tolerance = TOLERANCE.check(tolerance)
-    check_choice("observable", observable, OBSERVABLES)
+    force = {} if force is None else force
+    return plan_with(scene, SimulationSettings(tolerance, observable, force))
+
+
+def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
+    """Decide which effects are simulated with some settings: see :func:`plan`."""
     check_scene(scene)
-    forced = check_switches(force, NAMES)
-    stretch = WHITE / paper_view_of(scene).swing
-    bounds = _bounds(scene, observable, stretch)
-    if tolerance == math.inf:  # also of what a bound says to be without end
+    settings = settings.checked(NAMES)
+    return plan_of(paper_view_of(scene), settings)
+
+
+def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
+    """Decide which effects are simulated, from the paper's view of a scene.
+
+    Parameters
+    ----------
+    view
+        The paper's view.
+    settings
+        Checked; the seed and the source of noise are not used.
+    """
+    tolerance, forced = settings.tolerance, settings.force
+    stretch = WHITE / view.swing
+    noise = _noise_bounds(view)
+    bounds = _bounds(view, noise, settings.observable)
+    if tolerance == math.inf:  # even an infinite bound is within it
         left_out, spent, file = set(NAMES), 0.0, None
     else:
         left_out, spent = _leave_out(bounds, forced, tolerance)
         file = _file_in(left_out, bounds, forced)
         if file is not None:
             # A file is made of pixels, whatever is observed of it later.
-            pixels = bounds if observable == "image" else _bounds(scene, "image", stretch)
+            pixels = bounds if settings.observable == "image" else _bounds(view, noise, "image")
             dithers = _noise_that_dithers(pixels, forced, stretch)
-            through = _Through(file, scene, stretch, bool(dithers))
+            through = _ThroughFile(file, view, stretch, bool(dithers))
             kept = {**forced, **dict.fromkeys(dithers, True)}
             left_out, spent = _leave_out(pixels, kept, tolerance, through)
             bounds = {
@@ -85,30 +103,32 @@ def plan(
         _decide(effect, bounds[effect.name], effect.name in left_out, tolerance, forced, file)
         for effect in EFFECTS
     )
-    return Plan(tolerance, observable, decisions, spent, stretch)
+    return Plan(tolerance, settings.observable, decisions, spent, stretch)
 
 
-def _bounds(scene: Scene, observable: Observable, stretch: float) -> dict[str, float]:
-    """Give every effect's bound in levels of the stretched profile."""
-    bounds = {e.name: float(e.bound(scene, observable)) * stretch for e in OTHERS}
-    for effect in NOISES:
-        remainder = tuple(other for other in NOISES if other is not effect)
-        bounds[effect.name] = noise_bound(effect, scene, observable, remainder) * stretch
-    noise = tuple(effect for effect in NOISES if bounds[effect.name])
-    others = [effect.name for effect in OTHERS if bounds[effect.name]]
-    if noise and others:
-        more = noise_amplification(noise, scene, observable)
-        for name in others:
-            bounds[name] *= more
-    return bounds
+def _noise_bounds(view: PaperView) -> NoiseBounds:
+    noises = tuple(effect for effect in NOISES if effect.is_present(view.scene))
+    return NoiseBounds(noises, view, moves_light=moves_light(view.scene))
+
+
+def _bounds(view: PaperView, noise: NoiseBounds, observable: Observable) -> dict[str, float]:
+    """Give every effect's bound in levels of the stretched profile, by name."""
+    stretch = WHITE / view.swing
+    of_noise = noise.bounds(observable)
+    others = {effect.name: float(effect.bound(view, observable)) for effect in OTHERS}
+    if any(of_noise.values()) and any(others.values()):
+        factor = noise.amplification(observable)
+        others = {name: bound * factor for name, bound in others.items()}
+    found = {**others, **of_noise}
+    return {name: found.get(name, 0.0) * stretch for name in NAMES}
 
 
 @dataclass(frozen=True, slots=True)
-class _Through:
-    """What a change, in levels of the stretched profile, becomes in a file."""
+class _ThroughFile:
+    """What a file makes of a change, both in levels of the stretched profile."""
 
     file: FileEffect
-    scene: Scene
+    view: PaperView
     stretch: float
     dithered: bool
 
@@ -116,7 +136,7 @@ class _Through:
         if not change:
             return 0.0
         levels = change / self.stretch
-        return self.file.propagated_change(self.scene, levels, self.dithered) * self.stretch
+        return self.file.propagated_change(self.view, levels, self.dithered) * self.stretch
 
 
 def _noise_that_dithers(

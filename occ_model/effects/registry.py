@@ -4,7 +4,7 @@ from typing import TypeVar
 
 from occ_model.effects.defocus import Defocus
 from occ_model.effects.distortion import Distortion
-from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
+from occ_model.effects.effect import Effect, FileEffect, LightEffect, NoiseEffect, OpticsEffect
 from occ_model.effects.emission import Emission
 from occ_model.effects.flicker import Flicker
 from occ_model.effects.jpeg import Jpeg
@@ -12,6 +12,7 @@ from occ_model.effects.led_edges import LedEdges
 from occ_model.effects.sensor_effects import FixedPattern, FullWell, SensorNoise
 from occ_model.effects.vignetting import Vignetting
 from occ_model.results import Plan
+from occ_model.scene.scene import Scene
 
 EFFECTS: tuple[Effect, ...] = (
     LedEdges(),
@@ -33,6 +34,15 @@ OTHERS = tuple(effect for effect in EFFECTS if effect not in NOISES)
 NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
 
 _Kind = TypeVar("_Kind", bound=Effect)
+
+
+def moves_light(scene: Scene) -> bool:
+    """Say whether an effect of the scene can give pixels another light than the paper's model."""
+    return any(
+        effect.is_present(scene)
+        for effect in EFFECTS
+        if isinstance(effect, LightEffect | OpticsEffect)
+    )
 
 
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:

@@ -5,8 +5,8 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.sensor import converter_step, deviation, saturation_value
 from occ_model.effects.effect import NoiseEffect, PixelEffect, Values
-from occ_model.effects.noise_bound import noise_bound
-from occ_model.effects.paper_view import reachable_luminances, shown_value
+from occ_model.effects.noise_bound import NoiseBounds
+from occ_model.effects.paper_view import PaperView, reachable_luminances, saturated_value
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -21,15 +21,24 @@ class FullWell(PixelEffect):
     label = "Full well"
     parameters = ("full_well",)
 
-    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - not averaged out
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether any column can have more light than a full well holds."""
+        return _above_full_well(scene) > 0.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
         """Bound the change by what the brightest column has beyond a full well."""
-        brightest = shown_value(reachable_luminances(scene)[1], scene)
-        return max(brightest - saturation_value(scene), 0.0)
+        return _above_full_well(view.scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
         """Cut off what is beyond a full well."""
         full = np.asarray(saturation_value(scene), dtype=values.dtype)
         return np.minimum(values, full)
+
+
+def _above_full_well(scene: Scene) -> float:
+    """Give the grey levels of the brightest column above a full well's; below 0 where none are."""
+    brightest = saturated_value(reachable_luminances(scene)[1], scene)
+    return brightest - saturation_value(scene)
 
 
 class FixedPattern(NoiseEffect):
@@ -44,9 +53,13 @@ class FixedPattern(NoiseEffect):
     parameters = ("gain_variation",)
     of_the_camera = True
 
-    def bound(self, scene: Scene, observable: Observable) -> float:
-        """Give the pattern itself, over the observed columns, and over the rows of each."""
-        return noise_bound(self, scene, observable) if scene.sensor.gain_variation else 0.0
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether the gains differ."""
+        return scene.sensor.gain_variation != 0.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:
+        """Give the pattern's own size at the light where it is largest."""
+        return _largest_noise(self, view, observable)
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
         """Give the standard deviation of pixels with these mean values."""
@@ -66,11 +79,20 @@ class SensorNoise(NoiseEffect):
     label = "Shot and read noise"
     parameters = ("pixel_pitch", "quantum_efficiency", "read_noise", "adc_bits")
 
-    def bound(self, scene: Scene, observable: Observable) -> float:
-        """Give the noise itself, over the observed columns, and over the rows of each."""
-        return noise_bound(self, scene, observable)
+    def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - as light is
+        """Say that every scene has it: light comes in photons."""
+        return True
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:
+        """Give the noise's own size at the light where it is largest."""
+        return _largest_noise(self, view, observable)
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
         """Give the standard deviation of pixels with these mean values."""
         constant = scene.sensor.read_noise**2 + converter_step(scene) ** 2 / 12.0
         return deviation(values, scene, lambda electrons: np.asarray(electrons + constant))
+
+
+def _largest_noise(effect: NoiseEffect, view: PaperView, observable: Observable) -> float:
+    """Give the noise that an effect alone can make, whatever the others make of the light."""
+    return NoiseBounds((effect,), view, moves_light=True).bounds(observable)[effect.name]

@@ -1,4 +1,4 @@
-"""The picture is darker towards its corners."""
+"""Vignetting: the picture is darker towards its corners."""
 
 import math
 from dataclasses import replace
@@ -10,7 +10,7 @@ from occ_model.arrays import Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import pixel_rays
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import off_axis_factor, reachable_luminances, shown_value
+from occ_model.effects.paper_view import PaperView, reachable_luminances, saturated_value
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -27,14 +27,17 @@ class Vignetting(OpticsEffect):
     label = "Vignetting"
     parameters = ("vignetting_exponent",)
 
-    def bound(self, scene: Scene, observable: Observable) -> float:  # noqa: ARG002 - not averaged out
+    def is_present(self, scene: Scene) -> bool:
+        """Say whether the light falls off at all."""
+        return scene.lens.vignetting_exponent != 0.0
+
+    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
         """Bound the change by that of a lit column in the observed rectangle's farthest corner."""
-        exponent = scene.lens.vignetting_exponent
-        if exponent == 0.0:
-            return 0.0
-        lost = -math.expm1(exponent / scene.camera.gamma * math.log(off_axis_factor(scene)))
-        # What lies above saturation loses less that is seen: most is lost from just there.
-        brightest = shown_value(reachable_luminances(scene)[1], scene)
+        scene = view.scene
+        power = scene.lens.vignetting_exponent / scene.camera.gamma
+        lost = -math.expm1(power * math.log(view.off_axis_factor))
+        # A saturated pixel loses less that is seen: one that is just saturated loses most.
+        brightest = saturated_value(reachable_luminances(scene)[1], scene)
         return brightest * lost
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:

@@ -1,10 +1,11 @@
-"""How a scene is simulated: what its picture may differ by, and where its noise comes from."""
+"""Settings of a simulation: its tolerance, its source of noise, its seed."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any, Literal, TypeAlias
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal, Self, TypeAlias
 
+from occ_model.scene.argument_checks import check_choice, check_seed, check_switches
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import LEVEL
 
@@ -30,7 +31,7 @@ TOLERANCE = Quantity(
 
 @dataclass(frozen=True, slots=True)
 class SimulationSettings:
-    """All that :func:`occ_model.render` is told besides the scene.
+    """The settings of :func:`occ_model.render`, which takes them one by one.
 
     Parameters
     ----------
@@ -52,6 +53,21 @@ class SimulationSettings:
     noise: NoiseSource = "exact"
     seed: int = 1
 
-    def arguments(self) -> dict[str, Any]:
-        """Give them as the keyword arguments of :func:`occ_model.render`."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}
+    def checked(self, effects: Sequence[str]) -> Self:
+        """Return the settings, the tolerance as a float, or refuse them.
+
+        Parameters
+        ----------
+        effects
+            The names that ``force`` may have.
+
+        Raises
+        ------
+        ParameterError
+            Naming the setting, its value and what is allowed.
+        """
+        check_seed(self.seed)
+        check_choice("noise", self.noise, NOISE_SOURCES)
+        tolerance = TOLERANCE.check(self.tolerance)
+        check_choice("observable", self.observable, OBSERVABLES)
+        return replace(self, tolerance=tolerance, force=check_switches(self.force, effects))

@@ -1,4 +1,4 @@
-"""What each column shows, as far as all rows are alike: light, exposure, the pixel's limits.
+"""The columns' pixel values, as far as all rows are alike: light, exposure, the pixel's limits.
 
 Where nothing in the plan makes rows differ, this is the whole simulation: the profile path.
 """
@@ -8,22 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import (
-    ColumnLight,
-    panel_values,
-    saturate,
-    surroundings_values,
-)
+from occ_model.camera.photometry import panel_values, saturate, surroundings_values
 from occ_model.effects.effect import LightEffect, PixelEffect
+from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
 from occ_model.results import Plan
-from occ_model.scene.scene import Scene
-from occ_model.simulation.stage_timer import StageClock
+from occ_model.simulation.stage_timer import StageTimer
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Columns:
-    """What each column shows.
+    """The pixel values of each column.
 
     Parameters
     ----------
@@ -39,29 +34,29 @@ class Columns:
     around: FloatArray
 
 
-def expose_columns(scene: Scene, chosen: Plan, clock: StageClock | None = None) -> Columns:
+def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = None) -> Columns:
     """Simulate the columns.
 
     Parameters
     ----------
-    scene
-        The scene.
+    view
+        The paper's view of the scene, which holds the exposure.
     chosen
         Its column effects are simulated.
-    clock
-        Is told of each stage.
+    timer
+        Times each stage.
     """
-    clock = clock or StageClock()
-    light = ColumnLight.of(scene)
-    clock.done("exposure")
+    timer = timer or StageTimer()
+    scene, light, panel = view.scene, view.light, view.values
     for effect in planned(chosen, LightEffect):
         light = effect.apply(scene, light)
-        clock.done(effect.name)
-    panel = panel_values(scene, light)
+        timer.stage_ended(effect.name)
+    if light is not view.light:
+        panel = panel_values(scene, light)
     surroundings = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     profile, around = panel, surroundings
-    clock.done("exposure")
+    timer.stage_ended("exposure")
     for limit in planned(chosen, PixelEffect):
         profile, around = limit.apply(scene, profile), limit.apply(scene, around)
-        clock.done(limit.name)
+        timer.stage_ended(limit.name)
     return Columns(panel, surroundings, saturate(profile), saturate(around))

@@ -1,4 +1,4 @@
-"""Where the noise's random numbers come from: drawn for each pixel, or taken from a plane again."""
+"""Sources of noise: random numbers drawn for each pixel, or taken again from one plane."""
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -11,15 +11,15 @@ from occ_model.arrays import Pixels
 from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.scene.scene import Scene
 
-Done: TypeAlias = Callable[[str], None]
-"""Is told that a stage has just ended."""
+StageEnded: TypeAlias = Callable[[str], None]
+"""Called with the name of a stage that has just ended."""
 
 _PLANE = 2**21
 """Numbers in the plane: eight megabytes, which stay in the processor's cache."""
 
 
 class Noise(Protocol):
-    """Makes the deviation of every pixel from its mean."""
+    """A source of the deviation of every pixel from its mean."""
 
     def deviation(self, values: Pixels, rows: int) -> Pixels:
         """Give the deviations of the next rows, in grey levels.
@@ -51,9 +51,11 @@ def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
 class ExactNoise:
     """Each pixel's number is drawn anew, for each effect from its own stream."""
 
-    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, done: Done) -> None:
+    def __init__(
+        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
+    ) -> None:
         self._scene = scene
-        self._done = done
+        self._stage_ended = stage_ended
         self._streams = [(effect, stream(effect, seed)) for effect in effects]
 
     def deviation(self, values: Pixels, rows: int) -> Pixels:
@@ -62,7 +64,7 @@ class ExactNoise:
         for effect, random in self._streams:
             normal = random.standard_normal(total.shape, dtype=np.float32)
             total += effect.apply(self._scene, values, normal)
-            self._done(effect.name)
+            self._stage_ended(effect.name)
         return total
 
 
@@ -74,10 +76,12 @@ class ReusedNoise:
     show it.
     """
 
-    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, done: Done) -> None:
+    def __init__(
+        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
+    ) -> None:
         self._scene = scene
         self._effects = effects
-        self._done = done
+        self._stage_ended = stage_ended
         self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
         self._places = _plane(scene.camera.columns)
         self._values: Pixels | None = None
@@ -91,7 +95,7 @@ class ReusedNoise:
             self._values = values
             self._spread = pixel_spread(self._effects, self._scene, values)
         total *= self._spread
-        self._done(self._effects[-1].name)  # the others come with it for nothing
+        self._stage_ended(self._effects[-1].name)  # all noises at once
         return total
 
 

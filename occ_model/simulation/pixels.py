@@ -10,16 +10,14 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import Optics, Panel, picture_rows
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.projection import panel_corners
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
 from occ_model.results import Plan
-from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource, Observable
 from occ_model.simulation.columns import Columns
 from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise
-from occ_model.simulation.stage_timer import StageClock
+from occ_model.simulation.stage_timer import StageTimer
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -50,42 +48,43 @@ class PixelExposure:
 
     Parameters
     ----------
-    scene
-        The scene.
+    view
+        The paper's view of the scene.
     plan
         Its effects are simulated.
     columns
-        What each column shows.
-    clock
-        Is told of each stage.
+        The pixel values of each column.
+    timer
+        Times each stage.
     """
 
     def __init__(
         self,
-        scene: Scene,
+        view: PaperView,
         plan: Plan,
         columns: Columns,
-        clock: StageClock,
+        timer: StageTimer,
     ) -> None:
-        self._scene = scene
-        self._clock = clock
+        self._scene = scene = view.scene
+        self._region = view.region
+        self._timer = timer
         self._columns = columns
         self._limits = planned(plan, PixelEffect)
         self._noises = planned(plan, NoiseEffect)
         self._files = planned(plan, FileEffect)
-        self._optics = Optics(panel_corners(scene))
+        self._optics = Optics(view.corners)
         for effect in planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
-            clock.done(effect.name)
+            timer.stage_ended(effect.name)
 
     def rows(self, seed: int, source: NoiseSource) -> Iterator[ExposedRows]:
         """Expose the rows from first to last."""
         make = ExactNoise if source == "exact" else ReusedNoise
         noise: Noise | None = None
         if self._noises:
-            noise = make(self._noises, self._scene, seed, self._clock.done)
+            noise = make(self._noises, self._scene, seed, self._timer.stage_ended)
         light = (self._columns.panel, self._columns.surroundings)
-        for rows in picture_rows(self._scene, self._optics, *light, self._clock.done):
+        for rows in picture_rows(self._scene, self._optics, *light, self._timer.stage_ended):
             mean = self._saturated(rows.values)
             height = rows.last - rows.first
             if noise is None:
@@ -100,7 +99,7 @@ class PixelExposure:
         """Limit mean values to what a pixel can hold."""
         for limit in self._limits:
             mean = limit.apply(self._scene, mean)
-            self._clock.done(limit.name)
+            self._timer.stage_ended(limit.name)
         return np.minimum(mean, np.float32(WHITE))
 
     def picture(
@@ -118,7 +117,7 @@ class PixelExposure:
         """
         camera = self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.uint8)
-        tally = _ColumnTally(camera.columns)
+        column_means = _ColumnMeans(camera.columns)
         panels: list[tuple[slice, Panel]] = []
         for exposed in self.rows(seed, source):
             if self._files:
@@ -126,18 +125,18 @@ class PixelExposure:
                 panels.append((exposed.place, exposed.panel))
             else:
                 _enhance(exposed, enhancement, image[exposed.place])
-                tally.add(exposed.panel, exposed.values)
-            self._clock.done("image")
+                column_means.add(exposed.panel, exposed.values)
+            self._timer.stage_ended("image")
         if self._files:
             image = self._through_files(image)
             for rows, panel in panels:
-                tally.add(panel, image[rows].astype(np.float32))
+                column_means.add(panel, image[rows].astype(np.float32))
                 _enhance_bytes(image[rows], enhancement, panel)
-            self._clock.done("image")
-        return image, tally.means(self._columns.profile)
+            self._timer.stage_ended("image")
+        return image, column_means.means(self._columns.profile)
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
-        """Give what the tolerance is of: pixel values before enhancement and rounding.
+        """Give the observable: pixel values before enhancement and rounding.
 
         Returns
         -------
@@ -145,8 +144,7 @@ class PixelExposure:
             ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it; ``"profile"``:
             the means of its columns.
         """
-        region = paper_view_of(self._scene).region
-        camera = self._scene.camera
+        region, camera = self._region, self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.float32)
         for exposed in self.rows(seed, source):
             image[exposed.place] = exposed.values
@@ -160,7 +158,7 @@ class PixelExposure:
     def _through_files(self, image: ByteArray) -> ByteArray:
         for file in self._files:
             image = file.apply(self._scene, image)
-            self._clock.done(file.name)
+            self._timer.stage_ended(file.name)
         return image
 
 
@@ -183,15 +181,15 @@ def _enhance_bytes(image: ByteArray, enhancement: Enhancement, panel: Panel) -> 
         image[:, panel] = enhancement.of_bytes(image[:, panel])
 
 
-class _ColumnTally:
-    """The mean of the panel's pixels in each column."""
+class _ColumnMeans:
+    """The mean of the panel's pixels in each column, from some rows at a time."""
 
     def __init__(self, columns: int) -> None:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)
 
     def add(self, panel: Panel, values: Pixels) -> None:
-        """Count some rows in."""
+        """Add some rows."""
         if not isinstance(panel, slice):
             self._sums += _column_sums(np.where(panel, values, np.float32(0.0)))
             self._counts += np.count_nonzero(panel, axis=0)

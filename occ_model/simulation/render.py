@@ -1,18 +1,24 @@
-"""From a scene to a frame: the stages in the order light travels, each one timed."""
+"""Render a scene: simulate the picture, stage by stage as light travels, each stage timed."""
 
 from collections.abc import Mapping
 
 from occ_model.arrays import Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.projection import check_size, paint, panel_corners
-from occ_model.effects.plan import plan
+from occ_model.camera.projection import check_size, paint
+from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.plan import plan_of
+from occ_model.effects.registry import NAMES
 from occ_model.results import Frame, Plan
-from occ_model.scene.argument_checks import check_choice, check_seed
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.scene.simulation_settings import NOISE_SOURCES, TOLERANCE, NoiseSource, Observable
+from occ_model.scene.simulation_settings import (
+    TOLERANCE,
+    NoiseSource,
+    Observable,
+    SimulationSettings,
+)
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.pixels import PixelExposure
-from occ_model.simulation.stage_timer import StageClock
+from occ_model.simulation.stage_timer import StageTimer
 
 
 def render(
@@ -55,32 +61,69 @@ def render(
         Part of the panel is behind the camera, the lens folds the picture, or the image would be
         too large.
     """
+    force = {} if force is None else force
+    return render_with(scene, SimulationSettings(tolerance, observable, force, noise, seed))
+
+
+def render_with(scene: Scene, settings: SimulationSettings) -> Frame:
+    """Simulate the picture that the scene's camera takes with some settings: see :func:`render`."""
     check_scene(scene)
-    check_seed(seed)
-    check_choice("noise", noise, NOISE_SOURCES)
-    clock = StageClock()
-    # The corners first: they cost nothing, and a pose without a picture is refused at once.
-    corners = panel_corners(scene)
+    settings = settings.checked(NAMES)
     check_size(scene.camera)
-    clock.done("projection")
-    chosen = plan(scene, tolerance, observable, force)
-    clock.done("plan")
-    columns = expose_columns(scene, chosen, clock)
+    timer = StageTimer()
+    view = paper_view_of(scene, timer.stage_ended)
+    chosen = plan_of(view, settings)
+    timer.stage_ended("plan")
+    return render_plan(view, chosen, seed=settings.seed, noise=settings.noise, timer=timer)
+
+
+def render_plan(
+    view: PaperView,
+    chosen: Plan,
+    *,
+    seed: int,
+    noise: NoiseSource = "exact",
+    timer: StageTimer | None = None,
+) -> Frame:
+    """Simulate a picture whose effects are chosen.
+
+    Parameters
+    ----------
+    view
+        The paper's view of the scene.
+    chosen
+        Its effects are simulated.
+    seed, noise
+        As for :func:`render`.
+    timer
+        Times each stage.
+
+    Raises
+    ------
+    ParameterError
+        The picture is too large for the JPEG file that the scene asks for.
+    ProjectionError
+        The lens folds the picture, or the image would be too large.
+    """
+    scene = view.scene
+    check_size(scene.camera)
+    timer = timer or StageTimer()
+    columns = expose_columns(view, chosen, timer)
     enhancement = Enhancement(columns.profile, scene.model.enhancement)
     enhanced = enhancement(columns.profile)
-    clock.done("enhancement")
+    timer.stage_ended("enhancement")
     if chosen.kinds <= {"column"}:
         profile = columns.profile
-        image = paint(enhanced, corners, scene.camera.rows, to_bytes(columns.around))
-        clock.done("image")
+        image = paint(enhanced, view.corners, scene.camera.rows, to_bytes(columns.around))
+        timer.stage_ended("image")
     else:
-        exposure = PixelExposure(scene, chosen, columns, clock)
+        exposure = PixelExposure(view, chosen, columns, timer)
         image, profile = exposure.picture(enhancement, seed, noise)
-    return Frame(scene, chosen, image, profile, enhanced, corners, clock.timings)
+    return Frame(scene, chosen, image, profile, enhanced, view.corners, timer.timings)
 
 
 def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "exact") -> Pixels:
-    """Give what a plan's tolerance is of: pixel values before enhancement and rounding.
+    """Simulate the observable that a plan's tolerance refers to.
 
     Parameters
     ----------
@@ -94,11 +137,11 @@ def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "
     Returns
     -------
     ndarray of float32
-        ``"image"``: the pixels of the panel's bounding rectangle, shape (rows, columns) of it;
-        ``"profile"``: the means of its columns.
+        Pixel values before enhancement and rounding. ``"image"``: the pixels of the panel's
+        bounding rectangle, shape (rows, columns) of it; ``"profile"``: the means of its columns.
     """
     check_size(scene.camera)
-    clock = StageClock()
-    columns = expose_columns(scene, chosen, clock)
-    exposure = PixelExposure(scene, chosen, columns, clock)
+    view, timer = paper_view_of(scene), StageTimer()
+    columns = expose_columns(view, chosen, timer)
+    exposure = PixelExposure(view, chosen, columns, timer)
     return exposure.observed(chosen.observable, seed, noise)

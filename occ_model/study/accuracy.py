@@ -148,7 +148,7 @@ def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator
     region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
-    seconds, columns = timed(partial(expose_columns, scene, chosen))
+    seconds, columns = timed(lambda: expose_columns(paper_view_of(scene), chosen))
     error = rms(columns.profile[seen] - truth) * chosen.stretch
     alone = "image" not in chosen.kinds and panel_span(scene) is not None
     if panel_span(scene) is not None:

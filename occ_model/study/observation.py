@@ -14,6 +14,7 @@ from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import saturate
 from occ_model.camera.projection import panel_corners, row_spans
 from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import planned
 from occ_model.receiver.decode import decode
 from occ_model.receiver.locate import bright_level
@@ -95,18 +96,18 @@ def decode_profile(
     span = panel_span(scene)
     if span is None or "image" in plan.kinds:
         return None
-    return observe_profile(scene, span, plan, random).read(scene, decoder)
+    return observe_profile(paper_view_of(scene), span, plan, random).read(scene, decoder)
 
 
 def observe_profile(
-    scene: Scene, span: Region, plan: Plan, random: np.random.Generator
+    view: PaperView, span: Region, plan: Plan, random: np.random.Generator
 ) -> Observation:
     """Give what every decoder would read of the image, without the image.
 
     Parameters
     ----------
-    scene
-        The scene.
+    view
+        The paper's view of the scene.
     span
         The rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at any
         start time.
@@ -115,7 +116,8 @@ def observe_profile(
     random
         Where the noise comes from.
     """
-    columns = expose_columns(scene, plan)
+    scene = view.scene
+    columns = expose_columns(view, plan)
     profile, around = columns.profile, columns.around
     if span.columns == 0:
         return Observation(to_bytes(around), None)

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.effects.plan import plan
+from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
@@ -16,8 +17,8 @@ from occ_model.results import DecodeResult, RateSettings, Region, SignalPath
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.simulation.render import render
+from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.simulation.render import render_plan
 from occ_model.study.observation import Observation, observe_profile, panel_span
 from occ_model.transmitter.packet import bits_of, packet_length
 
@@ -126,16 +127,17 @@ def _read(
     scene: Scene, settings: RateSettings, span: Region | None, random: np.random.Generator
 ) -> list[DecodeResult]:
     """Make one image, or its profile, and let every decoder read it."""
-    chosen = plan(scene, settings.tolerance, "profile", settings.force)
+    view = paper_view_of(scene)
+    own = SimulationSettings(settings.tolerance, "profile", settings.force)
+    chosen = plan_of(view, own.checked(NAMES))
     if span is not None and "image" not in chosen.kinds:
-        observed = observe_profile(scene, span, chosen, random)
+        observed = observe_profile(view, span, chosen, random)
         return [observed.read(scene, decoder) for decoder in settings.decoders]
     if settings.path == "profile":
         raise ParameterError(
             "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
         )
-    force = {decision.effect: decision.included for decision in chosen.decisions}
-    image = render(scene, seed=int(random.integers(_SEEDS)), force=force).image
+    image = render_plan(view, chosen, seed=int(random.integers(_SEEDS))).image
     first = decode(image, scene, settings.decoders[0])
     if first.signal is None:  # no panel was found, which other decoders find no more
         return [replace(first, decoder=decoder) for decoder in settings.decoders]

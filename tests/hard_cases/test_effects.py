@@ -25,6 +25,7 @@ from occ_model.effects.effect import NoiseEffect, OpticsEffect
 from occ_model.effects.emission import Emission
 from occ_model.effects.flicker import Flicker, ambient_shares, response
 from occ_model.effects.led_edges import LedEdges
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.effects.vignetting import Vignetting
 from occ_model.scene.scene import Scene
@@ -85,7 +86,7 @@ def test_whole_cycles_leave_nothing_and_short_exposures_all(
     found = response(scene)
     if turn.denominator == 1:
         assert found == 0.0
-        assert Flicker().bound(scene, "profile") == 0.0
+        assert Flicker().bound(paper_view_of(scene), "profile") == 0.0
     else:
         exact = mpmath.sinpi(mpmath.mpf(turn.numerator) / turn.denominator)
         exact /= mpmath.pi * mpmath.mpf(turn.numerator) / turn.denominator
@@ -149,7 +150,7 @@ def test_vignettings_bound_is_that_of_fifty_digits(
     scene = scene.replace(panel_width=100.0, panel_height=100.0)
     ray = corner_rays(scene)[0][2]
     exact = 255 * -mpmath.expm1(-mpmath.log(mpmath.norm(ray)) * exponent / gamma)
-    error = float(abs(Vignetting().bound(scene, "image") - exact) / exact)
+    error = float(abs(Vignetting().bound(paper_view_of(scene), "image") - exact) / exact)
     record("vignetting's bound, relative", "cos^1e-18 to cos^20", error)
     assert error <= 1e-9  # the cosine's own rounding, at the longest focal length
 
@@ -256,7 +257,9 @@ def test_light_effects_left_out_change_no_more_than_their_bounds_at_any_scale(
             without = saturate(panel_values(scene, light))
             change = saturate(panel_values(scene, effect.apply(scene, light))) - without
             found = float(np.sqrt(np.mean(change**2)))
-            beyond = max(found - effect.bound(scene, "profile") * (1 + 1e-9), 0.0) / 255
+            beyond = (
+                max(found - effect.bound(paper_view_of(scene), "profile") * (1 + 1e-9), 0.0) / 255
+            )
             record("light effects beyond their bounds, of full scale", "any light", beyond)
             assert beyond <= 1e-12
     assert luminance_levels(scene).min() >= 0.0

@@ -13,6 +13,7 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.camera.enhancement import Enhancement
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
@@ -20,8 +21,8 @@ from occ_model.results import Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.noise_source import ReusedNoise
-from occ_model.simulation.pixels import ExposedRows, PixelExposure, _ColumnTally
-from occ_model.simulation.stage_timer import StageClock
+from occ_model.simulation.pixels import ExposedRows, PixelExposure, _ColumnMeans
+from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.confidence import wilson_interval
 
 
@@ -110,7 +111,7 @@ def test_profile_means_are_those_of_exact_sums(
     blocks: list[tuple[np.ndarray, np.ndarray | slice]],
 ) -> None:
     columns = blocks[0][0].shape[1]
-    tally = _ColumnTally(columns)
+    tally = _ColumnMeans(columns)
     seen: list[list[float]] = [[] for _ in range(columns)]
     for values, panel in blocks:
         tally.add(panel, values)
@@ -135,8 +136,9 @@ PIXELS = Scene().replace(
 
 def exposed() -> tuple[PixelExposure, Enhancement]:
     plan = occ.plan(PIXELS, 0.0)
-    columns = expose_columns(PIXELS, plan)
-    return PixelExposure(PIXELS, plan, columns, StageClock()), Enhancement(columns.profile, "none")
+    view = paper_view_of(PIXELS)
+    columns = expose_columns(view, plan)
+    return PixelExposure(view, plan, columns, StageTimer()), Enhancement(columns.profile, "none")
 
 
 def blocks_of(exposure: PixelExposure) -> Iterator[ExposedRows]:
@@ -160,7 +162,7 @@ def test_profile_and_noise_means_of_sixteen_million_pixels_are_exact_to_1e_9() -
     record("profile means of 16 MP, grey levels", "noise of 30 electrons", error)
     assert error <= 1e-9
     # What the noise moves the mean by: it is not lost among the pixels, and no larger than due.
-    bare = expose_columns(PIXELS, occ.plan(PIXELS, math.inf)).profile
+    bare = expose_columns(paper_view_of(PIXELS), occ.plan(PIXELS, math.inf)).profile
     noise = pixels - bare[chosen]
     for column, place in enumerate(chosen.tolist()):
         mean = math.fsum(noise[:, column].tolist()) / 4608

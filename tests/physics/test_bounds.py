@@ -15,6 +15,7 @@ import occ_model as occ
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.photometry import luminance_of
 from occ_model.effects.effect import FileEffect, NoiseEffect
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -152,7 +153,11 @@ def excess(scene: Scene, name: str, around: Set[str], observable: Observable) ->
     bound = next(d.bound for d in plan.decisions if d.effect == name) / plan.stretch
     if name != FILE.name:  # whose bound is no mean over noise
         allowed = sampling(scene, around | {name}, change.size)
-        bound += FILE.propagated_change(scene, allowed, True) if file and allowed else allowed
+        bound += (
+            FILE.propagated_change(paper_view_of(scene), allowed, True)
+            if file and allowed
+            else allowed
+        )
     found = size(change, observable)
     return f"{observable}: {found:.4g} > {bound:.4g}" if found > bound + SINGLE else ""
 
@@ -201,7 +206,7 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(
         change -= picture(scene, frozenset(plan.included))
         allowed = sampling(scene, left_out, change.size)
         if FILE.name in plan and allowed:
-            allowed = FILE.propagated_change(scene, allowed, True)
+            allowed = FILE.propagated_change(paper_view_of(scene), allowed, True)
         found = size(change, observable) * plan.stretch
         most = tolerance + (allowed + SINGLE) * plan.stretch
         if found > most:

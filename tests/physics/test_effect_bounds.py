@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
@@ -40,7 +41,10 @@ def observed(scene: Scene, observable: Observable, without: str = "") -> np.ndar
 def exceeds(scene: Scene, name: str, observable: Observable) -> str:
     """Say by how much a change exceeds its bound, nothing where it does not."""
     change = observed(scene, observable) - observed(scene, observable, name)
-    found, bound = math.sqrt(np.mean(change**2)), BOUNDS[name].bound(scene, observable)
+    found, bound = (
+        math.sqrt(np.mean(change**2)),
+        BOUNDS[name].bound(paper_view_of(scene), observable),
+    )
     # The pixels are of single precision.
     return f"{found:.4g} > {bound:.4g}" if found > bound * (1 + 1e-4) + 1e-3 else ""
 
@@ -139,5 +143,7 @@ def test_noise_left_out_changes_no_more_than_its_bound(
     )
     change = math.sqrt(np.mean((noisy - clean) ** 2))
     # What is drawn differs from what is expected by the share that a sample of its size does.
-    largest = BOUNDS[name].bound(scene, observable) * (1 + 4 / math.sqrt(2 * noisy.size))
+    largest = BOUNDS[name].bound(paper_view_of(scene), observable) * (
+        1 + 4 / math.sqrt(2 * noisy.size)
+    )
     assert 0.0 < change <= largest

@@ -15,6 +15,7 @@ from occ_model.camera.photometry import (
     surroundings_values,
 )
 from occ_model.effects.defocus import Defocus, blur_of
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
 
@@ -106,7 +107,7 @@ def test_the_blur_of_a_disc_has_its_spread_along_each_axis() -> None:
 def test_a_panel_in_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
     focused = Scene().replace(focus_distance=1.2, distance=1.2)
     assert blur_of(focused) == 0.0
-    assert Defocus().bound(focused, "image") == 0.0
+    assert Defocus().bound(paper_view_of(focused), "image") == 0.0
     away = Scene().replace(focus_distance=0.6, distance=1.2)
     both = away.replace(point_spread=3.0)
     assert blur_of(both) == pytest.approx(math.hypot(3.0, blur_of(away)))
@@ -169,4 +170,4 @@ def test_leaving_defocus_out_changes_no_more_than_its_bound(
         for on in (True, False)
     )
     change = float(np.sqrt(np.mean((soft - sharp) ** 2)))
-    assert 0.0 < change <= Defocus().bound(scene, observable)  # type: ignore[arg-type]
+    assert 0.0 < change <= Defocus().bound(paper_view_of(scene), observable)  # type: ignore[arg-type]

@@ -11,6 +11,7 @@ import occ_model as occ
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import Distortion
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Lens, Scene
 
 ROWS, COLUMNS = 200, 400
@@ -144,7 +145,7 @@ def test_a_lens_without_coefficients_is_nothing(pose: dict[str, float], enhancem
     scene = bent(enhancement=enhancement, start_time=1.2345e-4, **pose)
     bare = occ.render(scene, tolerance=float("inf"))
     forced = occ.render(scene, tolerance=float("inf"), force={"distortion": True})
-    assert Distortion().bound(scene, "image") == 0.0
+    assert Distortion().bound(paper_view_of(scene), "image") == 0.0
     np.testing.assert_array_equal(forced.image, bare.image)
 
 
@@ -211,4 +212,4 @@ def test_leaving_distortion_out_changes_no_more_than_its_bound(
     change = occ.render(scene, force=ONLY).image.astype(float) - bare.image
     seen = change[top:bottom, left:right]
     # Both pictures are rounded, to the same two values.
-    assert np.sqrt(np.mean(seen**2)) <= Distortion().bound(scene, "image") + 0.01
+    assert np.sqrt(np.mean(seen**2)) <= Distortion().bound(paper_view_of(scene), "image") + 0.01

@@ -16,6 +16,7 @@ from occ_model.camera.photometry import (
 )
 from occ_model.camera.projection import image_points
 from occ_model.effects.emission import Emission
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 101, 301
@@ -120,7 +121,7 @@ def test_reflected_light_and_surroundings_stay_as_they_are() -> None:
 @pytest.mark.parametrize("averaging", ["pixel-value", "light"])
 def test_order_one_is_nothing(averaging: str) -> None:
     scene = steady(lambertian_order=1.0, yaw=0.7, pattern="", averaging=averaging, distance=4.0)
-    assert Emission().bound(scene, "image") == 0.0
+    assert Emission().bound(paper_view_of(scene), "image") == 0.0
     bare = occ.render(scene, tolerance=float("inf"))
     forced = occ.render(scene, tolerance=float("inf"), force={"emission": True})
     np.testing.assert_allclose(forced.profile, bare.profile, rtol=1e-5)
@@ -142,4 +143,4 @@ def test_leaving_bundling_out_changes_no_more_than_its_bound(luminance: float) -
     scene = steady(luminance=luminance, yaw=0.5, pattern="", distance=1.5)
     force = NO_NOISE | {"full-well": False}
     change = occ.render(scene, force=force, tolerance=0).profile - occ.column_profile(scene)
-    assert 0.0 < np.sqrt(np.mean(change**2)) <= Emission().bound(scene, "image")
+    assert 0.0 < np.sqrt(np.mean(change**2)) <= Emission().bound(paper_view_of(scene), "image")

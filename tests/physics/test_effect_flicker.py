@@ -12,6 +12,7 @@ import occ_model as occ
 from occ_model.camera.photometry import luminance_levels, pixel_value
 from occ_model.camera.projection import row_spans
 from occ_model.effects.flicker import Flicker, ambient_shares
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -95,7 +96,7 @@ def test_the_crest_is_at_phase_zero_and_the_trough_half_a_cycle_later() -> None:
 def test_whole_cycles_of_flicker_leave_nothing(cycles: int) -> None:
     scene = flickering(exposure_time=cycles / 128.0, flicker_frequency=128.0)
     np.testing.assert_allclose(ambient_shares(scene), 1.0, rtol=0, atol=1e-15)
-    assert Flicker().bound(scene, "image") == 0.0
+    assert Flicker().bound(paper_view_of(scene), "image") == 0.0
 
 
 def test_flicker_fades_as_the_sinc_of_the_exposure() -> None:
@@ -110,7 +111,7 @@ def test_no_depth_is_exactly_nothing(averaging: str) -> None:
     scene = flickering(flicker_depth=0.0, averaging=averaging)
     forced = occ.render(scene, tolerance=float("inf"), force={"flicker": True})
     without = occ.render(scene, tolerance=float("inf"))
-    assert Flicker().bound(scene, "profile") == 0.0
+    assert Flicker().bound(paper_view_of(scene), "profile") == 0.0
     np.testing.assert_array_equal(forced.profile, without.profile)
     np.testing.assert_array_equal(forced.image, without.image)
 
@@ -159,4 +160,4 @@ def test_the_panel_flickers_by_the_light_that_it_reflects(averaging: str) -> Non
 def test_leaving_flicker_out_changes_no_more_than_its_bound(depth: float, averaging: str) -> None:
     scene = flickering(flicker_depth=depth, averaging=averaging)
     change = occ.render(scene, force=ONLY_FLICKER).profile - occ.column_profile(scene)
-    assert 0.0 < np.sqrt(np.mean(change**2)) <= Flicker().bound(scene, "profile")
+    assert 0.0 < np.sqrt(np.mean(change**2)) <= Flicker().bound(paper_view_of(scene), "profile")

@@ -10,7 +10,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.effects.jpeg import Jpeg, quantization_steps
-from occ_model.effects.paper_view import region_of
+from occ_model.effects.paper_view import paper_view_of, region_of
 from occ_model.scene.scene import Scene
 
 QUALITIES = [1, 2, 5, 10, 20, 35, 49, 50, 51, 65, 80, 90, 95, 98, 99, 100]
@@ -65,7 +65,7 @@ def test_no_picture_changes_by_more_than_the_bound(quality: int) -> None:
         "one pixel": np.full((1, 1), 200.4),
         "worst": worst_case(quality).astype(float),
     }
-    bound = Jpeg().bound(scene, "image")
+    bound = Jpeg().bound(paper_view_of(scene), "image")
     for name, values in pictures.items():
         rounded = np.clip(np.rint(values), 0, 255).astype(np.uint8)
         change = Jpeg().apply(scene, rounded) - values
@@ -77,7 +77,7 @@ def test_the_worst_case_is_near_the_bound(quality: int) -> None:
     scene = kept_at(quality)
     worst = worst_case(quality)
     change = root_mean_square(Jpeg().apply(scene, worst) - worst.astype(float))
-    assert change > 0.3 * Jpeg().bound(scene, "image")
+    assert change > 0.3 * Jpeg().bound(paper_view_of(scene), "image")
 
 
 @pytest.mark.parametrize("quality", [5, 20, 50, 75, 95])
@@ -97,7 +97,7 @@ def test_a_panel_of_any_size_changes_by_no_more_than_the_bound(
     seen = (with_it - without)[
         region.first_row : region.last_row, region.first_column : region.last_column
     ]
-    assert root_mean_square(seen) <= Jpeg().bound(scene, "image")
+    assert root_mean_square(seen) <= Jpeg().bound(paper_view_of(scene), "image")
 
 
 def test_a_better_quality_changes_less() -> None:
@@ -112,7 +112,7 @@ def test_a_better_quality_changes_less() -> None:
 
 def test_quality_zero_is_no_file_at_all() -> None:
     scene = kept_at(0).replace(rows=60, columns=200, start_time=1.2345e-4)
-    assert Jpeg().bound(scene, "image") == 0.0
+    assert Jpeg().bound(paper_view_of(scene), "image") == 0.0
     assert "jpeg" not in occ.plan(scene, tolerance=0)
     bare = occ.render(scene, tolerance=math.inf)
     forced = occ.render(scene, tolerance=math.inf, force={"jpeg": True})

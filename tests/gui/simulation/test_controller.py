@@ -155,7 +155,7 @@ def test_simulating_and_reading_are_timed_apart_and_nothing_else_with_them(
     monkeypatch.setattr(controller, "perf_counter", count().__next__)
     timings = {"transmitter": 2.0, "camera": 3.0}
     frame = replace(occ.render(small_scene), timings=timings)
-    monkeypatch.setattr(occ, "render", lambda scene, **settings: frame)
+    monkeypatch.setattr(controller, "render_with", lambda scene, settings: frame)
     snapshot = simulate(small_scene)
     assert snapshot.simulation_seconds == 5.0
     assert snapshot.reading_seconds == 1

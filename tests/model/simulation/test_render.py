@@ -1,10 +1,39 @@
-"""The door of the simulation."""
+"""Rendering: what a frame holds, what it repeats, what it refuses."""
+
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
 
 import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.camera.exposure import lit_fraction
+from occ_model.camera.projection import panel_corners
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.render import render_with
+
+COSTLY = {work.__code__: work.__name__ for work in (lit_fraction, panel_corners)}
+
+
+@contextmanager
+def counted() -> Iterator[Counter[str]]:
+    """Count the calls of the exposure and of the projection, wherever they come from."""
+    calls: Counter[str] = Counter()
+
+    def count(frame: FrameType, event: str, _argument: object) -> None:
+        if event == "call" and frame.f_code in COSTLY:
+            calls[COSTLY[frame.f_code]] += 1
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        yield calls
+    finally:
+        sys.setprofile(before)
 
 
 @pytest.fixture(scope="module")
@@ -24,8 +53,42 @@ def test_a_frame_holds_what_its_image_is_made_of(scene: Scene) -> None:
 
 def test_every_stage_is_timed_in_the_order_it_ran(scene: Scene) -> None:
     timings = occ.render(scene, tolerance=np.inf).timings
-    assert list(timings) == ["projection", "plan", "exposure", "enhancement", "image"]
+    assert list(timings) == ["projection", "exposure", "plan", "enhancement", "image"]
     assert all(seconds >= 0.0 for seconds in timings.values())
+
+
+@pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
+@pytest.mark.parametrize("tolerance", [0.0, 0.5, np.inf])
+def test_a_picture_takes_one_exposure_and_one_projection(preset: str, tolerance: float) -> None:
+    scene = occ.load_preset(preset).replace(rows=60, code=5)
+    with counted() as calls:
+        occ.render(scene, tolerance=tolerance)
+    assert calls == {"lit_fraction": 1, "panel_corners": 1}
+
+
+def test_a_plan_takes_one_exposure_and_one_projection(scene: Scene) -> None:
+    with counted() as calls:
+        occ.plan(scene.replace(jpeg_quality=90, radial_k1=0.1), 0.5, "profile")
+    assert calls == {"lit_fraction": 1, "panel_corners": 1}
+
+
+@pytest.mark.parametrize(("path", "projections"), [("profile", 1), ("image", 0)])
+def test_five_images_take_five_exposures(scene: Scene, path: str, projections: int) -> None:
+    with counted() as calls:
+        occ.success_rate(scene, images=5, path=path)  # type: ignore[arg-type]
+    # The profile path looks once whether the panel is level.
+    assert calls == {"lit_fraction": 5, "panel_corners": 5 + projections}
+
+
+def test_settings_as_a_value_give_the_picture_that_they_give_one_by_one(scene: Scene) -> None:
+    settings = SimulationSettings(2.0, "profile", {"fixed-pattern": True}, "reused", 7)
+    one_by_one = occ.render(
+        scene, tolerance=2.0, observable="profile", force={"fixed-pattern": True},
+        noise="reused", seed=7,
+    )  # fmt: skip
+    as_a_value = render_with(scene, settings)
+    assert as_a_value.plan == one_by_one.plan
+    np.testing.assert_array_equal(as_a_value.image, one_by_one.image)
 
 
 @pytest.mark.parametrize("seed", [0, 7])

@@ -1,1 +1,1 @@
-"""Effects, their costs, and accuracy against time."""
+"""Accuracy against computing time: the table of effects and the plot of error over time."""

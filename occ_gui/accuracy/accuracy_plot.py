@@ -1,4 +1,4 @@
-"""Error over time, point by point, as a study measures them."""
+"""Plot of error against computing time, one point for each way of simulating."""
 
 import math
 from collections.abc import Sequence
@@ -22,57 +22,57 @@ COLOURS: dict[str, QColor] = dict(
 )
 
 _FLOOR = round(math.log10(LEAST_ERROR))
-"""The power of ten that smaller errors are drawn at."""
+"""Power of ten at which all smaller errors are drawn."""
 
 _LEAST_HEIGHT = 56
-"""Pixels: in a low window all panes have to share them."""
+"""Pixels: in a low window all panes share the height."""
 
 _LABEL_GAP = 14
 """Pixels between an axis, its numbers and its label."""
 
-_LADDER = "effects"
-"""The part whose points are numbered."""
+_NUMBERED_PART = "effects"
+"""The part of the study whose points are numbered."""
 
-_FAINT = 0.3
-"""Opacity of what is not of the scene as it is."""
+_OUTDATED_OPACITY = 0.3
+"""Opacity of points that were measured for an earlier scene."""
 
-_KEY_FROM = 640
-"""Width in pixels from which the names of the numbered points stand beside the plot."""
+_KEY_MIN_WIDTH = 640
+"""Smallest width in pixels at which the names of the numbered points are shown."""
 
 _SAMPLE = QSize(14, 14)
 
 _MARGIN = 0.35
-"""Powers of ten round the points, at least."""
+"""Smallest margin around the points, in powers of ten."""
 
 _RING = 10.0
-"""Pixels that a ring needs on each side."""
+"""Margin in pixels that the ring around a point needs."""
 
 _FARTHEST_POWER = 12.0
-"""The power of ten of milliseconds or levels, or of one over it, that can be brought into view."""
+"""Largest and, negated, smallest power of ten that the axes can show."""
 
 _LEAST_POWERS = 0.01
-"""Powers of ten across which the plot can be zoomed in."""
+"""Smallest range of the axes, in powers of ten."""
 
 
 class AccuracyPlot(QWidget):
-    """What each way of simulating costs in time, and how wrong it is.
+    """Computing time and error of each way of simulating the scene.
 
-    Until new points come, the last complete ones stay, faint.
+    Until new points are measured, the last complete ones stay, faded.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._points: list[AccuracyPoint] = []
-        self._shown: Sequence[AccuracyPoint] = ()
+        self._drawn: Sequence[AccuracyPoint] = ()
         self._complete: tuple[AccuracyPoint, ...] = ()
         self._measuring = False
         self._outdated = False
-        self._follows = True
+        self._fits_points = True
         self.title = ElidedLabel(self.tr("Error over time"))
         self.plot = new_plot(
             self.tr("Error over time"),
             self.tr("time (ms)"),
-            self.tr("levels"),
+            self.tr("error (levels)"),
             self.palette(),
             left=LogAxis("left", _FLOOR),
             bottom=LogAxis("bottom"),
@@ -80,10 +80,10 @@ class AccuracyPlot(QWidget):
         for side in ("left", "bottom"):
             self.plot.limit(side, _FARTHEST_POWER, _LEAST_POWERS)
         box = self.plot.getViewBox()
-        box.sigRangeChangedManually.connect(self._stop_following)
+        box.sigRangeChangedManually.connect(self._keep_range)
         box.sigResized.connect(self._fit)
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        # As wide as its widest number and the label, which pyqtgraph would find out too late.
+        # Wide enough for its widest number and the label: pyqtgraph widens it only while drawing.
         widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
         self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
         self._make_items()
@@ -119,7 +119,7 @@ class AccuracyPlot(QWidget):
             self.legend.add_sample(part, sample, _SAMPLE, words[part], meaning)
         self.legend.add_sample(
             "current", marker("o", 12, None), _SAMPLE, self.tr("now"),
-            self.tr("The settings at hand."),
+            self.tr("The current settings."),
         )  # fmt: skip
         self.plot.dress_with(self._dress)
 
@@ -130,7 +130,7 @@ class AccuracyPlot(QWidget):
             scatter.setBrush(seen_on(palette, COLOURS[part]))
         for part, line in self.lines.items():
             line.setPen(thin(seen_on(palette, COLOURS[part])))
-        self._numbers.set_colour(seen_on(palette, COLOURS[_LADDER]))
+        self._numbers.set_colour(seen_on(palette, COLOURS[_NUMBERED_PART]))
         grey = palette.color(QPalette.ColorRole.Mid)
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 
@@ -139,7 +139,7 @@ class AccuracyPlot(QWidget):
         self._fit_button.setText(self.tr("Fit"))
         self._fit_button.setAutoRaise(True)
         self._fit_button.setToolTip(self.tr("Show all points."))
-        self._fit_button.clicked.connect(self._follow)
+        self._fit_button.clicked.connect(self._fit_again)
         self.key = QLabel()
         self.key.setTextFormat(Qt.TextFormat.PlainText)
         self.key.setAccessibleName(self.tr("Numbered points"))
@@ -160,47 +160,49 @@ class AccuracyPlot(QWidget):
 
     @property
     def measured(self) -> tuple[AccuracyPoint, ...]:
-        """All points of the scene as it is; none while they are not complete."""
+        """All points of the current scene; none while the study is incomplete."""
         return () if self._measuring or self._outdated else self._complete
 
     def show_study_begun(self) -> None:
-        """Tell that points of the scene as it is are on their way."""
+        """Show that a study of the current scene has begun."""
         self._measuring, self._outdated, self._points = True, False, []
-        self._say(self.tr("measuring…"))
+        self._show_state(self.tr("measuring…"))
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        """Show one more point, which is so much of so many."""
+        """Add a point, the given number of a total."""
         self._points.append(point)
         self._draw(self._points, 1.0)
-        self._say(self.tr("measuring… {number} of {total}").format(number=number, total=total))
+        self._show_state(
+            self.tr("measuring… {number} of {total}").format(number=number, total=total)
+        )
 
     def show_study_finished(self) -> None:
-        """Tell that there are no more points."""
+        """Show that the study is complete."""
         self._measuring, self._complete = False, tuple(self._points)
         self._draw(self._points, 1.0)
-        self._say(self.tr("measured"))
+        self._show_state(self.tr("measured"))
 
     def show_study_outdated(self) -> None:
-        """Tell that what is shown is not of the scene as it is, and that nothing more comes."""
-        if self._outdated:  # at every move of a slider
+        """Fade the points: they belong to an earlier scene, and no more will be measured."""
+        if self._outdated:  # called at every move of a slider
             return
-        stopped, self._measuring, self._outdated = self._measuring, False, True
-        self._draw(self._complete or self._points, _FAINT)
-        if stopped:
-            self._say(self.tr("stopped"))
+        was_measuring, self._measuring, self._outdated = self._measuring, False, True
+        self._draw(self._complete or self._points, _OUTDATED_OPACITY)
+        if was_measuring:
+            self._show_state(self.tr("stopped"))
         elif self._complete:
-            self._say(self.tr("of the scene before"))
+            self._show_state(self.tr("of the previous scene"))
 
     def show_study_failed(self, sentence: str) -> None:
-        """Tell why no more points come."""
+        """Show why the study failed."""
         self.show_study_outdated()
-        self._say(sentence)
+        self._show_state(sentence)
 
-    def _say(self, state: str) -> None:
+    def _show_state(self, state: str) -> None:
         self.title.set_full_text(self.tr("Error over time: {state}").format(state=state))
 
     def _draw(self, points: Sequence[AccuracyPoint], opacity: float) -> None:
-        self._shown = points
+        self._drawn = points
         for part in ACCURACY_PARTS:
             of_part = [point for point in points if point.part == part]
             self.scatters[part].setData(*_places(of_part), data=of_part)
@@ -210,27 +212,27 @@ class AccuracyPlot(QWidget):
             line.setOpacity(opacity)
         self.rings.setData(*_places([point for point in points if point.current]))
         self.rings.setOpacity(opacity)
-        ladder = [point for point in points if point.part == _LADDER]
-        others = [point for point in points if point.part != _LADDER]
-        self._numbers.show(*_places(ladder), zip(*_places(others), strict=True))
+        numbered = [point for point in points if point.part == _NUMBERED_PART]
+        others = [point for point in points if point.part != _NUMBERED_PART]
+        self._numbers.show(*_places(numbered), zip(*_places(others), strict=True))
         self._numbers.set_opacity(opacity)
-        self.key.setText("\n".join(f"{n}  {point.name}" for n, point in enumerate(ladder)))
+        self.key.setText("\n".join(f"{n}  {point.name}" for n, point in enumerate(numbered)))
         self._show_key()
         self._fit()
 
-    def _follow(self) -> None:
-        self._follows = True
+    def _fit_again(self) -> None:
+        self._fits_points = True
         self._fit()
 
-    def _stop_following(self) -> None:
-        self._follows = False
+    def _keep_range(self) -> None:
+        self._fits_points = False
 
     def _fit(self) -> None:
-        """Show all points; while more come, those before as well, so that nothing jumps."""
-        if not self._follows:
+        """Show all points; during a study the previous ones too, so that the axes do not jump."""
+        if not self._fits_points:
             return
         before = self._complete if self._measuring else ()
-        xs, ys = _places((*self._shown, *before))
+        xs, ys = _places((*self._drawn, *before))
         box = self.plot.getViewBox()
         box.setXRange(min(xs, default=-2.0) - _MARGIN, max(xs, default=3.0) + _MARGIN, padding=0)
         top = max(ys, default=2.0)
@@ -238,16 +240,16 @@ class AccuracyPlot(QWidget):
         box.setYRange(_FLOOR - margin, top + margin, padding=0)
 
     def _show_key(self) -> None:
-        self.key.setVisible(self.width() >= _KEY_FROM and bool(self.key.text()))
+        self.key.setVisible(self.width() >= _KEY_MIN_WIDTH and bool(self.key.text()))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the names of the numbered points where there is room."""
+        """Show the names of the numbered points if the plot is wide enough."""
         super().resizeEvent(event)
         self._show_key()
 
 
 def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
-    """Give the logarithms of times in milliseconds and of errors in levels."""
+    """Return the decimal logarithms of the times in milliseconds and of the errors in levels."""
     times = [math.log10(max(1e3 * point.seconds, 1e-6)) for point in points]
     return times, [math.log10(max(point.error, LEAST_ERROR)) for point in points]
 

@@ -1,11 +1,11 @@
-"""What the simulation leaves out, what it costs, and how wrong it is."""
+"""Pane of accuracy and time: the tolerance, the table of effects, and error over time."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
 from occ_gui.accuracy.effect_table import EffectTable
-from occ_gui.accuracy.plan_changes import PlanWatch, Switch
+from occ_gui.accuracy.plan_changes import PlanChanges, Switch
 from occ_gui.scene.parameter_rows import QuantityRow, explain
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -13,49 +13,51 @@ from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 
 _WIDEST_TABLE = 780
-"""Pixels that the table can make use of; the rest is the plot's."""
+"""Largest useful width of the table in pixels; the plot takes the remaining width."""
 
 
 class AccuracyView(QWidget):
     """The tolerance, the table of effects, and the plot of error over time.
 
-    What is not seen is not drawn: the view must be told whether it is.
+    It draws only while it is visible, as :meth:`set_seen` says.
     """
 
     visibility_changed = Signal(bool)
-    """Whether it can be seen from now on."""
+    """Whether the pane has become visible or hidden."""
 
     tolerance_edited = Signal(float)
     observable_chosen = Signal(str)
     noise_chosen = Signal(str)
     effect_switched = Signal(str, object)
-    """An effect's name, and whether the user wants it in: True, False, or None for the plan."""
+    """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
 
     refused = Signal(str)
-    """Why what was entered is not taken."""
+    """Why an entered value is refused."""
 
     plan_changed = Signal(str)
-    """Which effects the plan has just switched, in words."""
+    """A sentence on the effects that the plan has just switched in or out."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
         self._drawn: Snapshot | None = None
         self._seen = False
-        self._watch = PlanWatch()
+        self._changes = PlanChanges()
         self._sentence = ""
         self._marked: tuple[Switch, ...] = ()
         self.tolerance = QuantityRow(TOLERANCE)
         self.tolerance.edited.connect(lambda _, value: self.tolerance_edited.emit(value))
         self.tolerance.refused.connect(self.refused)
         self.observable = _choice(
-            self.tr("What the tolerance is of"),
-            self.tr("What the tolerance is of: the panel's pixels, or the means of its columns."),
+            self.tr("What the tolerance limits"),
+            self.tr(
+                "What the tolerance limits: errors of the panel's pixels, or of its column means."
+            ),
             {"image": self.tr("picture"), "profile": self.tr("profile")},
         )
         self.noise = _choice(
             self.tr("Noise"),
-            self.tr("Noise drawn for every pixel, or taken from a plane again: much faster."),
+            self.tr("Noise drawn for every pixel, or taken from a stored plane: much faster."),
             {"reused": self.tr("reused"), "exact": self.tr("exact")},
         )
         self.observable.activated.connect(
@@ -95,13 +97,13 @@ class AccuracyView(QWidget):
         layout.addWidget(panes, 1)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the view."""
+        """Draw from now on, or stop drawing while the pane is hidden."""
         self._seen = seen
         self._redraw()
         self.visibility_changed.emit(seen)
 
     def show_settings(self, settings: SimulationSettings) -> None:
-        """Show how the scene is simulated, without telling of it."""
+        """Show the simulation settings without emitting a signal."""
         self.tolerance.show_value(settings.tolerance)
         self.observable.setCurrentIndex(self.observable.findData(settings.observable))
         self.noise.setCurrentIndex(self.noise.findData(settings.noise))
@@ -110,8 +112,8 @@ class AccuracyView(QWidget):
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
         self._snapshot = snapshot
-        if self._watch.see(snapshot.frame):
-            self._sentence = self._what_switched()
+        if self._changes.update(snapshot.frame):
+            self._sentence = self._switched_effects()
             self.plan_changed.emit(self._sentence)
         self._redraw()
 
@@ -121,27 +123,27 @@ class AccuracyView(QWidget):
             return
         self._drawn = snapshot
         frame = snapshot.frame
-        new = {switch.decision.effect for switch in self._watch.switches}
+        new = {switch.decision.effect for switch in self._changes.switches}
         self.table.show_frame(frame, new)
-        if self._marked != self._watch.switches:
-            self._marked = self._watch.switches
+        if self._marked != self._changes.switches:
+            self._marked = self._changes.switches
             self.table.bring_into_view(new)
         effects = sum(frame.timings.get(effect, 0.0) for effect in frame.plan.included)
-        cost = self.tr("Frame {frame:.1f} ms, of it effects {effects:.1f} ms").format(
+        cost = self.tr("Frame {frame:.1f} ms, of which effects {effects:.1f} ms").format(
             frame=1e3 * snapshot.simulation_seconds, effects=1e3 * effects
         )
         self.summary.set_full_text(f"{self._sentence}. {cost}" if self._sentence else cost)
 
-    def _what_switched(self) -> str:
-        """Say which effects were switched, and what that cost or saved."""
-        switches = self._watch.switches
-        came = [self._cost(s, "+") for s in switches if s.decision.included]
-        went = [self._cost(s, "−") for s in switches if not s.decision.included]  # noqa: RUF001
+    def _switched_effects(self) -> str:
+        """Name the effects that were switched, with the time that each costs or saves."""
+        switches = self._changes.switches
+        switched_in = [self._cost(s, "+") for s in switches if s.decision.included]
+        switched_out = [self._cost(s, "−") for s in switches if not s.decision.included]  # noqa: RUF001
         parts = []
-        if came:
-            parts.append(self.tr("Switched in: {effects}").format(effects="; ".join(came)))
-        if went:
-            parts.append(self.tr("Switched out: {effects}").format(effects="; ".join(went)))
+        if switched_in:
+            parts.append(self.tr("Switched in: {effects}").format(effects="; ".join(switched_in)))
+        if switched_out:
+            parts.append(self.tr("Switched out: {effects}").format(effects="; ".join(switched_out)))
         return ". ".join(parts)
 
     def _cost(self, switch: Switch, sign: str) -> str:

@@ -1,4 +1,4 @@
-"""Measure what accuracy costs in time, while the scene is at rest and somebody looks."""
+"""Controller of the accuracy study: it runs while the scene is unchanged and the pane visible."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -14,31 +14,31 @@ from occ_model.results import AccuracyPoint
 from occ_model.study.accuracy import accuracy, point_count
 
 IDLE_MS = 700
-"""How long the scene must not have moved."""
+"""Milliseconds without a change after which the study starts."""
 
 
 class AccuracyPane(Protocol):
-    """A pane that shows the points of a study as they come."""
+    """A pane that shows the points of a study as they are measured."""
 
     def show_study_begun(self) -> None:
-        """Tell that points of the scene as it is are on their way."""
+        """Show that a study of the current scene has begun."""
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        """Show one more point, which is so much of so many."""
+        """Add a point, the given number of a total."""
 
     def show_study_finished(self) -> None:
-        """Tell that there are no more points."""
+        """Show that the study is complete."""
 
     def show_study_outdated(self) -> None:
-        """Tell that what is shown is not of the scene as it is, and that nothing more comes."""
+        """Show that the points belong to an earlier scene, and that no more will be measured."""
 
     def show_study_failed(self, sentence: str) -> None:
-        """Tell why no more points come."""
+        """Show why the study failed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """One point of a study, and how many there will be."""
+    """One point of a study, and the total number of points."""
 
     point: AccuracyPoint
     total: int
@@ -58,18 +58,18 @@ def measure(request: SimulationRequest, report: Report) -> None:
 
 
 class AccuracyController(QObject):
-    """Starts the study when nothing has moved for a while, and ends it when something does.
+    """Starts the study when nothing has changed for a while, and cancels it at the next change.
 
-    It never runs beside the simulation of a picture: both would be slower, and its times wrong.
+    It never runs during the simulation of a picture: both would be slower, and its times wrong.
 
     Parameters
     ----------
     scenes, settings
-        What is measured.
+        The scene and the simulation settings that are measured.
     simulation
-        Goes first.
+        The simulation of pictures, which takes precedence.
     pane
-        Shows the points; nothing is measured until it is said to be seen.
+        Shows the points; nothing is measured while it is hidden.
     """
 
     def __init__(
@@ -94,7 +94,7 @@ class AccuracyController(QObject):
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
         for store in (scenes, settings):
-            store.changed.connect(self._move_on)
+            store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
 
     @property
@@ -106,7 +106,7 @@ class AccuracyController(QObject):
         return SimulationRequest(self._scenes.scene, self._settings.settings)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the points."""
+        """Measure while the pane is visible, and stop when it is hidden."""
         self._seen = seen
         if seen:
             self._wait_until_idle()
@@ -116,7 +116,7 @@ class AccuracyController(QObject):
             self.runner.cancel()
             self._pane.show_study_outdated()
 
-    def _move_on(self) -> None:
+    def _restart(self) -> None:
         self._idle_timer.stop()
         self.runner.cancel()
         self._done = None
@@ -129,7 +129,7 @@ class AccuracyController(QObject):
 
     def _start(self) -> None:
         if not self._simulation.runner.is_idle:
-            return  # once it is, there is another wait
+            return  # it starts again when the simulation is idle
         self._count = 0
         self.runner.start(self._request())
         self._pane.show_study_begun()
@@ -147,6 +147,6 @@ class AccuracyController(QObject):
         self._pane.show_study_failed(sentence)
 
     def stop(self) -> None:
-        """Measure no more."""
+        """Stop measuring."""
         self._idle_timer.stop()
         self.runner.stop()

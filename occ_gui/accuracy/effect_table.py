@@ -1,4 +1,4 @@
-"""The effects as a table: what each can change, what the plan does with it, and what it costs."""
+"""Table of effects: bound, decision of the plan, computing time, and a switch for each."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -24,36 +24,36 @@ from occ_model.results import Decision, Frame
 _Index = QModelIndex | QPersistentModelIndex
 
 SWITCH, EFFECT, DECISION, BOUND, TIME, REASON = range(6)
-"""The columns."""
+"""The columns of the table."""
 
 _TINT = QColor(REGION)
 _TINT.setAlpha(70)
 
 _LEADING = 7
-"""Pixels between the lines of the table: few, so that all effects fit into the pane."""
+"""Pixels between the rows: few, so that all effects fit into the pane."""
 
 _STATES: tuple[bool | None, ...] = (None, True, False)
-"""What the entries of a switch stand for."""
+"""Choices of a switch: the plan decides, on, off."""
 
 
 @dataclass(frozen=True, slots=True)
 class EffectRow:
-    """What one row shows.
+    """Contents of one row.
 
     Parameters
     ----------
     effect
         The effect's name.
     texts
-        One text a column.
+        The text of each column.
     reason
-        Why, as a sentence.
+        The reason for the decision, as a sentence.
     included
-        Whether it is simulated.
+        Whether the effect is simulated.
     absent
-        Whether the scene has none of it and nothing is simulated.
+        Whether the scene does not have the effect and it is not simulated.
     new
-        Whether it has just been switched.
+        Whether the plan has just switched it.
     """
 
     effect: str
@@ -65,21 +65,21 @@ class EffectRow:
 
 
 class EffectModel(QAbstractTableModel):
-    """The rows of the table; only what differs from what is shown is told of."""
+    """The rows of the table; only changed rows are reported to the view."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.rows: tuple[EffectRow, ...] = ()
         self._titles = {
-            SWITCH: (self.tr("Switch"), self.tr("Who decides: the plan, or you.")),
+            SWITCH: (self.tr("Switch"), self.tr("Whether the plan decides, or you.")),
             EFFECT: (self.tr("Effect"), self.tr("In the order that light travels.")),
             DECISION: (self.tr("Plan"), self.tr("Whether it is simulated.")),
             BOUND: (
                 self.tr("Levels"),
                 self.tr("How much leaving it out can change, in levels of the stretched profile."),
             ),
-            TIME: (self.tr("ms"), self.tr("Time that it took in the picture shown.")),
-            REASON: (self.tr("Why"), self.tr("The reason of the decision.")),
+            TIME: (self.tr("ms"), self.tr("Its computing time in the picture shown.")),
+            REASON: (self.tr("Why"), self.tr("The reason for the decision.")),
         }
 
     def show_frame(self, frame: Frame, new: Collection[str]) -> None:
@@ -114,13 +114,13 @@ class EffectModel(QAbstractTableModel):
         return 0 if parent.isValid() else len(self.rows)
 
     def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
-        """Count what is shown of each."""
+        """Count the columns."""
         return 0 if parent.isValid() else len(self._titles)
 
     def headerData(  # noqa: N802 - Qt's name
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
     ) -> Any:
-        """Give the columns' titles, and what they mean as tooltips."""
+        """Return the titles of the columns, and their meanings as tooltips."""
         if orientation != Qt.Orientation.Horizontal:
             return None
         title, meaning = self._titles[section]
@@ -131,7 +131,7 @@ class EffectModel(QAbstractTableModel):
         return meaning if role == Qt.ItemDataRole.ToolTipRole else None
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        """Give a cell's text and look."""
+        """Return the text, tooltip, alignment and colours of a cell."""
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
@@ -154,7 +154,7 @@ def _levels(bound: float) -> str:
 
 
 def _milliseconds(seconds: float | None) -> str:
-    """Write a time; an effect that comes with another one for nothing has none."""
+    """Format a time; an effect that is computed together with another one has none of its own."""
     if seconds is None:
         return "0"
     return f"{1e3 * seconds:.2f}" if seconds < 0.01 else f"{1e3 * seconds:.1f}"
@@ -178,18 +178,18 @@ def _colour(row: EffectRow, column: int) -> QColor | None:
 
 
 class _FlatSwitch(QComboBox):
-    """A list of words as flat as a line of the table, with its font."""
+    """A combo box as low as a row of the table."""
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Need no more than the text does."""
+        """Return the smallest size that shows the text."""
         return QSize(super().minimumSizeHint().width(), self.fontMetrics().height() + _LEADING)
 
 
 class EffectTable(QTableView):
-    """The table, with a switch in each row."""
+    """The table of effects with a switch in each row."""
 
     switched = Signal(str, object)
-    """An effect's name, and whether the user wants it in: True, False, or None for the plan."""
+    """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -220,14 +220,14 @@ class EffectTable(QTableView):
         self.effects.show_frame(frame, new)
 
     def bring_into_view(self, effects: Collection[str]) -> None:
-        """Scroll to the first of some effects."""
+        """Scroll to the first of these effects."""
         for place, row in enumerate(self.effects.rows):
             if row.effect in effects:
                 self.scrollTo(self.effects.index(place, EFFECT))
                 return
 
     def show_force(self, force: Mapping[str, bool]) -> None:
-        """Show which effects are switched by hand, without telling of it."""
+        """Show which effects the user has switched, without emitting a signal."""
         self._force = force
         for effect, switch in self.switches.items():
             switch.setCurrentIndex(_STATES.index(force.get(effect)))
@@ -256,7 +256,7 @@ class EffectTable(QTableView):
         return switch
 
     def _size_sections(self) -> None:
-        """Give every column but the last the room that its widest text needs."""
+        """Make every column but the last as wide as its widest text."""
         header, metrics = self.horizontalHeader(), self.fontMetrics()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
         self.resizeColumnToContents(EFFECT)

@@ -1,4 +1,4 @@
-"""What the plan last switched in or out."""
+"""Changes of the simulation plan: the effects that it last switched in or out."""
 
 from dataclasses import dataclass
 
@@ -7,30 +7,30 @@ from occ_model.results import Decision, Frame
 
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """One effect that came into the simulation or went out of it.
+    """One effect that was switched into the simulation or out of it.
 
     Parameters
     ----------
     decision
-        What the plan now does with the effect.
+        The plan's new decision on the effect.
     seconds
-        Time that it takes in the first picture with it, or took in the last one.
+        Its computing time in the first picture with it, or in the last one before it was left out.
     """
 
     decision: Decision
     seconds: float
 
 
-class PlanWatch:
-    """Compares each picture's plan with that of the picture before."""
+class PlanChanges:
+    """Compares each picture's plan with that of the previous picture."""
 
     def __init__(self) -> None:
         self._last: Frame | None = None
         self.switches: tuple[Switch, ...] = ()
-        """The last effects that were switched at once; they stay until others are."""
+        """The effects of the latest change; they stay until the next change."""
 
-    def see(self, frame: Frame) -> bool:
-        """Take in the next picture; say whether its plan includes other effects."""
+    def update(self, frame: Frame) -> bool:
+        """Compare the next picture; return whether its plan includes other effects."""
         last, self._last = self._last, frame
         if last is None:
             return False

@@ -1,4 +1,4 @@
-"""Numbers beside the points of a plot, where there is room for them."""
+"""Numbers beside the points of a plot, placed so that they cover neither points nor each other."""
 
 from collections.abc import Iterable, Sequence
 
@@ -7,13 +7,13 @@ from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QColor
 
 _SIDES = ((1, -1), (-1, -1), (1, 1), (-1, 1), (0, -1), (0, 1), (1, 0), (-1, 0))
-"""Where a number can stand: to the right or left of its point, above or below it."""
+"""Possible places of a number: right or left of its point, above or below it."""
 
-_AWAY = 11.0
-"""Pixels from a point's centre to the centre of its number."""
+_DISTANCE = 11.0
+"""Distance in pixels from a point's centre to the centre of its number."""
 
 _POINT = 8.0
-"""Pixels that a point is wide."""
+"""Width of a point in pixels."""
 
 
 class PointNumbers:
@@ -37,7 +37,7 @@ class PointNumbers:
     def show(
         self, xs: Sequence[float], ys: Sequence[float], others: Iterable[tuple[float, float]] = ()
     ) -> None:
-        """Show a number beside each of some points, clear of these and of others."""
+        """Show a number beside each of these points, clear of these and of other points."""
         self._places = [QPointF(x, y) for x, y in zip(xs, ys, strict=True)]
         self._others = [QPointF(x, y) for x, y in others]
         while len(self._items) < len(self._places):
@@ -47,13 +47,13 @@ class PointNumbers:
         self._arrange()
 
     def set_colour(self, colour: QColor) -> None:
-        """Write the numbers in a colour."""
+        """Set the colour of the numbers."""
         self._colour = colour
         for item in self._items:
             item.setColor(colour)
 
     def set_opacity(self, opacity: float) -> None:
-        """Let the numbers fade with their points."""
+        """Set the opacity of the numbers."""
         for item in self._items:
             item.setOpacity(opacity)
 
@@ -61,7 +61,7 @@ class PointNumbers:
         box = self._plot.getViewBox()
         points = [box.mapViewToScene(place) for place in (*self._places, *self._others)]
         taken = [_around(point, _POINT, _POINT) for point in points]
-        room = box.sceneBoundingRect()
+        area = box.sceneBoundingRect()
         for number, item in enumerate(self._items):
             item.hide()
             if number >= len(self._places):
@@ -69,9 +69,9 @@ class PointNumbers:
             size = item.textItem.boundingRect()
             width, height = size.width() - 6.0, size.height() - 8.0  # without its margins
             for right, down in _SIDES:
-                centre = points[number] + QPointF(right * _AWAY, down * _AWAY)
+                centre = points[number] + QPointF(right * _DISTANCE, down * _DISTANCE)
                 rect = _around(centre, width, height)
-                if room.contains(rect) and not any(rect.intersects(other) for other in taken):
+                if area.contains(rect) and not any(rect.intersects(other) for other in taken):
                     taken.append(rect)
                     item.setPos(box.mapSceneToView(centre))
                     item.show()

@@ -89,7 +89,7 @@ def test_points_measured_before_the_scene_moved_are_called_so(plot: AccuracyPlot
     measure(plot)
     plot.show_study_finished()
     plot.show_study_outdated()
-    assert plot.title.toolTip().endswith(": of the scene before")
+    assert plot.title.toolTip().endswith(": of the previous scene")
 
 
 def test_why_nothing_was_measured_is_said(plot: AccuracyPlot) -> None:

@@ -118,7 +118,7 @@ def test_a_wrong_tolerance_is_refused_with_a_sentence_and_the_field_shows_what_h
 
 def test_the_frames_time_and_the_effects_share_are_told(in_front: Application) -> None:
     assert in_front.accuracy.summary.toolTip().startswith("Frame ")
-    assert "of it effects" in in_front.accuracy.summary.toolTip()
+    assert "of which effects" in in_front.accuracy.summary.toolTip()
 
 
 def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Application) -> None:

@@ -23,25 +23,25 @@ TOTAL = 3
 
 
 class RecordingPane:
-    """A pane that keeps all that it is told."""
+    """A pane that keeps all that it receives."""
 
     def __init__(self) -> None:
-        self.told: list[str] = []
+        self.received: list[str] = []
 
     def show_study_begun(self) -> None:
-        self.told.append("begun")
+        self.received.append("begun")
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        self.told.append(f"{point.name} {number}/{total}")
+        self.received.append(f"{point.name} {number}/{total}")
 
     def show_study_finished(self) -> None:
-        self.told.append("finished")
+        self.received.append("finished")
 
     def show_study_outdated(self) -> None:
-        self.told.append("outdated")
+        self.received.append("outdated")
 
     def show_study_failed(self, sentence: str) -> None:
-        self.told.append(sentence)
+        self.received.append(sentence)
 
 
 class Bench:
@@ -65,8 +65,8 @@ class Bench:
     def allow(self, points: int) -> None:
         self._allowed.release(points)
 
-    def wait_for(self, told: str) -> None:
-        self._qtbot.waitUntil(lambda: told in self.pane.told)
+    def wait_for(self, received: str) -> None:
+        self._qtbot.waitUntil(lambda: received in self.pane.received)
 
     def wait_until_idle(self) -> None:
         self._qtbot.waitUntil(lambda: self.simulation.runner.is_idle and self.controller.is_idle)
@@ -91,10 +91,10 @@ def test_at_rest_and_seen_the_points_come_one_by_one(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
-    assert "finished" not in bench.pane.told
+    assert "finished" not in bench.pane.received
     bench.allow(2)
     bench.wait_until_idle()
-    assert bench.pane.told == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
+    assert bench.pane.received == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
     assert bench.measured == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
 
 
@@ -118,10 +118,10 @@ def test_a_change_cancels_the_study_at_once_and_the_next_is_of_what_is_now(
     else:
         bench.settings.set_tolerance(2.0)
     assert not bench.controller.runner.is_running
-    assert bench.pane.told[-1] == "outdated"
+    assert bench.pane.received[-1] == "outdated"
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
-    after = bench.pane.told[bench.pane.told.index("outdated") + 1 :]
+    after = bench.pane.received[bench.pane.received.index("outdated") + 1 :]
     assert after == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
     assert bench.measured[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
 
@@ -132,11 +132,11 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench) -> No
     bench.wait_for("point 0 1/3")
     bench.controller.set_seen(False)
     assert bench.controller.is_idle
-    assert bench.pane.told[-1] == "outdated"
+    assert bench.pane.received[-1] == "outdated"
     bench.controller.set_seen(True)
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
-    assert bench.pane.told[-1] == "finished"
+    assert bench.pane.received[-1] == "finished"
 
 
 def test_what_has_been_measured_is_not_measured_again_when_shown_again(bench: Bench) -> None:
@@ -146,7 +146,7 @@ def test_what_has_been_measured_is_not_measured_again_when_shown_again(bench: Be
     bench.controller.set_seen(False)
     bench.controller.set_seen(True)
     assert bench.controller.is_idle
-    assert bench.pane.told[-1] == "finished"
+    assert bench.pane.received[-1] == "finished"
 
 
 def test_the_study_waits_while_a_picture_is_simulated(
@@ -173,7 +173,7 @@ def test_a_study_that_fails_tells_why_and_is_not_tried_again(
     monkeypatch.setattr(module, "accuracy", refuse)
     bench.controller.set_seen(True)
     bench.wait_until_idle()
-    assert bench.pane.told == ["begun", "The panel is behind the camera."]
+    assert bench.pane.received == ["begun", "The panel is behind the camera."]
 
 
 def test_the_models_own_study_has_as_many_points_as_it_says() -> None:

@@ -99,22 +99,22 @@ def test_each_row_has_a_switch_that_is_named_and_explained(table: EffectTable) -
 
 
 def test_a_switch_tells_what_is_wanted_of_its_effect(table: EffectTable, qtbot: QtBot) -> None:
-    told: list[tuple[str, object]] = []
-    table.switched.connect(lambda *what: told.append(what))
+    received: list[tuple[str, object]] = []
+    table.switched.connect(lambda *what: received.append(what))
     for key in (Qt.Key.Key_Down, Qt.Key.Key_Down, Qt.Key.Key_Home):
         qtbot.keyClick(table.switches["jpeg"], key)
-    assert told == [("jpeg", True), ("jpeg", False), ("jpeg", None)]
+    assert received == [("jpeg", True), ("jpeg", False), ("jpeg", None)]
 
 
 def test_switches_show_what_is_forced_and_tell_nothing(table: EffectTable) -> None:
-    told: list[object] = []
-    table.switched.connect(lambda *what: told.append(what))
+    received: list[object] = []
+    table.switched.connect(lambda *what: received.append(what))
     table.show_force({"jpeg": True, "flicker": False})
     shown = {effect: switch.currentText() for effect, switch in table.switches.items()}
     assert {e: t for e, t in shown.items() if t != "auto"} == {"jpeg": "on", "flicker": "off"}
     table.show_force({})
     assert {switch.currentText() for switch in table.switches.values()} == {"auto"}
-    assert told == []
+    assert received == []
 
 
 def test_a_row_out_of_sight_is_brought_into_view(table: EffectTable) -> None:

@@ -12,7 +12,7 @@ from occ_gui.decoding.bit_strip import BitStrip
 Picture = Callable[[Sequence[int], Sequence[int]], NDArray[np.uint8]]
 
 CLEARLY = 40
-"""Grey levels by which pixels must differ to be told apart in print."""
+"""Grey levels by which pixels must differ to be distinguished in print."""
 
 
 @pytest.fixture

@@ -26,7 +26,7 @@ FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 
 class RecordingPane:
-    """A pane that keeps all that it is told."""
+    """A pane that keeps all that it receives."""
 
     def __init__(self) -> None:
         self.known: list[int] = []

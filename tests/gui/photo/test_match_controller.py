@@ -231,11 +231,11 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_saved_match_says_what_was_measured_from_which_photo_when_and_how_surely(
     bench: Bench, own: Path
 ) -> None:
-    told: list[str] = []
-    bench.controller.saved.connect(told.append)
+    received: list[str] = []
+    bench.controller.saved.connect(received.append)
     bench.start(sent="square", square_frequency=1000.0)
     bench.controller.save("my phone", "Measured from stripes.png", DAY)
-    assert told == ["my phone"]
+    assert received == ["my phone"]
     assert (own / "my phone.toml").is_file()
     preset = preset_named("my phone")
     assert bench.controller.match is not None

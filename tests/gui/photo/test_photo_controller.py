@@ -120,12 +120,12 @@ def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
 
 
 def test_progress_is_told_from_the_beginning_to_the_end(bench: Bench, photo_file: Path) -> None:
-    told: list[object] = []
-    bench.controller.begun.connect(lambda: told.append("begun"))
-    bench.controller.progressed.connect(told.append)
-    bench.controller.ended.connect(lambda: told.append("ended"))
+    received: list[object] = []
+    bench.controller.begun.connect(lambda: received.append("begun"))
+    bench.controller.progressed.connect(received.append)
+    bench.controller.ended.connect(lambda: received.append("ended"))
     bench.open(photo_file)
-    assert (told[0], told[1], told[-2], told[-1]) == ("begun", 0.0, 1.0, "ended")
+    assert (received[0], received[1], received[-2], received[-1]) == ("begun", 0.0, 1.0, "ended")
 
 
 def test_a_cancelled_reading_is_given_up_at_once_and_the_last_photo_stays(
@@ -226,9 +226,9 @@ def test_another_channel_is_taken_of_the_open_photo_and_of_the_next(
 
 
 def test_how_photos_are_read_is_told_at_every_change(bench: Bench) -> None:
-    told: list[object] = []
-    bench.controller.reading_changed.connect(told.append)
+    received: list[object] = []
+    bench.controller.reading_changed.connect(received.append)
     bench.controller.scan_along("lines")
     bench.controller.take_channel("red")
-    assert told == [PhotoReading("lines", "brightest"), PhotoReading("lines", "red")]
-    assert bench.controller.reading == told[-1]
+    assert received == [PhotoReading("lines", "brightest"), PhotoReading("lines", "red")]
+    assert bench.controller.reading == received[-1]

@@ -95,17 +95,17 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_photo(photo)
-    told: list[str] = []
-    view.facts.channel_chosen.connect(told.append)
-    view.facts.scan_axis_chosen.connect(told.append)
+    received: list[str] = []
+    view.facts.channel_chosen.connect(received.append)
+    view.facts.scan_axis_chosen.connect(received.append)
     choices = ((view.facts.channel, CHANNELS), (view.facts.scan_axis, SCAN_AXES))
     for control, keys in choices:
         assert [control.itemData(place) for place in range(control.count())] == list(keys)
         choose(qtbot, control, keys[1])
-    assert told == [CHANNELS[1], SCAN_AXES[1]]
+    assert received == [CHANNELS[1], SCAN_AXES[1]]
     view.facts.show_reading("red", "lines")
     assert (view.facts.channel.key(), view.facts.scan_axis.key()) == ("red", "lines")
-    assert len(told) == 2
+    assert len(received) == 2
 
 
 def test_everything_that_the_model_can_be_asked_for_can_be_chosen(view: PhotoView) -> None:
@@ -160,15 +160,15 @@ def test_what_is_known_can_be_entered_where_it_is_asked_for(
 ) -> None:
     view.show_photo(photo)
     view.show_scene(occ.Scene())
-    told: list[tuple[str, float]] = []
-    view.form.edited.connect(lambda name, value, _: told.append((name, value)))
+    received: list[tuple[str, float]] = []
+    view.form.edited.connect(lambda name, value, _: received.append((name, value)))
     for name, typed in (("switching_frequency", "2kHz"), ("readout_time", "9us")):
         field = view.form.known[name]
         field.selectAll()
         qtbot.keyClicks(field, typed)
         qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
         choose(qtbot, view.form.estimate, "switching_frequency")
-    assert told == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
+    assert received == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
 
 
 def test_a_match_of_what_is_no_longer_known_is_told_from_one_that_is(
@@ -248,8 +248,8 @@ def test_a_blinking_led_is_told_by_its_cycles_too(
 ) -> None:
     view.show_photo(photo)
     view.show_match(replace(match, pattern="10"))
-    told = view.result.values["switching_frequency"].text()
-    assert told == "2 kHz (given): blinks at 1 kHz"
+    text = view.result.values["switching_frequency"].text()
+    assert text == "2 kHz (given): blinks at 1 kHz"
 
 
 def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, match: Match) -> None:
@@ -318,14 +318,14 @@ def test_without_a_match_there_is_nothing_to_apply(
 def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
     view: PhotoView, photo: Photo
 ) -> None:
-    told: list[Placement] = []
-    view.placement.placed.connect(told.append)
+    received: list[Placement] = []
+    view.placement.placed.connect(received.append)
     view.show_photo(photo)
     view.show_placement(Placement(862.237, 3.5, 1.25), by_hand=True)
     form = view.placement
     assert (form.column.value(), form.row.value(), form.scale.value()) == (862.24, 3.5, 1.25)
     assert form.reset.isEnabled()
-    assert told == []
+    assert received == []
     view.show_placement(Placement(), by_hand=False)
     assert not form.reset.isEnabled()
 
@@ -333,15 +333,15 @@ def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
 def test_a_field_that_is_changed_moves_the_photo_and_leaves_the_others_digits(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
-    told: list[Placement] = []
-    view.placement.placed.connect(told.append)
+    received: list[Placement] = []
+    view.placement.placed.connect(received.append)
     view.show_photo(photo)
     view.show_placement(Placement(862.237123, 3.5, 1.0), by_hand=False)
     field = view.placement.row
     field.selectAll()
     qtbot.keyClicks(field, "10")
     qtbot.keyClick(field, Qt.Key.Key_Return)
-    assert told == [Placement(862.237123, 10.0, 1.0)]
+    assert received == [Placement(862.237123, 10.0, 1.0)]
 
 
 def test_moving_by_mouse_and_resetting_are_told(

@@ -205,12 +205,12 @@ def test_what_a_mode_does_not_need_is_not_there(
 def test_choosing_a_mode_tells_it_and_shows_nothing_by_itself(
     view: ImageView, photo: Photo, qtbot: QtBot
 ) -> None:
-    told: list[str] = []
-    view.mode_chosen.connect(told.append)
+    received: list[str] = []
+    view.mode_chosen.connect(received.append)
     view.show_photo(photo)
     view.mode.setFocus()
     qtbot.keyClick(view.mode, Qt.Key.Key_Down)
-    assert told == ["blend"]
+    assert received == ["blend"]
     assert view.photo.isVisible()
 
 

@@ -158,17 +158,17 @@ def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) ->
 
 
 def test_moving_and_scaling_the_frame_tells_where_the_photo_is_to_lie(screen: Screen) -> None:
-    told: list[Placement] = []
-    screen.overlay.placed.connect(told.append)
+    received: list[Placement] = []
+    screen.overlay.placed.connect(received.append)
     screen.overlay.set_photo(even(200, 50, 80))
     screen.overlay.set_mode("blend")
     screen.overlay.set_movable(True)
-    assert told == []
+    assert received == []
     screen.overlay.frame.setPos(QPointF(29.5, 39.5))
-    assert told == [Placement(30.0, 40.0, 1.0)]
+    assert received == [Placement(30.0, 40.0, 1.0)]
     screen.overlay.frame.setSize((160, 100))
-    assert told[-1] == Placement(30.5, 40.5, 2.0)
-    rect = rect_of(even(200, 50, 80), told[-1])
+    assert received[-1] == Placement(30.5, 40.5, 2.0)
+    rect = rect_of(even(200, 50, 80), received[-1])
     assert rect == QRectF(29.5, 39.5, 160, 100)
 
 
@@ -206,13 +206,13 @@ def test_the_mouse_moves_the_photo_by_its_frame_and_not_the_view(unhurried: Scre
     overlay.set_placement(Placement(20.0, 20.0))
     overlay.set_mode("blend")
     overlay.set_movable(True)
-    told: list[Placement] = []
-    overlay.placed.connect(told.append)
+    received: list[Placement] = []
+    overlay.placed.connect(received.append)
     before = unhurried.box.viewRect()
     drag(unhurried, (60, 45), (90, 65))
-    assert told[-1].column == pytest.approx(50.0, abs=1.5)
-    assert told[-1].row == pytest.approx(40.0, abs=1.5)
-    assert told[-1].scale == pytest.approx(1.0)
+    assert received[-1].column == pytest.approx(50.0, abs=1.5)
+    assert received[-1].row == pytest.approx(40.0, abs=1.5)
+    assert received[-1].scale == pytest.approx(1.0)
     assert unhurried.box.viewRect() == before
 
 
@@ -223,11 +223,11 @@ def test_the_mouse_scales_the_photo_by_a_corner_of_its_frame(unhurried: Screen) 
     overlay.set_placement(Placement(20.0, 20.0))
     overlay.set_mode("blend")
     overlay.set_movable(True)
-    told: list[Placement] = []
-    overlay.placed.connect(told.append)
+    received: list[Placement] = []
+    overlay.placed.connect(received.append)
     drag(unhurried, (100, 70), (140, 95))
-    assert told[-1].scale == pytest.approx(1.5, abs=0.05)
-    rect = rect_of(even(200, 50, 80), told[-1])
+    assert received[-1].scale == pytest.approx(1.5, abs=0.05)
+    rect = rect_of(even(200, 50, 80), received[-1])
     assert (rect.left(), rect.top()) == pytest.approx((19.5, 19.5), abs=1.0)
 
 

@@ -6,51 +6,55 @@ from occ_gui.picture.placement import LARGEST_SCALE, LEAST_SCALE, Placement, Pla
 
 
 @pytest.fixture
-def told() -> list[Placement]:
+def received() -> list[Placement]:
     return []
 
 
 @pytest.fixture
-def store(told: list[Placement]) -> PlacementStore:
+def store(received: list[Placement]) -> PlacementStore:
     store = PlacementStore()
-    store.changed.connect(told.append)
+    store.changed.connect(received.append)
     return store
 
 
-def test_what_suits_holds_and_is_told_once(store: PlacementStore, told: list[Placement]) -> None:
+def test_what_suits_holds_and_is_told_once(
+    store: PlacementStore, received: list[Placement]
+) -> None:
     store.suggest(Placement(3.0, 4.0))
     store.suggest(Placement(3.0, 4.0))
     assert store.placement == Placement(3.0, 4.0)
-    assert told == [Placement(3.0, 4.0)]
+    assert received == [Placement(3.0, 4.0)]
     assert not store.is_by_hand
 
 
 def test_what_the_user_chose_holds_whatever_suits(
-    store: PlacementStore, told: list[Placement]
+    store: PlacementStore, received: list[Placement]
 ) -> None:
     store.move(Placement(1.0, 2.0, 0.5))
     store.suggest(Placement(3.0, 4.0))
     assert store.placement == Placement(1.0, 2.0, 0.5)
-    assert told == [Placement(1.0, 2.0, 0.5)]
+    assert received == [Placement(1.0, 2.0, 0.5)]
     assert store.is_by_hand
 
 
-def test_reset_goes_back_to_what_suits_by_now(store: PlacementStore, told: list[Placement]) -> None:
+def test_reset_goes_back_to_what_suits_by_now(
+    store: PlacementStore, received: list[Placement]
+) -> None:
     store.move(Placement(1.0, 2.0, 0.5))
     store.suggest(Placement(3.0, 4.0))
     store.reset()
-    assert told[-1] == store.placement == Placement(3.0, 4.0)
+    assert received[-1] == store.placement == Placement(3.0, 4.0)
     assert not store.is_by_hand
-    told.clear()
+    received.clear()
     store.reset()
-    assert told == []
+    assert received == []
 
 
 def test_moving_by_hand_to_where_it_is_is_told_since_it_now_stays(
-    store: PlacementStore, told: list[Placement]
+    store: PlacementStore, received: list[Placement]
 ) -> None:
     store.move(Placement())
-    assert told == [Placement()]
+    assert received == [Placement()]
     assert store.is_by_hand
 
 

@@ -1,1 +1,1 @@
-"""The decode result and its steps."""
+"""The result of decoding and the steps to it."""

@@ -1,4 +1,4 @@
-"""Sent and received bits under one another, wrong ones marked by shape and colour."""
+"""Strip of bits: the sent ones over the received ones, wrong ones marked by shape and colour."""
 
 from collections.abc import Sequence
 
@@ -32,7 +32,7 @@ class BitStrip(QWidget):
         self.setAccessibleName(self.tr("Sent and received bits"))
 
     def show_bits(self, sent: Sequence[int], received: Sequence[int]) -> None:
-        """Show bits, the first sent first; what was not received may be missing at the end."""
+        """Show bits in the order of sending; bits that were not received are missing at the end."""
         self._sent = tuple(int(bit) for bit in sent)
         self._received = tuple(int(bit) for bit in received)[: len(self._sent)]
         wrong = self.wrong_places()
@@ -46,16 +46,16 @@ class BitStrip(QWidget):
         self.update()
 
     def wrong_places(self) -> list[int]:
-        """Say which of the received bits differ from those sent."""
+        """Return the indices of the received bits that differ from the sent ones."""
         pairs = zip(self._sent, self._received, strict=False)
         return [place for place, (sent, received) in enumerate(pairs) if sent != received]
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Two rows of cells."""
+        """Return the size of two rows of cells."""
         return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Cells can shrink, rows cannot."""
+        """Return the smallest size: narrower cells in rows of full height."""
         return QSize(_LABEL + 10 * 12, self.sizeHint().height())
 
     @guarded

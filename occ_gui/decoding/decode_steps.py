@@ -13,16 +13,15 @@ from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, SIMULATION, THRESHOLD, n
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import DecodeResult
 
-_CHIP_BAND = 0.16
-"""Height of the chips' strip below the signal, as a share of the signal's range."""
-
+_CHIP_STRIP_HEIGHT = 0.16
+"""Height of the strip of chips below the signal, as a fraction of the signal's range."""
 
 _COLOURS = (BAND, SIMULATION)
-"""Of the run lengths of zeros, and of ones."""
+"""Colours of the run lengths of zeros and of ones."""
 
 
 class _LevelAxis(Axis):
-    """An axis without numbers below zero, where no level lies but only the chips' strip."""
+    """An axis without numbers below zero, where only the strip of chips is drawn."""
 
     def tickStrings(  # noqa: N802 - pyqtgraph's name
         self, values: list[float], scale: float, spacing: float
@@ -32,9 +31,9 @@ class _LevelAxis(Axis):
 
 
 class SignalPlot(QWidget):
-    """The signal with its threshold and the chips read under it; or the signal folded.
+    """The signal, its threshold and the chips read; or the signal folded on one packet.
 
-    The folded signal is that of a decoder which compares it with the forward model of a code.
+    A decoder that compares the signal with the forward model of a code folds it.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -67,7 +66,7 @@ class SignalPlot(QWidget):
         layout.addWidget(self.plot, 1)
 
     def show_result(self, result: DecodeResult, packet_columns: float) -> None:
-        """Show the steps of this result; ``packet_columns`` says how much of them at first."""
+        """Show the steps of this result, at first two packets of ``packet_columns`` each."""
         folded = result.folded is not None
         if result.folded is not None and result.model is not None:
             self._show_folded(result.folded, result.model)
@@ -95,7 +94,7 @@ class SignalPlot(QWidget):
         _draw(self.signal, signal)
         self.model.setData([], [])
         low, high = float(signal.min()), float(signal.max())
-        strip = max(high - low, 1.0) * _CHIP_BAND
+        strip = max(high - low, 1.0) * _CHIP_STRIP_HEIGHT
         if result.threshold is not None:
             self.threshold.setValue(result.threshold)
         if result.chip_starts is not None:
@@ -117,7 +116,7 @@ class SignalPlot(QWidget):
 
 
 class _CountAxis(Axis):
-    """An axis on which bars that hang down count as those that stand."""
+    """An axis of counts, whose numbers below zero are written without a sign."""
 
     def tickStrings(  # noqa: N802 - pyqtgraph's name
         self, values: list[float], _scale: float, _spacing: float
@@ -126,7 +125,7 @@ class _CountAxis(Axis):
 
 
 class RunLengthPlot(QWidget):
-    """How often each run length occurs, of ones and of zeros, and where Otsu's threshold splits."""
+    """Histograms of the run lengths of ones and of zeros, with the thresholds that split them."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -1,4 +1,4 @@
-"""What the receiver read: the verdict, the bits, and the steps behind them."""
+"""Pane of decoding: whether the code was read, the bits, and the steps of the decoder."""
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
@@ -12,10 +12,10 @@ _STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "conf
 
 
 class DecodeView(QWidget):
-    """The decode result in words, sent and received bits, and what was measured on the way."""
+    """The result in a sentence, sent and received bits, and the quantities measured on the way."""
 
     decoder_chosen = Signal(str)
-    """The decoder whose result is shown."""
+    """The name of the decoder that the user chose to see."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -47,7 +47,7 @@ class DecodeView(QWidget):
         layout.addWidget(self.signal, 1)
         layout.addWidget(self.run_lengths, 1)
         layout.addStretch()
-        # Before the first result there is nothing to show, and nothing that needs room.
+        # Before the first result these are empty.
         for part in (self.strip, self.reason, self.signal, self.run_lengths):
             part.hide()
         for step in self._steps.values():
@@ -71,7 +71,7 @@ class DecodeView(QWidget):
         return form
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the last ones."""
+        """Show these results in place of the previous ones."""
         self._snapshot = snapshot
         results = (snapshot.decoded, *snapshot.others)
         with QSignalBlocker(self.decoders):
@@ -89,7 +89,7 @@ class DecodeView(QWidget):
         return (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
 
     def decoder(self) -> str:
-        """Give the name of the decoder whose result is shown; empty before the first one."""
+        """Return the name of the decoder whose result is shown; empty before the first result."""
         return "" if self._snapshot is None else self._chosen(self._snapshot).decoder
 
     def _choose(self) -> None:
@@ -135,7 +135,7 @@ class DecodeView(QWidget):
         )
 
     def _measured(self, decoded: DecodeResult) -> dict[str, str]:
-        """Say what was measured on the way; nothing for a step that was not taken."""
+        """Format the measured quantities; empty for a step that was not reached."""
         region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
         found: dict[str, str | None] = {
             "bright": None if decoded.location is None else self._bright(decoded.location),

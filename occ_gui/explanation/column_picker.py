@@ -1,4 +1,4 @@
-"""Pick a column of a profile: with the mouse over it, by a click, or with the arrow keys."""
+"""Column picker: choose a column of a profile by mouse, by a click, or with the arrow keys."""
 
 import pyqtgraph as pg
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
@@ -16,7 +16,7 @@ _STEPS = {
 
 
 class ColumnPicker(QObject):
-    """Marks a column of a plot, and tells which one the user means.
+    """Marks a column of a plot, and emits a signal for the column that the user picks.
 
     Parameters
     ----------
@@ -31,10 +31,10 @@ class ColumnPicker(QObject):
     """The column that was clicked on."""
 
     stepped = Signal(int)
-    """By how many columns the arrow keys go."""
+    """The number of columns to move on, negative to the left."""
 
     released = Signal()
-    """The column is no longer to be held."""
+    """The user releases the held column."""
 
     def __init__(self, plot: Plot) -> None:
         super().__init__(plot)
@@ -53,12 +53,12 @@ class ColumnPicker(QObject):
         plot.dress_with(self._dress)
 
     def set_active(self, active: bool) -> None:
-        """Say whether columns are picked at all."""
+        """Let the user pick columns, or not."""
         self._active = active
         self.marker.setVisible(active)
 
     def show_column(self, column: int, held: bool) -> None:
-        """Mark a column: by a dashed line, or by a full one where it is held."""
+        """Mark a column by a dashed line, or by a solid line if it is held."""
         self._held = held
         self._dress(self._plot.palette())
         self.marker.setValue(column)
@@ -85,7 +85,7 @@ class ColumnPicker(QObject):
         return int(round(self._box.mapSceneToView(place).x()))  # noqa: RUF046 - it has no type
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Let the arrow keys go from column to column, and Escape let go."""
+        """Move from column to column by the arrow keys, and release the held one by Escape."""
         if self._active and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             key = Qt.Key(event.key())
             if key in _STEPS:

@@ -1,4 +1,4 @@
-"""Fill the equations with the numbers of the moment, and tell what has changed in them."""
+"""Controller of the equations: their current numbers, and which parameters have just changed."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -17,11 +17,11 @@ class EquationPane(Protocol):
     """A pane that shows equations."""
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        """Show these in place of the last ones, and which parameters have just changed."""
+        """Show these equations, with the terms of the changed parameters marked."""
 
 
 class EquationController(QObject):
-    """Follows the scene while the equations can be seen.
+    """Updates the equations with the scene while they are visible.
 
     Parameters
     ----------
@@ -40,10 +40,10 @@ class EquationController(QObject):
         scenes.changed.connect(self._show)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the equations."""
+        """Update the equations while they are visible."""
         self._seen = seen
         if seen and self._shown != self._scenes.scene:
-            self._shown = None  # what changed meanwhile has not just changed
+            self._shown = None  # changes made while hidden are not recent
             self._show(self._scenes.scene)
 
     def _show(self, scene: Scene) -> None:

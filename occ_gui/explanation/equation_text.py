@@ -1,4 +1,4 @@
-"""Equations as text: in symbols, in numbers, and what comes out."""
+"""Equations as text: in symbols, in numbers, and their results."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -9,10 +9,10 @@ from PySide6.QtWidgets import QFrame, QTextBrowser, QWidget
 from occ_model.results.teaching import Equation, Term
 
 HIGHLIGHT_MS = 1500
-"""How long a term stays marked after what it depends on has changed."""
+"""Milliseconds that a term stays marked after one of its parameters has changed."""
 
 _MARK = "background-color:#F7D774; color:#000000; font-weight:600; text-decoration:underline;"
-"""Seen by any eye: by colour, by weight and by a line."""
+"""Marked by colour, weight and underline, so that colour-blind readers see it too."""
 
 _RAISED = re.compile(r"(<su[bp]>.*?</su[bp]>)")
 _SYMBOL = re.compile(r"[A-Za-zγ]+")  # noqa: RUF001 - the equation's own letter
@@ -28,9 +28,11 @@ class EquationText(QTextBrowser):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._equations: tuple[Equation, ...] = ()
-        self.setAccessibleName(self.tr("Equations with the numbers of the moment"))
+        self.setAccessibleName(self.tr("Equations with their current numbers"))
         self.setToolTip(
-            self.tr("What depends on the latest change is marked and underlined for a moment.")
+            self.tr(
+                "Terms that depend on the latest change are marked and underlined for a moment."
+            )
         )
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMinimumHeight(_LEAST_HEIGHT)
@@ -41,7 +43,7 @@ class EquationText(QTextBrowser):
         self._fading.timeout.connect(lambda: self._write(frozenset()))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        """Show these in place of the last ones, and which parameters have just changed."""
+        """Show these equations, with the terms of the changed parameters marked."""
         self._equations = tuple(equations)
         self._fading.stop()
         self._write(changed)
@@ -52,15 +54,15 @@ class EquationText(QTextBrowser):
         bar = self.verticalScrollBar()
         place = bar.value()
         self.setHtml("".join(self._paragraphs(equation, changed) for equation in self._equations))
-        bar.setValue(place)  # a new text would begin at its top
+        bar.setValue(place)  # setHtml scrolls to the top
 
     def _paragraphs(self, equation: Equation, changed: frozenset[str]) -> str:
-        symbols = _written(((_in_italics(t.text), t) for t in equation.symbols), changed)
-        numbers = _written(((_base_in_italics(t.text), t) for t in equation.numbers), changed)
+        symbols = _joined(((_in_italics(t.text), t) for t in equation.symbols), changed)
+        numbers = _joined(((_base_in_italics(t.text), t) for t in equation.numbers), changed)
         source = equation.source
         if source.startswith("("):
             source = self.tr("equation {number}").format(number=source)
-        # Where nothing comes out the sentence that says why is no value.
+        # The sentence that says why a result is undefined is not a value.
         sign = "" if equation.result.startswith("undefined") else "= "
         meaning = _base_in_italics(equation.meaning)
         return (
@@ -72,7 +74,7 @@ class EquationText(QTextBrowser):
 
 
 def _in_italics(text: str) -> str:
-    """Set letters that stand for a quantity as such, but not their indices and exponents."""
+    """Set the letters of quantities in italics, but not their indices and exponents."""
     parts = _RAISED.split(text)
     return "".join(
         part if _RAISED.fullmatch(part) else _SYMBOL.sub(r"<i>\g<0></i>", part) for part in parts
@@ -80,12 +82,12 @@ def _in_italics(text: str) -> str:
 
 
 def _base_in_italics(text: str) -> str:
-    """Set letters that carry an index as a quantity's, in a text of words or numbers."""
+    """Set only letters with an index in italics, in a text of words or numbers."""
     return _BASE.sub(r"<i>\g<0></i>", text)
 
 
-def _written(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
-    """Set terms one after the other, those that depend on what changed marked."""
+def _joined(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
+    """Join terms, with those marked that depend on a changed parameter."""
     text, tight = "", True
     for html, term in terms:
         if not (tight or html.startswith(")")):

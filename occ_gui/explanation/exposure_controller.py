@@ -1,4 +1,4 @@
-"""Show the exposure of the column that the user points at."""
+"""Controller of the exposure plot: the column that the user points at or holds."""
 
 from typing import Protocol
 
@@ -13,24 +13,24 @@ class ExposurePane(Protocol):
     """A pane that shows a column's exposure."""
 
     def show_column(self, column: int, columns: int, held: bool) -> None:
-        """Show which of the picture's columns is chosen, without telling of it."""
+        """Show which of the picture's columns is chosen, without emitting a signal."""
 
     def show_window(self, window: ExposureWindow, level: float) -> None:
-        """Show a column's exposure, and the grey level that came of it."""
+        """Show a column's exposure, and the grey level that results from it."""
 
 
 class ColumnMark(Protocol):
     """A plot that marks a column."""
 
     def set_active(self, active: bool) -> None:
-        """Say whether columns are picked at all."""
+        """Let the user pick columns, or not."""
 
     def show_column(self, column: int, held: bool) -> None:
         """Mark a column."""
 
 
 class ExposureController(QObject):
-    """Keeps the chosen column, held or under the mouse, and works out its exposure while seen.
+    """Keeps the chosen column, held or under the mouse, and computes its exposure while visible.
 
     Parameters
     ----------
@@ -50,27 +50,27 @@ class ExposureController(QObject):
         self._seen = False
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the exposure."""
+        """Compute and show exposures while they are visible."""
         self._seen = seen
         self._mark.set_active(seen)
         self._show()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show columns of these results from now on."""
+        """Show columns of these results in place of the previous ones."""
         self._snapshot = snapshot
         self._show()
 
     def hover(self, column: int) -> None:
-        """Show the column under the mouse, unless another one is held."""
+        """Show the column under the mouse, unless a column is held."""
         if not self._held:
             self._choose(column, held=False)
 
     def click(self, column: int) -> None:
-        """Hold a column; let go of it if it was the one held."""
+        """Hold a column, or release it if it is the held one."""
         self._choose(column, held=not (self._held and column == self._column))
 
     def step(self, columns: int) -> None:
-        """Go on by some columns, and hold the one found there."""
+        """Move by some columns, and hold the column there."""
         if self._column is not None:
             self._choose(self._column + columns, held=True)
 
@@ -79,7 +79,7 @@ class ExposureController(QObject):
         self._choose(column, held=True)
 
     def hold(self, held: bool) -> None:
-        """Hold the column that is shown, or let the mouse choose."""
+        """Hold the column that is shown, or let the mouse choose the column."""
         self._held = held
         self._show()
 
@@ -92,7 +92,7 @@ class ExposureController(QObject):
         if snapshot is None or not self._seen:
             return
         profile = snapshot.frame.profile
-        if self._column is None:  # one of the first packet, which the profile shows
+        if self._column is None:  # in the first packet, which the profile shows
             self._column = int(snapshot.panel_origin[0] + snapshot.packet_columns / 2)
         self._column = min(max(self._column, 0), len(profile) - 1)
         self._pane.show_column(self._column, len(profile), self._held)

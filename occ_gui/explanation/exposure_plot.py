@@ -1,4 +1,4 @@
-"""One column's exposure on the LED's waveform, in time."""
+"""Plot of one column's exposure on the LED's waveform over time."""
 
 import numpy as np
 import pyqtgraph as pg
@@ -25,17 +25,17 @@ _SHADE = 60
 _LEAST_HEIGHT = 92
 
 _LEAST_SPAN = 1e-6
-"""Share of the time that is drawn across which the plot can be zoomed in."""
+"""Smallest range of the time axis, as a fraction of the time that is drawn."""
 
 
 class ExposurePlot(QWidget):
-    """The chips as a step curve, the exposure shaded, what of it is lit hatched, and a sentence."""
+    """The chips as a step curve, the exposure shaded, its lit parts hatched, and a sentence."""
 
     column_chosen = Signal(int)
-    """The column that the user wants to see."""
+    """The column that the user chose."""
 
     hold_chosen = Signal(bool)
-    """Whether the column is to stay, wherever the mouse is."""
+    """Whether the column stays chosen when the mouse moves."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -43,7 +43,7 @@ class ExposurePlot(QWidget):
         self.sentence.setWordWrap(True)
         self.sentence.setTextFormat(Qt.TextFormat.PlainText)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.sentence.setAccessibleName(self.tr("What the column sees"))
+        self.sentence.setAccessibleName(self.tr("Exposure of the column"))
         self._make_plot()
         self._make_controls()
         row = QHBoxLayout()
@@ -99,7 +99,7 @@ class ExposurePlot(QWidget):
         self.hold.clicked.connect(self.hold_chosen)
 
     def show_column(self, column: int, columns: int, held: bool) -> None:
-        """Show which of the picture's columns is chosen, without telling of it."""
+        """Show which of the picture's columns is chosen, without emitting a signal."""
         self.column.blockSignals(True)
         self.column.setRange(0, columns - 1)
         self.column.setValue(column)
@@ -107,7 +107,7 @@ class ExposurePlot(QWidget):
         self.hold.setChecked(held)
 
     def show_window(self, window: ExposureWindow, level: float) -> None:
-        """Show a column's exposure, and the grey level that came of it."""
+        """Show a column's exposure, and the grey level that results from it."""
         edges = window.edges * _MICRO
         start, end = window.start * _MICRO, window.end * _MICRO
         last = edges[-1]

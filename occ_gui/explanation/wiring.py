@@ -1,4 +1,4 @@
-"""The equations and the exposure of one column: their pane, its controllers and their signals."""
+"""Explanation of the stripes: the pane, its controllers and their connections."""
 
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
@@ -14,7 +14,7 @@ from occ_gui.widgets.plot import Plot
 
 
 class ExplanationView(QWidget):
-    """The equations with the numbers of the moment over the exposure of a column."""
+    """The equations with their current numbers, above the exposure of a column."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -31,14 +31,14 @@ class ExplanationView(QWidget):
 
 
 class ExplanationWiring(QObject):
-    """The equations of the scene, and the exposure of the column that is pointed at.
+    """Connects the equations of the scene, and the exposure of the column under the mouse.
 
     Parameters
     ----------
     scenes
         The scene.
     plot
-        The profile, in which columns are picked.
+        The plot of the profile, in which the user picks a column.
     """
 
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
@@ -55,10 +55,10 @@ class ExplanationWiring(QObject):
         self.pane.exposure.hold_chosen.connect(exposure.hold)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the pane."""
+        """Update the pane while it is visible."""
         self._equations.set_seen(seen)
         self._exposure.set_seen(seen)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Explain these results from now on."""
+        """Explain these results in place of the previous ones."""
         self._exposure.show_snapshot(snapshot)

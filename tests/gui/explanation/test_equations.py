@@ -1,4 +1,4 @@
-"""The equations with the numbers of the moment, and the marks on what has just changed."""
+"""The equations with the current numbers, and the marks on what has just changed."""
 
 import re
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Lay the photo's profile over the simulated one, and place the photo on the picture."""
+"""Controller of the comparison: the photo's profile beside the simulated one."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -18,44 +18,44 @@ from occ_model.photo.stripes.find import find_stripes
 from occ_model.results import Comparison, Match, Stripes
 
 _FLAT = 0.5
-"""Grey levels of swing below which the simulated columns show no stripes."""
+"""Swing in grey levels below which the simulated columns show no stripes."""
 
 
 class ProfilePane(Protocol):
     """A pane that shows a photo's profile beside the simulated one."""
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
-        """Show this in place of the last one, or none."""
+        """Show this profile in place of the previous one, or none."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Found:
-    """What was found in a photo: its stripes, or why there are none."""
+class StripeSearch:
+    """Result of searching a photo for stripes: the stripes, or a sentence why there are none."""
 
     photo: Photo
     stripes: Stripes | None
     sentence: str
 
 
-def find(photo: Photo) -> Found:
-    """Look for the stripes in a photo."""
+def search_stripes(photo: Photo) -> StripeSearch:
+    """Search a photo for stripes; the result says why if there are none."""
     try:
-        return Found(photo, find_stripes(photo), "")
+        return StripeSearch(photo, find_stripes(photo), "")
     except MatchError as error:
-        return Found(photo, None, str(error))
+        return StripeSearch(photo, None, str(error))
 
 
 class ComparisonController(QObject):
     """Compares photo and simulation whenever either changes or the photo is moved.
 
-    A photo's stripes are found once, off the window's thread; those of a match take their place.
+    A photo's stripes are searched once, in the background; those of a match replace them.
 
     Parameters
     ----------
     placements
         Where the photo lies on the simulated picture.
     pane
-        Shows the two profiles.
+        The pane that shows both profiles.
     """
 
     def __init__(self, placements: PlacementStore, pane: ProfilePane) -> None:
@@ -67,19 +67,21 @@ class ComparisonController(QObject):
         self._stripes: Stripes | None = None
         self._sentence = ""
         self._enhanced = False
-        self.runner: LatestWins[Photo, Found] = LatestWins(find, "search for stripes")
+        self.runner: LatestWins[Photo, StripeSearch] = LatestWins(
+            search_stripes, "search for stripes"
+        )
         self.runner.finished.connect(self._take)
-        self.runner.failed.connect(self._do_without)
+        self.runner.failed.connect(self._show_failure)
         placements.changed.connect(self._compare)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Compare with these results from now on."""
+        """Compare with these results in place of the previous ones."""
         self._snapshot = snapshot
         self._suggest_placement()
         self._compare()
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Compare this photo from now on, or none."""
+        """Compare this photo in place of the previous one, or none."""
         self._photo = photo
         self._stripes, self._sentence = None, ""
         if photo is not None:
@@ -89,27 +91,27 @@ class ComparisonController(QObject):
         self._compare()
 
     def show_match(self, match: Match) -> None:
-        """Take a match's stripes: its levels are those of the fit."""
+        """Use the stripes of a match, whose levels are those of the fit."""
         self._stripes, self._sentence = match.stripes, ""
         self._compare()
 
     def set_enhanced(self, enhanced: bool) -> None:
-        """Say whether the simulated columns are compared as they stand in the picture."""
+        """Compare with the enhanced simulated columns, or with those before enhancement."""
         self._enhanced = enhanced
         self._compare()
 
-    def _take(self, found: Found) -> None:
-        # Not the stripes of a photo that is gone, nor in place of those of a match.
+    def _take(self, found: StripeSearch) -> None:
+        # Ignore the stripes of a photo that was closed; those of a match take precedence.
         if found.photo is self._photo and self._stripes is None:
             self._stripes, self._sentence = found.stripes, found.sentence
             self._compare()
 
-    def _do_without(self, sentence: str) -> None:
+    def _show_failure(self, sentence: str) -> None:
         self._sentence = sentence
         self._compare()
 
     def _suggest_placement(self) -> None:
-        """Lay a photo on the whole picture if that has its very size, else on the panel."""
+        """Suggest the picture's corner for a photo of the same size, else the panel's corner."""
         if self._photo is None or self._snapshot is None:
             return
         same = self._photo.image.shape == self._snapshot.frame.image.shape
@@ -126,18 +128,18 @@ class ComparisonController(QObject):
         frame = snapshot.frame
         simulated = frame.enhanced.astype(np.float64) if self._enhanced else frame.profile
         try:
-            comparison = self._beside(simulated)
+            comparison = self._compare_with(simulated)
         except MatchError as error:
             sentence = str(error)
         if comparison is not None and float(np.ptp(comparison.simulated)) < _FLAT:
-            # A photo that is given the swing of nothing would agree with anything.
+            # A photo scaled to no swing at all would agree with any simulation.
             comparison, sentence = None, self.tr("The simulation has no stripes there to compare.")
         self._pane.show_photo_profile(
             PhotoProfile(comparison, photo.profile, placement.column, placement.scale, sentence)
         )
 
-    def _beside(self, simulated: FloatArray) -> Comparison | None:
-        """Compare with some simulated columns; None where no stripes are known."""
+    def _compare_with(self, simulated: FloatArray) -> Comparison | None:
+        """Compare with these simulated columns; None if no stripes are known."""
         placement, stripes = self._placements.placement, self._stripes
         if stripes is None:
             return None
@@ -145,14 +147,14 @@ class ComparisonController(QObject):
         return compare(stripes.flattened, simulated, first, placement.scale)
 
     def comparison(self) -> Comparison | None:
-        """Compare with the simulated columns before enhancement; None where that cannot be."""
+        """Compare with the simulated columns before enhancement; None if that is impossible."""
         if self._photo is None or self._snapshot is None:
             return None
         try:
-            return self._beside(self._snapshot.frame.profile)
+            return self._compare_with(self._snapshot.frame.profile)
         except MatchError:
             return None
 
     def stop(self) -> None:
-        """Look for no more stripes."""
+        """Stop the search for stripes."""
         self.runner.stop()

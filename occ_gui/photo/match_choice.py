@@ -1,28 +1,28 @@
-"""What the user wants of a match between photo and scene."""
+"""Choices of a match: what the LED sent, what is known, and what is estimated."""
 
 from dataclasses import dataclass
 
 KNOWN = ("switching_frequency", "readout_time")
-"""Stripes tell the product of these alone: one has to be known for the other to be found."""
+"""Stripes determine only the product of these two: one must be known to estimate the other."""
 
 CHIPS_OF_A_CYCLE = 2
-"""A blinking LED is on for one chip and off for the next."""
+"""Chips of one cycle of a blinking LED: one on, one off."""
 
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
-    """How a photo is to be matched.
+    """The choices for matching a photo.
 
     Parameters
     ----------
     sent
         What was sent: one of ``"auto"``, ``"scene"``, ``"read"`` and ``"square"``.
     square_frequency
-        Cycles a second of the square wave, in Hz, where that was sent.
+        Cycles per second of the square wave, in Hz, if one was sent.
     estimate
         ``"readout_time"`` or ``"switching_frequency"``; the other one is known.
     fit_gamma
-        Whether the gamma is to be found too.
+        Whether gamma is estimated too.
     """
 
     sent: str = "auto"

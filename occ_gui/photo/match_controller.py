@@ -1,4 +1,4 @@
-"""Match the photo with the scene off the window's thread, and use what was found."""
+"""Controller of matching: fit the scene to the photo in the background, and use the result."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,34 +19,34 @@ from occ_model.scene.presets import save_preset
 from occ_model.scene.scene import Scene
 
 SQUARE_WAVE = "10"
-"""The chips of an LED that blinks: on for half a cycle, off for the other half."""
+"""Chips of a blinking LED: on for half a cycle, off for the other half."""
 
-_NOTED = ("exposure_time", "f_number", "iso")
-"""What a camera notes in its photos, by the names of the scene's parameters."""
+_RECORDED = ("exposure_time", "f_number", "iso")
+"""Parameters of the scene that cameras record in their photos."""
 
 
 class MatchPane(Protocol):
-    """A pane that shows how a match goes on and what it gives."""
+    """A pane that shows the progress and the result of a match."""
 
     def show_match_begun(self) -> None:
-        """Tell that a match is being worked on."""
+        """Show that a match is running."""
 
     def show_progress(self, share: float) -> None:
-        """Tell which share of the work is done, from 0 to 1."""
+        """Show the fraction of the work that is done, from 0 to 1."""
 
     def show_match(self, match: Match | None) -> None:
-        """Show what a match gave in place of the last one, or that there is none."""
+        """Show this match in place of the previous one, or that there is none."""
 
     def show_match_failed(self, sentence: str) -> None:
-        """Tell why there is no match; the last one stays."""
+        """Show why the match failed; the previous one stays."""
 
     def show_match_cancelled(self) -> None:
-        """Tell that the match was given up; the last one stays."""
+        """Show that the match was cancelled; the previous one stays."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MatchRequest:
-    """What a thread in the background is asked to match."""
+    """The arguments of a match in the background."""
 
     photo: Photo
     scene: Scene
@@ -56,12 +56,12 @@ class MatchRequest:
 
 
 def request_of(photo: Photo, scene: Scene, choice: MatchChoice) -> MatchRequest:
-    """Make out of what the user wants what the model is asked.
+    """Build the request for a match from the user's choices.
 
     Raises
     ------
     ParameterError
-        An LED cannot blink as often as that.
+        The frequency of the square wave is out of range.
     """
     sent = choice.sent
     if sent == "square":
@@ -90,7 +90,7 @@ def match(request: MatchRequest, report: Report) -> Match:
 
 
 def sources_of(found: Match, photo_name: str, known: str, day: date) -> dict[str, str]:
-    """Say of every value that a match estimated where it comes from, and how sure it is."""
+    """Write the source and uncertainty of every value that a match estimated."""
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))
     where = f"photo {photo_name}, {day.isoformat()}, the {given.label.lower()} being {value}"
@@ -107,18 +107,18 @@ def sources_of(found: Match, photo_name: str, known: str, day: date) -> dict[str
 
 
 class MatchController(QObject):
-    """Runs matches, and puts what they found into the scene or a preset.
+    """Runs matches, and puts their results into the scene or a preset.
 
     Parameters
     ----------
     scenes
-        Gives what is known, and takes what is found.
+        The scene with the known values, which also takes the result.
     pane
-        Shows how it goes on.
+        The pane that shows progress and result.
     """
 
     failed = Signal(str)
-    """Why there is no match, or a setting could not be taken over."""
+    """Why a match failed, or a setting could not be taken over."""
 
     matched = Signal(object)
     """The match that was found."""
@@ -140,18 +140,18 @@ class MatchController(QObject):
 
     @property
     def photo(self) -> Photo | None:
-        """The photo that is matched, None if there is none."""
+        """The photo to be matched, None if none is open."""
         return self._photo
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Match this photo from now on, or none."""
+        """Match this photo in place of the previous one, or none."""
         self.cancel()
         self._photo = photo
         self.match = None
         self._pane.show_match(None)
 
     def start(self, choice: MatchChoice) -> None:
-        """Match the photo with the scene as it is now."""
+        """Match the photo with the current scene."""
         if self._photo is None:
             return
         try:
@@ -164,16 +164,16 @@ class MatchController(QObject):
         self.runner.start(request)
 
     def cancel(self) -> None:
-        """Give up the match that is being worked on."""
+        """Cancel the running match."""
         if self.runner.is_running:
             self.runner.cancel()
             self._pane.show_match_cancelled()
 
     def use_notes(self) -> None:
-        """Put what the camera noted in the photo into the scene, as one step."""
+        """Put the settings that the camera recorded in the photo into the scene, as one step."""
         if self._photo is None:
             return
-        notes = {name: getattr(self._photo, name) for name in _NOTED}
+        notes = {name: getattr(self._photo, name) for name in _RECORDED}
         changes = {name: value for name, value in notes.items() if value is not None}
         title = self.tr("settings of {name}").format(name=self._photo.path.name)
         try:
@@ -182,13 +182,13 @@ class MatchController(QObject):
             self.failed.emit(str(error))
 
     def apply(self) -> None:
-        """Put the scene that was found in place of the scene, as one step."""
+        """Replace the scene by the matched one, as one step."""
         if self.match is not None and self._photo is not None:
             title = self.tr("match with {name}").format(name=self._photo.path.name)
             self._scenes.put(self.match.scene, title)
 
     def save(self, name: str, title: str, day: date | None = None) -> None:
-        """Save the scene that was found as one of the user's presets."""
+        """Save the matched scene as one of the user's presets."""
         if self.match is None or self._photo is None:
             return
         sources: Mapping[str, str] = sources_of(
@@ -214,5 +214,5 @@ class MatchController(QObject):
         self.failed.emit(sentence)
 
     def stop(self) -> None:
-        """Match no more."""
+        """Stop matching."""
         self.runner.stop()

@@ -1,4 +1,4 @@
-"""What a match is asked for, and how far it is."""
+"""Form of a match: its choices, the button that starts it, and its progress."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
@@ -34,21 +34,21 @@ SQUARE_FREQUENCY = Quantity(
 _FREQUENCY = KNOWN[0]
 
 _STEPS = 1000
-"""Steps of the progress bar."""
+"""Number of steps of the progress bar."""
 
 
 class MatchForm(QWidget):
     """The choices of a match, the button that starts it, and its progress."""
 
     asked = Signal(object)
-    """A match is wanted: a MatchChoice."""
+    """The user starts a match: a MatchChoice."""
 
     edited = Signal(str, object, int)
-    """What is known has been entered: name, value in SI units, and the number of the gesture."""
+    """A known value was entered: name, value in SI units, and the number of the gesture."""
 
     cancelled = Signal()
     refused = Signal(str)
-    """Why what was entered is not taken."""
+    """Why an entered value is refused."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -73,8 +73,8 @@ class MatchForm(QWidget):
         self.estimate = WordChoice(
             self.tr("What is estimated"),
             self.tr(
-                "Stripes tell the product of readout time (in µs) and switching frequency "
-                "(in kHz): one of them has to be known, and is taken from the scene."
+                "Stripes determine only the product of readout time (in µs) and switching "
+                "frequency (in kHz): one of them must be known, and is taken from the scene."
             ),
             {
                 "readout_time": self.tr("Readout time, frequency known"),
@@ -95,14 +95,14 @@ class MatchForm(QWidget):
         self._show_known()
 
     def _make_known(self) -> None:
-        """Make the fields of what must be known: it can be entered where it is asked for."""
+        """Make the fields of the known values, which can also be entered here."""
         self.known: dict[str, QuantityEdit] = {}
         for name in KNOWN:
             declared = quantity(name)
             field = self.known[name] = QuantityEdit(declared)
             field.setAccessibleName(self.tr("Known: {label}").format(label=declared.label))
-            told = self.tr("What is known of the photo; entering it changes the scene.")
-            field.setToolTip(f"{told}\n\n{explain(declared)}")
+            note = self.tr("A known value of the photo; entering it changes the scene.")
+            field.setToolTip(f"{note}\n\n{explain(declared)}")
             field.edited.connect(lambda value, name=name: self._edit(name, value))
             field.refused.connect(self.refused)
         self.hint = ElidedLabel("", Qt.TextElideMode.ElideRight)
@@ -116,9 +116,9 @@ class MatchForm(QWidget):
         self.start.clicked.connect(lambda: self.asked.emit(self.choice()))
         self.progress = QProgressBar()
         self.progress.setRange(0, _STEPS)
-        self.progress.setAccessibleName(self.tr("Share of the match that is done, in percent"))
+        self.progress.setAccessibleName(self.tr("Progress of the match, in percent"))
         self.cancel = QPushButton(self.tr("&Cancel"))
-        self.cancel.setToolTip(self.tr("Give up this match; what was found before stays."))
+        self.cancel.setToolTip(self.tr("Cancel this match; the previous result stays."))
         self.cancel.clicked.connect(self.cancelled)
         self.show_running(False)
 
@@ -150,7 +150,7 @@ class MatchForm(QWidget):
         layout.addLayout(run)
 
     def choice(self) -> MatchChoice:
-        """Give what is chosen, and typed so far."""
+        """Return the choices, including values that are typed but not yet entered."""
         for field in (self.square, *self.known.values()):
             field.take_typed()
         return MatchChoice(
@@ -161,24 +161,24 @@ class MatchForm(QWidget):
         )
 
     def show_scene(self, scene: Scene) -> None:
-        """Say what is known from this scene."""
+        """Show the known values of this scene."""
         self._scene = scene
         self._show_known()
 
     def show_running(self, running: bool) -> None:
-        """Show the progress and a way out of it, or the button that starts a match."""
-        goes, comes = (self.start, self.cancel) if running else (self.cancel, self.start)
-        had_focus = goes.hasFocus()
+        """Show the progress and the cancel button, or the button that starts a match."""
+        hidden, shown = (self.start, self.cancel) if running else (self.cancel, self.start)
+        had_focus = hidden.hasFocus()
         for widget in (self.progress, self.cancel):
             widget.setVisible(running)
         self.start.setVisible(not running)
-        if had_focus:  # or what is typed next would land in whatever field comes after it
-            comes.setFocus()
+        if had_focus:  # otherwise Qt would move the focus to the next field, which takes typing
+            shown.setFocus()
         self.gamma.setEnabled(not running)
         self.progress.setValue(0)
 
     def show_progress(self, share: float) -> None:
-        """Show which share of the work is done, from 0 to 1."""
+        """Show the fraction of the work that is done, from 0 to 1."""
         self.progress.setValue(round(_STEPS * share))
 
     def _show_known(self) -> None:
@@ -187,7 +187,7 @@ class MatchForm(QWidget):
         of_frequency = self.estimate.key() == "readout_time"
         for name, field in self.known.items():
             field.setVisible((name == _FREQUENCY) == of_frequency)
-            field.setEnabled(not (of_frequency and square))  # then it is told by the square wave
+            field.setEnabled(not (of_frequency and square))  # the square wave determines it
             if self._scene is not None:
                 field.set_value(float(self._scene.value(name)))
         if square:

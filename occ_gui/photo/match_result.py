@@ -1,4 +1,4 @@
-"""What a match has found, with how sure it is."""
+"""Result of a match: estimates with their uncertainties, quality of the fit, and their use."""
 
 import math
 
@@ -18,29 +18,29 @@ _ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_tim
 
 
 def _known_of(match: Match) -> str:
-    """Say which of the two, of which stripes tell only the product, was given."""
+    """Return which of readout time and switching frequency was given."""
     return next(name for name in KNOWN if name not in match.uncertainties)
 
 
 def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
-    """Write a value with its standard deviation, as many digits of it as that leaves sure."""
+    """Format a value with its standard deviation, to the digits that are significant."""
     if spread is None or not 0.0 < spread < math.inf:
         return quantity.format(value)
     symbol, factor = quantity.unit.display(value)
-    # Two digits of the uncertainty, and the value as far as these reach.
+    # Two digits of the uncertainty, and the value to the same decimal place.
     decimals = min(max(0, 1 - math.floor(math.log10(spread / factor))), 12)
     number = f"{value / factor:.{decimals}f} ± {spread / factor:.{decimals}f}"
     return f"{number} {symbol}".rstrip()
 
 
 class MatchResult(QWidget):
-    """The estimates of a match as a table, how well they explain the photo, and their use."""
+    """The estimates as a table, how well they explain the photo, and buttons to use them."""
 
     apply_asked = Signal()
-    """The scene is to become the one that was found."""
+    """The user applies the matched scene."""
 
     save_asked = Signal()
-    """What was found is to be kept as a preset."""
+    """The user saves the matched scene as a preset."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -49,7 +49,7 @@ class MatchResult(QWidget):
         self._form.setVerticalSpacing(2)
         self.values: dict[str, QLabel] = {}
         for name, title in self._titles().items():
-            # A pattern can be as long as it likes.
+            # A pattern can be of any length.
             label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             label.setTextFormat(Qt.TextFormat.PlainText)
@@ -64,21 +64,21 @@ class MatchResult(QWidget):
         self.stale = QLabel()
         self.stale.setWordWrap(True)
         self.stale.setTextFormat(Qt.TextFormat.PlainText)
-        self.stale.setAccessibleName(self.tr("Whether the match is still of what is known"))
+        self.stale.setAccessibleName(self.tr("Whether the match still belongs to the known value"))
         self.stale.hide()
         self.apply = QPushButton(self.tr("&Apply to the scene"))
         self.apply.setToolTip(
             self.tr(
-                "Put what was found into the scene, as one step that can be undone: its picture "
-                "then lies on the photo."
+                "Put the result into the scene, as one step that can be undone: its picture then "
+                "lies on the photo."
             )
         )
         self.apply.clicked.connect(self.apply_asked)
         self.save = QPushButton(self.tr("&Save as preset…"))
         self.save.setToolTip(
             self.tr(
-                "Keep what was measured as a preset of your own, with the photo and the "
-                "uncertainties as its sources."
+                "Save the result as a preset of your own, with the photo and the uncertainties as "
+                "its sources."
             )
         )
         self.save.clicked.connect(self.save_asked)
@@ -105,7 +105,7 @@ class MatchResult(QWidget):
         }
 
     def show_match(self, match: Match) -> None:
-        """Show what was found."""
+        """Show a match."""
         self._match = match
         if self._scene is not None:
             self._given = float(self._scene.value(_known_of(match)))
@@ -119,7 +119,7 @@ class MatchResult(QWidget):
             self._form.setRowVisible(label, bool(text))
 
     def show_scene(self, scene: Scene) -> None:
-        """Tell whether what was given for the match is still what this scene has."""
+        """Show whether the match was made with the known value of this scene."""
         self._scene = scene
         self._show_stale()
 
@@ -127,7 +127,8 @@ class MatchResult(QWidget):
         match, scene = self._match, self._scene
         if match is None or scene is None:
             return
-        declared = quantity(name := _known_of(match))
+        name = _known_of(match)
+        declared = quantity(name)
         now, then = float(scene.value(name)), float(getattr(match, name))
         self.stale.setText(
             self.tr("Found with {then}; the scene has {now} now: match again.").format(
@@ -137,7 +138,7 @@ class MatchResult(QWidget):
         self.stale.setVisible(now not in {then, self._given})
 
     def _estimates(self, match: Match) -> dict[str, str]:
-        """Write the estimates, and what was known beside them; nothing for a gamma not fitted."""
+        """Format the estimates and the given value; empty for a gamma that was not fitted."""
         texts = {}
         for name in _ESTIMATES:
             spread = match.uncertainties.get(name)
@@ -146,7 +147,7 @@ class MatchResult(QWidget):
                 known = name != "gamma"
                 texts[name] = self.tr("{value} (given)").format(value=texts[name]) if known else ""
         if len(match.pattern) == CHIPS_OF_A_CYCLE:
-            # What a blinking LED's maker gives are its cycles, not its chips.
+            # A blinking LED is specified by its cycles, not by its chips.
             cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, 4)
             texts["switching_frequency"] += self.tr(": blinks at {cycles}").format(cycles=cycles)
         exposure = quantity("exposure_time")

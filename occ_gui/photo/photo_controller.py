@@ -1,4 +1,4 @@
-"""Read photos off the window's thread and hand them to the views."""
+"""Controller of the open photo: read it in the background, and show it on the panes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -16,19 +16,19 @@ class PhotoPane(Protocol):
     """A pane that shows a photo."""
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Show this photo in place of the last one, or none."""
+        """Show this photo in place of the previous one, or none."""
 
 
 @dataclass(frozen=True, slots=True)
 class PhotoReading:
-    """How photos are read.
+    """Options of reading a photo.
 
     Parameters
     ----------
     scan_axis
-        Which axis of the file the shutter scanned, one of SCAN_AXES.
+        The axis of the file that the shutter scanned, one of SCAN_AXES.
     channel
-        What of a coloured photo is taken, one of CHANNELS.
+        The channel of a coloured photo that is read, one of CHANNELS.
     """
 
     scan_axis: str = SCAN_AXES[0]
@@ -42,7 +42,7 @@ def _read(request: tuple[Path, PhotoReading], report: Report) -> Photo:
 
 
 class PhotoController(QObject):
-    """Opens photos, turns them, takes another of their channels, and closes them.
+    """Opens and closes photos, and reads them again along another axis or in another channel.
 
     Parameters
     ----------
@@ -54,19 +54,19 @@ class PhotoController(QObject):
     """The photo that the panes show now, or None."""
 
     failed = Signal(str)
-    """Why a photo could not be read; the last one stays."""
+    """Why a photo could not be read; the previous one stays."""
 
     begun = Signal()
     """A photo is being read."""
 
     progressed = Signal(float)
-    """The share of the reading that is done, from 0 to 1."""
+    """The fraction of the reading that is done, from 0 to 1."""
 
     ended = Signal()
-    """No photo is being read any more: it is shown, has failed, or is not wanted."""
+    """Reading has ended: the photo is shown, could not be read, or was cancelled."""
 
     reading_changed = Signal(object)
-    """How photos are read from now on: a PhotoReading."""
+    """The new options of reading: a PhotoReading."""
 
     def __init__(self, panes: Sequence[PhotoPane]) -> None:
         super().__init__()
@@ -79,7 +79,7 @@ class PhotoController(QObject):
         )
         self.runner.reported.connect(self.progressed.emit)
         self.runner.finished.connect(self._show)
-        self.runner.failed.connect(self._keep_last)
+        self.runner.failed.connect(self._fail)
 
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
@@ -88,18 +88,18 @@ class PhotoController(QObject):
         self.begun.emit()
 
     def cancel(self) -> None:
-        """Give up the reading; the last photo stays."""
+        """Cancel the reading; the previous photo stays."""
         if self.runner.is_running:
             self.runner.cancel()
             self._wanted = self._path
             self.ended.emit()
 
     def scan_along(self, scan_axis: str) -> None:
-        """Say which axis of the file the shutter scanned, and turn the photo that is open."""
+        """Set the axis of the file that the shutter scanned, and read the open photo again."""
         self._read_as(replace(self.reading, scan_axis=scan_axis))
 
     def take_channel(self, channel: str) -> None:
-        """Say which channel is taken, also of the photo that is open."""
+        """Set the channel, and read the open photo again."""
         self._read_as(replace(self.reading, channel=channel))
 
     def _read_as(self, reading: PhotoReading) -> None:
@@ -109,7 +109,7 @@ class PhotoController(QObject):
             self.open(self._wanted)
 
     def close(self) -> None:
-        """Show no photo any more."""
+        """Close the photo."""
         self.cancel()
         self._wanted = self._path = None
         self._show_on_panes(None)
@@ -119,7 +119,7 @@ class PhotoController(QObject):
         self._path = photo.path
         self._show_on_panes(photo)
 
-    def _keep_last(self, sentence: str) -> None:
+    def _fail(self, sentence: str) -> None:
         self.ended.emit()
         self._wanted = self._path
         self.failed.emit(sentence)

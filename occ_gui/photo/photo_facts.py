@@ -1,4 +1,4 @@
-"""What is known of a photo, and how it is read."""
+"""Facts about the photo: name, size, camera and settings, and the options of reading it."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
@@ -12,14 +12,14 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 
 _PREFIXES = {"exposure_time": "", "iso": "ISO ", "f_number": "f/"}
-"""What stands before a camera's notes, by the names of the scene's parameters."""
+"""Prefixes of the settings that cameras record, by the names of the scene's parameters."""
 
 
 class PhotoFacts(QWidget):
     """The photo's name, size, camera and settings, and the choice of channel and scan axis."""
 
     settings_asked = Signal()
-    """The scene is to have the settings that the camera noted."""
+    """The user puts the settings that the camera recorded into the scene."""
 
     channel_chosen = Signal(str)
     scan_axis_chosen = Signal(str)
@@ -35,14 +35,14 @@ class PhotoFacts(QWidget):
         self.use_settings = QPushButton(self.tr("&Use this photo's settings"))
         self.use_settings.setToolTip(
             self.tr(
-                "Put the exposure time, ISO speed and f-number that the camera noted into the "
+                "Put the exposure time, ISO speed and f-number that the camera recorded into the "
                 "scene, as one step that can be undone."
             )
         )
         self.use_settings.clicked.connect(self.settings_asked)
         self.channel = WordChoice(
             self.tr("Channel"),
-            self.tr("The colour in which the stripes are looked for; of a grey photo all are one."),
+            self.tr("The colour channel searched for stripes; a grey photo has only one."),
             {
                 "brightest": self.tr("brightest"),
                 "luma": self.tr("luma"),
@@ -55,8 +55,8 @@ class PhotoFacts(QWidget):
         self.scan_axis = WordChoice(
             self.tr("Scanned"),
             self.tr(
-                "Which way the shutter scanned: by columns or by lines of the file; automatic: "
-                "across the stripes."
+                "The direction in which the shutter scanned: by columns or by lines of the file; "
+                "automatic: across the stripes."
             ),
             {
                 "auto": self.tr("automatic"),
@@ -87,7 +87,7 @@ class PhotoFacts(QWidget):
         layout.addLayout(choices)
 
     def show_photo(self, photo: Photo) -> None:
-        """Show what is known of a photo."""
+        """Show the facts about a photo."""
         self.name.set_full_text(photo.path.name)
         self.name.setToolTip(in_tool_tip(one_line(str(photo.path), LONGEST)))
         rows, columns = photo.image.shape
@@ -99,12 +99,12 @@ class PhotoFacts(QWidget):
             size += self.tr(", turned")
         camera = f"{photo.camera}, " if photo.camera else ""
         self.size_line.set_full_text(camera + size)
-        noted = self._noted(photo)
-        self.notes.set_full_text(", ".join(noted) or self.tr("No settings noted."))
-        self.use_settings.setEnabled(bool(noted))
+        recorded = self._recorded(photo)
+        self.notes.set_full_text(", ".join(recorded) or self.tr("No settings recorded."))
+        self.use_settings.setEnabled(bool(recorded))
 
     def show_reading(self, channel: str, scan_axis: str) -> None:
-        """Show how photos are read, without telling of it."""
+        """Show the options of reading without emitting a signal."""
         self.channel.show_key(channel)
         self.scan_axis.show_key(scan_axis)
 
@@ -118,10 +118,10 @@ class PhotoFacts(QWidget):
         }
         return words.get(channel, channel)
 
-    def _noted(self, photo: Photo) -> list[str]:
-        noted = []
+    def _recorded(self, photo: Photo) -> list[str]:
+        recorded = []
         for name, prefix in _PREFIXES.items():
             value, declared = getattr(photo, name), PARAMETERS[name]
             if value is not None and isinstance(declared, Quantity):
-                noted.append(prefix + declared.format(value))
-        return noted
+                recorded.append(prefix + declared.format(value))
+        return recorded

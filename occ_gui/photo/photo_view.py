@@ -1,4 +1,4 @@
-"""The photo: what it is, what explains it, and where it lies."""
+"""Pane of the photo: its facts, its match with the scene, and its placement."""
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -26,10 +26,10 @@ _LEAST_HEIGHT = 200
 
 
 class PhotoView(QWidget):
-    """All about the open photo; without one, a way to open one."""
+    """The forms of the open photo; without one, an invitation to open one."""
 
     open_asked = Signal()
-    """A photo is to be chosen and opened."""
+    """The user opens a photo."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -85,14 +85,14 @@ class PhotoView(QWidget):
         return self._scroll
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Show what is known of this photo in place of the last one, or none."""
+        """Show this photo in place of the previous one, or none."""
         self._pages.setCurrentIndex(0 if photo is None else 1)
         self.failure.hide()
         if photo is not None:
             self.facts.show_photo(photo)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show what is known from this scene."""
+        """Show the known values of this scene."""
         self.form.show_scene(scene)
         self.result.show_scene(scene)
 
@@ -101,16 +101,16 @@ class PhotoView(QWidget):
         self.placement.show_placement(placement, by_hand)
 
     def show_match_begun(self) -> None:
-        """Tell that a match is being worked on."""
+        """Show that a match is running."""
         self.failure.hide()
         self.form.show_running(True)
 
     def show_progress(self, share: float) -> None:
-        """Tell which share of the work is done, from 0 to 1."""
+        """Show the fraction of the work that is done, from 0 to 1."""
         self.form.show_progress(share)
 
     def show_match(self, match: Match | None) -> None:
-        """Show what a match gave in place of the last one, or that there is none."""
+        """Show this match in place of the previous one, or that there is none."""
         self.form.show_running(False)
         self.failure.hide()
         self.result.setVisible(match is not None)
@@ -119,18 +119,18 @@ class PhotoView(QWidget):
             self._bring_into_view(self.result)
 
     def show_match_failed(self, sentence: str) -> None:
-        """Tell why there is no match; the last one stays."""
+        """Show why the match failed; the previous one stays."""
         self.form.show_running(False)
         self.failure.setText(sentence)
         self.failure.show()
         self._bring_into_view(self.failure)
 
     def show_match_cancelled(self) -> None:
-        """Tell that the match was given up; the last one stays."""
+        """Show that the match was cancelled; the previous one stays."""
         self.form.show_running(False)
 
     def _bring_into_view(self, part: QWidget) -> None:
-        """Scroll to what has just come, once the page has made room for it."""
+        """Scroll to a part that has just appeared, after the page has been laid out again."""
         self._page.adjustSize()
         self._scroll.ensureWidgetVisible(part, 0, 4)
 

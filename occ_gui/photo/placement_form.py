@@ -1,4 +1,4 @@
-"""Where the photo lies on the simulated picture, in numbers."""
+"""Form of the photo's placement on the simulated picture: shift and scale."""
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
@@ -15,18 +15,18 @@ from occ_gui.picture.placement import LARGEST_SCALE, LEAST_SCALE, Placement
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
 _FARTHEST = 1e6
-"""Pixels that a photo can be moved by."""
+"""Largest shift of a photo in pixels."""
 
 
 class PlacementForm(QWidget):
-    """Shift and scale of the photo, by numbers or by the mouse, and the way back."""
+    """Shift and scale of the photo, by numbers or by the mouse, and a reset button."""
 
     placed = Signal(object)
-    """Where the user has put the photo: a Placement."""
+    """The user moved or scaled the photo: a Placement."""
 
     reset_asked = Signal()
     moving_chosen = Signal(bool)
-    """Whether the mouse is to move and scale the photo."""
+    """Whether the user moves and scales the photo by the mouse."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -62,8 +62,8 @@ class PlacementForm(QWidget):
         self.reset = QPushButton(self.tr("&Reset"))
         self.reset.setToolTip(
             self.tr(
-                "Lay the photo where it fits by itself: pixel on pixel if both pictures have the "
-                "same size, else from the panel's corner."
+                "Place the photo automatically: pixel on pixel if both pictures have the same "
+                "size, else at the panel's corner."
             )
         )
         self.reset.clicked.connect(self.reset_asked)
@@ -76,7 +76,7 @@ class PlacementForm(QWidget):
         field.setToolTip(meaning)
         field.setKeyboardTracking(False)
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
-        field.valueChanged.connect(self._tell)
+        field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
         return field
 
@@ -104,7 +104,7 @@ class PlacementForm(QWidget):
         layout.addLayout(buttons)
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
-        """Show where the photo lies, without telling of it."""
+        """Show the placement without emitting a signal."""
         self._placement = placement
         shown = ((self.column, placement.column), (self.row, placement.row))
         for field, value in (*shown, (self.scale, placement.scale)):
@@ -112,8 +112,8 @@ class PlacementForm(QWidget):
                 field.setValue(value)
         self.reset.setEnabled(by_hand)
 
-    def _tell(self) -> None:
-        # A field that was not touched keeps the digits that it does not show.
+    def _emit_placement(self) -> None:
+        # A field that was not edited keeps the digits that it does not show.
         shown, fields = self._placement, (self.column, self.row, self.scale)
         values = (shown.column, shown.row, shown.scale)
         new = [

@@ -1,4 +1,4 @@
-"""All that is done with a photo, put together: reading, placing, comparing, matching."""
+"""Controllers of the photo, connected with the panes: reading, placing, comparing, matching."""
 
 from PySide6.QtCore import QObject
 
@@ -15,7 +15,7 @@ from occ_model.results import Match
 
 
 class PhotoWiring(QObject):
-    """The controllers of a photo, connected with the panes that show it.
+    """Connects the controllers of a photo with the panes that show it.
 
     Parameters
     ----------
@@ -57,22 +57,22 @@ class PhotoWiring(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that was asked for is shown."""
+        """Whether no work is running in the background."""
         runs = (self.photos.runner, self.matching.runner)
         return self.comparison.runner.is_idle and not any(run.is_running for run in runs)
 
     def match(self) -> None:
-        """Match the photo as the pane's choices say."""
+        """Match the photo with the choices of the pane."""
         self.matching.start(self._pane.form.choice())
 
     def _let_move(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
         if by_mouse and self._image.mode.key() == MODES[0]:
-            # There is nothing to move while the photo stands beside the picture.
+            # A photo beside the picture cannot be moved over it.
             self._image.mode_chosen.emit(MODES[1])
 
     def _on_match(self, _match: Match) -> None:
-        # What was placed by hand was placed on another picture.
+        # A placement by hand belongs to the picture before the match.
         self.placements.reset()
 
     def _show_placement(self, placement: Placement) -> None:
@@ -83,7 +83,7 @@ class PhotoWiring(QObject):
         self._pane.facts.show_reading(reading.channel, reading.scan_axis)
 
     def stop(self) -> None:
-        """Let the work in the background end."""
+        """Stop the work in the background."""
         self.matching.stop()
         self.comparison.stop()
         self.photos.stop()

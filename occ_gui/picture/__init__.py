@@ -1,1 +1,1 @@
-"""The simulated picture, with a photo on it."""
+"""The simulated picture, the one before the latest change, and a photo beside or over it."""

@@ -1,4 +1,4 @@
-"""An image drawn without false stripes, however small it is shown."""
+"""Image item that averages the pixels under each screen pixel, so that no false stripes appear."""
 
 import math
 from collections.abc import Sequence
@@ -18,8 +18,8 @@ from occ_model.arrays import ByteArray
 class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
     """A grey image that shows the mean of the pixels that share a pixel of the screen.
 
-    Taking one of them instead, as image items do, turns fine stripes into coarse ones that are
-    not there. Where a pixel of the image is larger than one of the screen, it is shown as such.
+    Taking one of them instead, as image items do, turns fine stripes into coarse ones that do not
+    exist. A pixel of the image that is larger than one of the screen is drawn as a square.
     """
 
     def __init__(self) -> None:
@@ -42,7 +42,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         rect
             Where it lies, by default with its first pixel's centre at (0, 0).
         halves
-            The image at a half of its size, a quarter and so on, where they are there already.
+            The image at a half of its size, a quarter and so on, if already computed.
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect
@@ -54,13 +54,13 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self.update()
 
     def show_from(self, row: float) -> None:
-        """Show only what lies at this height of the view or below it; all of it for -inf."""
+        """Show only the part at or below this row of the view; the whole image for -inf."""
         if row != self._first_row:
             self._first_row = row
             self.update()
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
-        """Where the image lies."""
+        """Return the rectangle of the image in the view."""
         return self._rect
 
     @guarded
@@ -70,7 +70,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         _option: QStyleOptionGraphicsItem,
         _widget: QWidget | None = None,
     ) -> None:
-        """Draw the part of the image that can be seen, at the size it is seen."""
+        """Draw the visible part of the image at its size on the screen."""
         part = self._visible_part()
         if part.isEmpty():
             return
@@ -85,7 +85,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         painter.drawImage(target, self._drawn[2])
 
     def _visible_part(self) -> QRect:
-        """Give the pixels of the image that are in view."""
+        """Return the pixels of the image that are in view."""
         rows, columns = self._image.shape
         view = self.viewRect()
         if view is None or not rows or not columns or self._rect.isEmpty():
@@ -102,7 +102,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         return QRect(left, top, right - left, bottom - top).intersected(whole)
 
     def _target(self, part: QRect) -> QRectF:
-        """Say where some of the image's pixels lie in the view."""
+        """Return the rectangle of some of the image's pixels in the view."""
         rows, columns = self._image.shape
         x_scale, y_scale = self._rect.width() / columns, self._rect.height() / rows
         return QRectF(
@@ -116,17 +116,17 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         pixels = self._image[
             part.top() : part.top() + part.height(), part.left() : part.left() + part.width()
         ]
-        # Along each axis only ever fewer pixels: enlarging is the painter's, without smoothing.
+        # Only reduced along each axis here: the painter enlarges, without smoothing.
         smaller = (min(size[0], part.width()), min(size[1], part.height()))
         if pixels.shape == self._image.shape:
             pixels = self._smallest_for(*smaller)
         pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
         rows, columns = pixels.shape
         image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
-        return image.copy()  # so that it does not refer to memory that goes away
+        return image.copy()  # the array's memory is freed
 
     def _smallest_for(self, columns: int, rows: int) -> ByteArray:
-        """Give the smallest of the image and its halves that still has so many pixels."""
+        """Return the smallest of the image and its halves with at least this many pixels."""
         large = [h for h in self._halves if h.shape[0] >= rows and h.shape[1] >= columns]
         return large[-1] if large else self._image
 
@@ -134,8 +134,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
 def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
     """Average an image down to a size that is no larger than its own.
 
-    By halving, which is fast; only the last step, less than a half, is of another ratio. What
-    halving leaves out at the edge is less than a pixel of the screen.
+    It is halved repeatedly, which is fast; only the last step has another ratio, less than two.
+    The edge that halving leaves out is less than a pixel of the screen.
     """
     while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
         pixels = halved(pixels)

@@ -1,4 +1,4 @@
-"""Keep what was shown before the latest gesture, to compare what is shown now with it."""
+"""Controller of the comparison with before: it keeps the results before the latest step."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -12,60 +12,60 @@ from occ_model.scene.scene import Scene
 
 
 class BeforePane(Protocol):
-    """A pane that shows an earlier picture or profile beside that of now."""
+    """A pane that shows an earlier picture or profile beside the current one."""
 
     def show_before(self, snapshot: Snapshot) -> None:
-        """Show these results as those of before."""
+        """Show these results as those before the latest step."""
 
 
 class BeforeController(QObject):
-    """Finds out where a step of the scene begins, and shows what was there before it.
+    """Detects the beginning of each step of the scene, and shows the results before it.
 
-    A step is what is undone at once: a drag of a slider as a whole, but also an undo by itself.
+    A step is what one undo takes back, such as a whole drag of a slider; an undo is a step too.
 
     Parameters
     ----------
     scenes
-        The scene and its steps.
+        The scene and its undo steps.
     panes
-        Show what was before.
+        The panes that show the results before the step.
     """
 
     def __init__(self, scenes: SceneStore, panes: Sequence[BeforePane]) -> None:
         super().__init__()
         self._stack = scenes.undo_stack
         self._panes = panes
-        self._scene = self._left = scenes.scene
+        self._scene = self._previous = scenes.scene
         self._wanted: Scene | None = None
         self._shown: Snapshot | None = None
         self.before: Snapshot | None = None
         self._top, self._count = self._stack.command(self._stack.index() - 1), self._stack.count()
-        scenes.changed.connect(self._note)
-        self._stack.indexChanged.connect(self._settle)
+        scenes.changed.connect(self._follow_scene)
+        self._stack.indexChanged.connect(self._begin_step)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Take in what is shown now."""
+        """Keep the results that are shown now."""
         self._shown = snapshot
-        # A gesture can begin before the picture that it begins at has been shown.
+        # A gesture can begin before the picture of its first scene is shown.
         before = self.before
         if snapshot.frame.scene == self._wanted and before is not None:
             if before.frame.scene != self._wanted:
                 self._show(snapshot)
             self._wanted = None
 
-    def _note(self, scene: Scene) -> None:
-        self._left, self._scene = self._scene, scene
+    def _follow_scene(self, scene: Scene) -> None:
+        self._previous, self._scene = self._scene, scene
 
-    def _settle(self) -> None:
-        """Begin a step, unless the change has been added to the one that goes on."""
+    def _begin_step(self) -> None:
+        """Begin a step, unless the change was merged into the current one."""
         if not isValid(self._stack):
-            return  # a stack that is taken away is emptied first, and tells of it
+            return  # a stack that is deleted is cleared first, and emits its signal
         top, count = self._stack.command(self._stack.index() - 1), self._stack.count()
-        # A gesture that has come back to where it began takes its step away, yet goes on.
-        goes_on = top is self._top or count < self._count
+        # A gesture that returns to its first scene removes its step, but continues.
+        continues = top is self._top or count < self._count
         self._top, self._count = top, count
-        if not goes_on:
-            self._wanted = self._left
+        if not continues:
+            self._wanted = self._previous
             if self._shown is not None:
                 self._show(self._shown)
 

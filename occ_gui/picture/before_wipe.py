@@ -1,4 +1,4 @@
-"""The picture before, up to a line that can be moved, over the picture of now."""
+"""Wipe between the pictures before and after the latest change, at a line that can be dragged."""
 
 import math
 
@@ -22,14 +22,14 @@ _SLIDER_WIDTH = 90
 
 
 class WipedImage(AveragedImage):
-    """An image that is shown up to a column of the view."""
+    """An image of which only the part left of a column is drawn."""
 
     def __init__(self) -> None:
         super().__init__()
         self._last_column = math.inf
 
     def show_until(self, column: float) -> None:
-        """Show only what lies to the left of this place in the view; all of it for inf."""
+        """Show only the part left of this column of the view; the whole image for inf."""
         if column != self._last_column:
             self._last_column = column
             self.update()
@@ -41,7 +41,7 @@ class WipedImage(AveragedImage):
         option: QStyleOptionGraphicsItem,
         widget: QWidget | None = None,
     ) -> None:
-        """Draw what is to the left of the line."""
+        """Draw the part left of the line."""
         rect = QRectF(self.boundingRect())
         rect.setRight(min(rect.right(), self._last_column))
         if rect.width() <= 0.0:
@@ -53,12 +53,12 @@ class WipedImage(AveragedImage):
 
 
 class BeforeWipe(QObject):
-    """Compares the picture with the one before the latest change; off until asked for.
+    """Compares the picture with the one before the latest change; off at first.
 
     Parameters
     ----------
     box
-        The view of the picture of now.
+        The view of the current picture.
     """
 
     def __init__(self, box: pg.ViewBox) -> None:
@@ -72,7 +72,7 @@ class BeforeWipe(QObject):
             pg.TextItem(self.tr("before"), color=_INK, fill=_PAPER, anchor=(1.0, 0.0)),
             pg.TextItem(self.tr("now"), color=_INK, fill=_PAPER, anchor=(0.0, 0.0)),
         )
-        # Over the picture of now, under a photo that lies on it.
+        # Above the current picture, below a photo that lies on it.
         for depth, item in enumerate((self.picture, self.line, *self._names)):
             item.setZValue(5 + depth)
             item.hide()
@@ -92,10 +92,8 @@ class BeforeWipe(QObject):
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setValue(round(self._share * _SLIDER_STEPS))
         self.slider.setFixedWidth(_SLIDER_WIDTH)
-        self.slider.setAccessibleName(self.tr("Place of the line between before and now"))
-        self.slider.setToolTip(
-            self.tr("Where the picture before ends, in percent of the picture's width.")
-        )
+        self.slider.setAccessibleName(self.tr("Position of the line between before and now"))
+        self.slider.setToolTip(self.tr("Position of the line, in percent of the picture's width."))
         self.slider.valueChanged.connect(self._follow_slider)
         self.slider.hide()
         self.controls = QWidget()
@@ -105,7 +103,7 @@ class BeforeWipe(QObject):
         row.addWidget(self.chosen)
 
     def show_before(self, snapshot: Snapshot) -> None:
-        """Compare with this picture from now on."""
+        """Compare with this picture in place of the previous one."""
         self._image = snapshot.frame.image
         if self.chosen.isChecked():
             self._arrange()
@@ -121,7 +119,7 @@ class BeforeWipe(QObject):
             self._place()
 
     def _place(self) -> None:
-        """Put line and names where the share of the picture's width says."""
+        """Place the line and the labels at the chosen fraction of the picture's width."""
         if self._image is None:
             return
         column = self._share * self._image.shape[1] - 0.5

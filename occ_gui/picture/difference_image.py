@@ -1,4 +1,4 @@
-"""The difference of two images where both lie, averaged over the pixels of the screen."""
+"""Difference of two images, averaged over the pixels of the screen."""
 
 import math
 
@@ -18,10 +18,10 @@ _Layer = tuple[ByteArray, QRectF]
 
 
 class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
-    """The absolute difference of two images where both lie, black where they are alike.
+    """The absolute difference of two images where they overlap, black where they are equal.
 
-    Both are averaged over the pixels of the screen first: only what is seen is worked out, and
-    stripes finer than a pixel of the screen make no coarser ones.
+    Both are averaged over the pixels of the screen first: only the visible part is computed, and
+    stripes finer than a pixel of the screen do not appear as coarser ones.
     """
 
     def __init__(self) -> None:
@@ -31,7 +31,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         self._means: dict[int, tuple[QRectF, tuple[int, int], FloatArray]] = {}
 
     def set_image(self, layer: int, image: ByteArray, rect: QRectF) -> None:
-        """Give one of the two images, 0 or 1, and where it lies; it is not copied."""
+        """Set one of the two images, 0 or 1, and its rectangle; it is not copied."""
         first, second = self._layers
         new = (image, QRectF(rect))
         self.prepareGeometryChange()
@@ -40,12 +40,12 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         self.update()
 
     def set_gain(self, gain: int) -> None:
-        """Say how many times the difference is drawn."""
+        """Set the factor by which the difference is multiplied."""
         self._gain = gain
         self.update()
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
-        """Where both images lie."""
+        """Return the rectangle where the images overlap."""
         (_, first), (_, second) = self._layers
         return first.intersected(second)
 
@@ -56,7 +56,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         _option: QStyleOptionGraphicsItem,
         _widget: QWidget | None = None,
     ) -> None:
-        """Draw the part that can be seen, at the size it is seen."""
+        """Draw the visible part at its size on the screen."""
         view = self.viewRect()
         grid = QRectF() if view is None else view.intersected(self.boundingRect())
         if grid.isEmpty():
@@ -71,7 +71,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         painter.drawImage(grid, image)
 
     def _averaged(self, layer: int, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
-        """Average an image over the screen's pixels, unless that has been done."""
+        """Return an image averaged over the screen's pixels, computed anew only if needed."""
         known = self._means.get(layer)
         if known is not None and known[:2] == (grid, shape):
             return known[2]
@@ -83,17 +83,17 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
     """Average an image over the cells of a grid.
 
-    So two images of different sizes are compared without false stripes: each cell holds the exact
-    mean of what lies under it, parts of pixels by their share.
+    Two images of different sizes are compared without false stripes: each cell holds the exact
+    mean of the pixels under it, weighted by the area they share with the cell.
 
     Parameters
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The image.
     rect
-        Where it lies.
+        The rectangle of the image.
     grid
-        Where the grid lies: within ``rect``.
+        The rectangle of the grid, within ``rect``.
     shape
         Rows and columns of the grid.
 
@@ -105,12 +105,12 @@ def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, i
     rows, columns = image.shape
     x = _edges(grid.left() - rect.left(), grid.width(), columns / rect.width(), shape[1], columns)
     y = _edges(grid.top() - rect.top(), grid.height(), rows / rect.height(), shape[0], rows)
-    # At least one pixel, also of a grid that only touches the image's edge.
+    # At least one pixel, even of a grid that only touches the image's edge.
     left, top = min(int(x[0]), columns - 1), min(int(y[0]), rows - 1)
     right, bottom = max(int(np.ceil(x[-1])), left + 1), max(int(np.ceil(y[-1])), top + 1)
     pixels = image[top:bottom, left:right]
     pixels, x, y = _halved(pixels, x - left, y - top)
-    # Between its corners the running integral of square pixels is bilinear, so this is exact.
+    # The running integral is bilinear within each pixel, so this interpolation is exact.
     integral = cv2.integral(np.ascontiguousarray(pixels), sdepth=cv2.CV_64F)
     total = _interpolated(_interpolated(np.asarray(integral, dtype=np.float64), y).T, x).T
     area = np.outer(np.diff(y), np.diff(x))
@@ -126,7 +126,7 @@ def _edges(start: float, width: float, scale: float, cells: int, pixels: int) ->
 def _halved(
     pixels: ByteArray, x: FloatArray, y: FloatArray
 ) -> tuple[ByteArray, FloatArray, FloatArray]:
-    """Halve an image, which is fast, as often as a cell still spans two pixels each way."""
+    """Halve an image, which is fast, as long as a cell spans at least two of its pixels."""
     while min(_span(x), _span(y)) >= 4.0 and min(pixels.shape) >= 2:
         half = (pixels.shape[1] // 2, pixels.shape[0] // 2)
         even = pixels[: 2 * half[1], : 2 * half[0]]
@@ -136,7 +136,7 @@ def _halved(
 
 
 def _span(edges: FloatArray) -> float:
-    """Say how many pixels a cell spans."""
+    """Return the number of pixels that a cell spans."""
     return float(edges[-1] - edges[0]) / (len(edges) - 1)
 
 

@@ -1,4 +1,4 @@
-"""The picture: the simulation, and a photo beside it or over it."""
+"""Pane of the picture: the simulated one, and a photo beside it or over it."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
@@ -22,14 +22,14 @@ from occ_model.photo.reading.load import Photo
 
 _GAINS = (1, 2, 4, 8)
 _FIRST_GAIN = 4
-"""Differences of a few grey levels, drawn as they are, could not be told from black."""
+"""Without a factor, differences of a few grey levels would look black."""
 
 
 class ImageView(QWidget):
     """The simulated picture with the decoder's region, and the photo beside or over it."""
 
     mode_chosen = Signal(str)
-    """How the user wants to see the photo, one of MODES."""
+    """The way of showing the photo that the user chose, one of MODES."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -41,7 +41,7 @@ class ImageView(QWidget):
         self.overlay = PhotoOverlay(self.simulation.box)
         self.before = BeforeWipe(self.simulation.box)
         self.simulation.caption_row.addWidget(self.before.controls)
-        # So that both pictures begin at the same height.
+        # The tops of both pictures are aligned.
         self.photo.caption.setMinimumHeight(self.before.controls.sizeHint().height())
         panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.simulation)
@@ -57,9 +57,9 @@ class ImageView(QWidget):
 
     def _make_controls(self) -> None:
         self.mode = WordChoice(
-            self.tr("How photo and simulation are shown"), self._about_modes(), self._mode_words()
+            self.tr("How photo and simulation are shown"), self._mode_meanings(), self._mode_words()
         )
-        # A word of it that is cut off cannot be told from another.
+        # Its words must not be cut off: some begin alike.
         self.mode.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.mode.chosen.connect(self.mode_chosen)
         self.opacity = QSlider(Qt.Orientation.Horizontal)
@@ -70,8 +70,10 @@ class ImageView(QWidget):
         self.opacity.setToolTip(self.tr("Opacity of the photo over the simulation, in percent."))
         self.opacity.valueChanged.connect(lambda percent: self.overlay.set_opacity(percent / 100))
         self.gain = WordChoice(
-            self.tr("How many times the difference is drawn"),
-            self.tr("How many times the difference in grey levels is drawn, up to white."),
+            self.tr("Factor of the difference"),
+            self.tr(
+                "The factor by which the difference in grey levels is multiplied, up to white."
+            ),
             {str(gain): f"× {gain}" for gain in _GAINS},  # noqa: RUF001 - the sign for times
         )
         self.gain.show_key(str(_FIRST_GAIN))
@@ -92,13 +94,13 @@ class ImageView(QWidget):
             "difference": self.tr("Difference"),
         }
 
-    def _about_modes(self) -> str:
+    def _mode_meanings(self) -> str:
         return self.tr(
-            "Side by side: each picture in a view of its own.\n"
-            "Blended: the photo over the simulation, as opaque as the slider says.\n"
-            "Split: the simulation above a line that can be dragged, the photo below it; stripes "
-            "that match run on across it.\n"
-            "Difference: the absolute difference in grey levels, black where both are alike; "
+            "Side by side: each picture in its own view.\n"
+            "Blended: the photo over the simulation, with the opacity of the slider.\n"
+            "Split: the simulation above a line that can be dragged, the photo below it; matching "
+            "stripes continue across it.\n"
+            "Difference: the absolute difference in grey levels, black where both are equal; "
             "averaged over each pixel of the screen."
         )
 
@@ -107,25 +109,27 @@ class ImageView(QWidget):
             "beside": self.tr("Simulated picture"),
             "blend": self.tr("Photo over the simulated picture"),
             "split": self.tr("Simulation above the line, photo below"),
-            "difference": self.tr("Difference × {gain}: black where both are alike").format(  # noqa: RUF001 - the sign for times
+            "difference": self.tr("Difference × {gain}: black where both are equal").format(  # noqa: RUF001 - the sign for times
                 gain=self.gain.key()
             ),
         }
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the last ones."""
-        if snapshot.frame.image is not self._shown:  # it may have come before it was read
+        """Show these results in place of the previous ones."""
+        if (
+            snapshot.frame.image is not self._shown
+        ):  # the picture may have been shown before it was decoded
             self.show_picture(Picture(snapshot.frame, ()))
         self.simulation.show_region(snapshot.decoded.region)
 
     def show_picture(self, picture: Picture) -> None:
-        """Show this picture in place of the last one; what was read from that stays."""
+        """Show this picture in place of the previous one; the region decoded from that stays."""
         self._shown = picture.frame.image
         self.simulation.show_picture(self._shown, picture.halves)
         self.overlay.set_simulated(self._shown)
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Show this photo in place of the last one, or none."""
+        """Show this photo in place of the previous one, or none."""
         self._photo = photo
         if photo is not None:
             self.photo.show_picture(photo.image)
@@ -137,7 +141,7 @@ class ImageView(QWidget):
         self._arrange()
 
     def show_placement(self, placement: Placement) -> None:
-        """Show the photo there on the simulated picture."""
+        """Place the photo on the simulated picture."""
         self.overlay.set_placement(placement)
 
     def set_mode(self, mode: str) -> None:
@@ -152,7 +156,7 @@ class ImageView(QWidget):
         self._arrange()
 
     def fit(self) -> None:
-        """Show both pictures whole."""
+        """Zoom out until both pictures are seen whole."""
         self.simulation.fit()
         self.photo.fit()
 

@@ -1,4 +1,4 @@
-"""A photo on a picture: seen through, up to a line, or as a difference, and moved by the mouse."""
+"""Photo over the simulated picture: blended, split at a line, or as their difference."""
 
 import math
 
@@ -13,7 +13,7 @@ from occ_gui.widgets.plot import PHOTO, REGION
 from occ_model.arrays import ByteArray
 
 MODES = ("beside", "blend", "split", "difference")
-"""How a photo is shown with the simulated picture."""
+"""Ways of showing a photo with the simulated picture."""
 
 _NO_IMAGE: ByteArray = np.zeros((0, 0), dtype=np.uint8)
 
@@ -22,7 +22,7 @@ _FRAME_PEN = pg.mkPen(PHOTO, width=2)
 
 
 def rect_of(image: ByteArray, placement: Placement) -> QRectF:
-    """Say where a placed image lies, the centre of its first pixel at the placement."""
+    """Return the rectangle of a placed image; the placement is the centre of its first pixel."""
     rows, columns = image.shape
     half = placement.scale / 2
     return QRectF(
@@ -34,7 +34,7 @@ def rect_of(image: ByteArray, placement: Placement) -> QRectF:
 
 
 class PhotoOverlay(QObject):
-    """What lies on the simulated picture while a photo is shown over it.
+    """The items drawn over the simulated picture while a photo is shown over it.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class PhotoOverlay(QObject):
     """
 
     placed = Signal(object)
-    """Where the user has put the photo: a Placement."""
+    """The user moved or scaled the photo: a Placement."""
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
@@ -52,13 +52,13 @@ class PhotoOverlay(QObject):
         self._placement = Placement()
         self._mode = MODES[0]
         self._movable = False
-        self._showing = False
+        self._updating_frame = False
         self._over, self.difference = AveragedImage(), DifferenceImage()
         self._over.setOpacity(0.5)
         self.line = pg.InfiniteLine(angle=0, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._split)
-        self.line.sigDragged.connect(self._leave_line)
-        self._line_is_free = True
+        self.line.sigDragged.connect(self._keep_line)
+        self._line_is_centred = True
         self.frame = pg.ROI((0, 0), (1, 1), pen=_FRAME_PEN, rotatable=False)
         self.frame.addScaleHandle((1, 1), (0, 0), lockAspect=True)
         self.frame.addScaleHandle((0, 0), (1, 1), lockAspect=True)
@@ -70,34 +70,34 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_simulated(self, image: ByteArray) -> None:
-        """Say which picture the photo lies on, its first pixel's centre at (0, 0)."""
+        """Set the picture under the photo, its first pixel's centre at (0, 0)."""
         self._simulated = image
         if self._mode == "difference":
             self._compare()
 
     def set_photo(self, photo: ByteArray | None) -> None:
-        """Lay this photo on the picture in place of the last one, or none."""
+        """Show this photo over the picture in place of the previous one, or none."""
         self._photo = photo
-        self._line_is_free = True
+        self._line_is_centred = True
         self._arrange()
 
     def set_placement(self, placement: Placement) -> None:
-        """Say where the photo lies."""
+        """Move and scale the photo."""
         self._placement = placement
         self._arrange()
 
     def set_mode(self, mode: str) -> None:
-        """Say how the photo is shown, one of MODES; beside the picture nothing lies on it."""
+        """Set the way of showing the photo, one of MODES; nothing is drawn over for the first."""
         self._mode = mode
         self._arrange()
 
     def set_opacity(self, opacity: float) -> None:
-        """Say how much a blended photo hides, from 0 to 1."""
+        """Set the opacity of a blended photo, from 0 to 1."""
         self._opacity = opacity
         self._arrange()
 
     def set_movable(self, movable: bool) -> None:
-        """Say whether the mouse can move and scale the photo."""
+        """Let the mouse move and scale the photo, or not."""
         self._movable = movable
         self._arrange()
 
@@ -113,16 +113,16 @@ class PhotoOverlay(QObject):
             return
         rect = rect_of(photo, self._placement)
         self._over.set_image(photo, rect)
-        if self._line_is_free:
+        if self._line_is_centred:
             self.line.setValue(rect.center().y())
         self._split()
         if self._mode == "difference":
             self.difference.set_image(1, photo, rect)
             self._compare()
-        self._showing = True
+        self._updating_frame = True
         self.frame.setPos(rect.topLeft(), update=False)
         self.frame.setSize((rect.width(), rect.height()))
-        self._showing = False
+        self._updating_frame = False
 
     def _compare(self) -> None:
         self.difference.set_image(0, self._simulated, rect_of(self._simulated, Placement()))
@@ -130,12 +130,12 @@ class PhotoOverlay(QObject):
     def _split(self) -> None:
         self._over.show_from(self.line.value() if self._mode == "split" else -math.inf)
 
-    def _leave_line(self) -> None:
-        """Let the line stay where the user has put it."""
-        self._line_is_free = False
+    def _keep_line(self) -> None:
+        """Keep the line where the user dragged it."""
+        self._line_is_centred = False
 
     def _follow_frame(self) -> None:
-        if self._showing or self._photo is None:
+        if self._updating_frame or self._photo is None:
             return
         corner: QPointF = self.frame.pos()
         scale = float(self.frame.size().x()) / self._photo.shape[1]

@@ -1,4 +1,4 @@
-"""One picture with its caption."""
+"""View of one picture with its caption and the region that was decoded."""
 
 from collections.abc import Sequence
 
@@ -15,22 +15,22 @@ from occ_model.results import Region
 _REGION_PEN = pg.mkPen(REGION, width=2)
 
 _FARTHEST = 1e7
-"""Pixels from the first one that can be brought into view."""
+"""Largest distance from the first pixel that can be shown, in pixels."""
 
 _LARGEST_SPAN = 4e6
-"""Pixels that can be in view side by side."""
+"""Largest range of the view in pixels."""
 
 _LEAST_SPAN = 0.5
-"""Pixels that are in view at least."""
+"""Smallest range of the view in pixels."""
 
 
 class PicturePane(QWidget):
-    """One picture with its caption, and the region that was read.
+    """One picture with its caption, and the region that was decoded.
 
     Parameters
     ----------
     caption
-        What the picture is.
+        What the picture shows.
     parent
         The parent widget.
     """
@@ -63,14 +63,14 @@ class PicturePane(QWidget):
         layout.addWidget(self.graphics, 1)
 
     def show_picture(self, image: ByteArray, halves: Sequence[ByteArray] = ()) -> None:
-        """Show a picture; the view moves only when its size changes.
+        """Show a picture; the view changes only if its size does.
 
         Parameters
         ----------
         image : ndarray of uint8, shape (rows, columns)
             The picture.
         halves
-            The same at a half of its size, a quarter and so on, where they are there already.
+            The same at a half of its size, a quarter and so on, if already computed.
         """
         self._picture.set_image(image, halves=halves)
         before, self._image = self._image, image
@@ -78,7 +78,7 @@ class PicturePane(QWidget):
             self.fit()
 
     def level_at(self, column: int, row: int) -> int | None:
-        """Give the grey level of a pixel, None beside the picture."""
+        """Return the grey level of a pixel, None outside the picture."""
         image = self._image
         if image is None or not (0 <= row < image.shape[0] and 0 <= column < image.shape[1]):
             return None
@@ -91,7 +91,7 @@ class PicturePane(QWidget):
             self.graphics.setBackground(self.palette().dark().color())
 
     def show_region(self, region: Region | None) -> None:
-        """Draw the rectangle that the decoder read, or none."""
+        """Draw the rectangle that was decoded, or none."""
         self._region.setVisible(region is not None)
         if region is not None:
             self._region.setRect(

@@ -1,23 +1,23 @@
-"""Where a photo lies on the simulated picture: one frozen value, changed in one place."""
+"""Placement of a photo on the simulated picture: its shift and scale, and the store of it."""
 
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
 LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
-"""How much a photo can be made smaller and larger."""
+"""Smallest and largest scale of a photo."""
 
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """A photo's place on the simulated picture.
+    """Shift and scale of a photo on the simulated picture.
 
     Parameters
     ----------
     column, row
-        The pixel of the simulated picture that the photo's first one lies on.
+        The pixel of the simulated picture under the photo's first pixel.
     scale
-        Pixels of the simulated picture to one of the photo.
+        Pixels of the simulated picture per pixel of the photo.
     """
 
     column: float = 0.0
@@ -26,41 +26,41 @@ class Placement:
 
 
 class PlacementStore(QObject):
-    """Holds the placement: one that suits the pictures, until the user chooses another."""
+    """Holds the placement: an automatic one until the user chooses another."""
 
     changed = Signal(object)
     """The new placement."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._fitting = Placement()
+        self._automatic = Placement()
         self._by_hand: Placement | None = None
 
     @property
     def placement(self) -> Placement:
-        """The placement as it is now."""
-        return self._fitting if self._by_hand is None else self._by_hand
+        """The current placement."""
+        return self._automatic if self._by_hand is None else self._by_hand
 
     @property
     def is_by_hand(self) -> bool:
-        """Whether the user chose it."""
+        """Whether the user chose the placement."""
         return self._by_hand is not None
 
     def suggest(self, placement: Placement) -> None:
-        """Say which placement suits the pictures; it holds unless the user chose one."""
+        """Set the automatic placement; it takes effect unless the user chose one."""
         self._put(placement, self._by_hand)
 
     def move(self, placement: Placement) -> None:
-        """Place the photo by hand."""
+        """Set the placement that the user chose."""
         scale = min(max(placement.scale, LEAST_SCALE), LARGEST_SCALE)
-        self._put(self._fitting, Placement(placement.column, placement.row, scale))
+        self._put(self._automatic, Placement(placement.column, placement.row, scale))
 
     def reset(self) -> None:
-        """Go back to the placement that suits the pictures."""
-        self._put(self._fitting, None)
+        """Return to the automatic placement."""
+        self._put(self._automatic, None)
 
-    def _put(self, fitting: Placement, by_hand: Placement | None) -> None:
+    def _put(self, automatic: Placement, by_hand: Placement | None) -> None:
         before = (self.placement, self.is_by_hand)
-        self._fitting, self._by_hand = fitting, by_hand
+        self._automatic, self._by_hand = automatic, by_hand
         if (self.placement, self.is_by_hand) != before:
             self.changed.emit(self.placement)

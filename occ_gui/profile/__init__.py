@@ -1,1 +1,1 @@
-"""The column profile beside its comparisons."""
+"""The column profile of simulation, band model and photo."""

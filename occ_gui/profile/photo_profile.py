@@ -1,4 +1,4 @@
-"""What of a photo is drawn beside a simulated profile."""
+"""Profile of a photo, placed beside a simulated one."""
 
 from dataclasses import dataclass
 
@@ -8,18 +8,18 @@ from occ_model.results import Comparison
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PhotoProfile:
-    """A photo's profile as it lies on a simulated one.
+    """A photo's profile in the columns of a simulated one.
 
     Parameters
     ----------
     comparison
-        The two side by side, None where ``sentence`` says why they cannot be compared.
+        Both profiles compared, None if ``sentence`` says why that is impossible.
     raw : ndarray of float64, shape (columns of the photo,)
         Mean of each column of the whole photo, in grey levels.
     first_column, scale
-        The simulation's column under the photo's first, and its columns to one of the photo.
+        The simulated column under the photo's first one, and simulated columns per photo column.
     sentence
-        Why there is no comparison; empty also while it is still being worked on.
+        Why there is no comparison; also empty while the photo is searched for stripes.
     """
 
     comparison: Comparison | None

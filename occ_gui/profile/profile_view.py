@@ -1,4 +1,4 @@
-"""The column profile beside the band model's and a photo's, and what tells them apart."""
+"""Pane of the column profile: simulation, band model and photo, and their residual."""
 
 from functools import cached_property
 
@@ -34,12 +34,12 @@ from occ_gui.widgets.plot import (
 from occ_model.arrays import FloatArray
 
 _LEAST_HEIGHT = 76
-"""Pixels: in a low window all panes have to share them."""
+"""Pixels: in a low window all panes share the height."""
 
 _AXIS_WIDTH = 52
 
 _SHADE = 40
-"""How much of the region's colour lies under the curves, of 255."""
+"""Opacity of the region's colour under the curves, of 255."""
 
 
 class ProfileView(QWidget):
@@ -50,7 +50,7 @@ class ProfileView(QWidget):
     """
 
     enhanced_chosen = Signal(bool)
-    """Whether the simulated columns are wanted as they stand in the picture."""
+    """Whether the user chose the enhanced columns."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -64,7 +64,7 @@ class ProfileView(QWidget):
             self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        # Where several columns share a pixel their extremes are drawn, not one of them by chance.
+        # Of several columns on one pixel the extremes are drawn, not an arbitrary one.
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
         self.legend = LineLegend()
@@ -90,7 +90,7 @@ class ProfileView(QWidget):
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
             self.legend.show_line(key, key == "simulation")
-        self.before = self.plot.add_curve(pens["before"][1])  # under all others
+        self.before = self.plot.add_curve(pens["before"][1])  # below all others
         self.simulation = self.plot.add_curve(pens["simulation"][1])
         self.band = self.plot.add_curve(pens["band"][1])
         self.photo = self.plot.add_curve(pens["photo"][1])
@@ -106,7 +106,7 @@ class ProfileView(QWidget):
     def _make_controls(self) -> None:
         self.enhanced = QCheckBox(self.tr("Enhanced"))
         self.enhanced.setToolTip(
-            self.tr("Show the simulated column values as they stand in the picture.")
+            self.tr("Show the simulated columns after the camera's enhancement, as in the picture.")
         )
         self.enhanced.toggled.connect(self._draw_before)
         self.enhanced.toggled.connect(self._redraw)
@@ -142,20 +142,22 @@ class ProfileView(QWidget):
 
     @cached_property
     def residual(self) -> ResidualPlot:
-        """What is left of a photo without the simulation: made with the first photo."""
+        """The plot of photo minus simulation, made with the first photo."""
         residual = ResidualPlot(self.plot)
-        residual.plot.getAxis("left").setWidth(_AXIS_WIDTH)  # so that a column stands over itself
+        residual.plot.getAxis("left").setWidth(
+            _AXIS_WIDTH
+        )  # so that the columns of both plots are aligned
         residual.hide()
         self._rows.addWidget(residual, 2)
         return residual
 
-    def _make_room(self) -> None:
-        """Name the columns once only, under the lower of the two plots."""
+    def _arrange_plots(self) -> None:
+        """Show the residual below the profile of a photo, and label the columns once."""
         if self._photo is None and "residual" not in vars(self):
-            return  # there has never been a lower one
+            return  # no photo has been opened yet
         below = self._photo is not None and self._photo.comparison is not None
         self.residual.setVisible(self._photo is not None)
-        # A sentence in place of the lower plot takes no more room than a line.
+        # A sentence in place of the residual needs only the height of a line.
         policy = self.residual.sizePolicy()
         vertical = QSizePolicy.Policy.Preferred if below else QSizePolicy.Policy.Maximum
         policy.setVerticalPolicy(vertical)
@@ -164,24 +166,24 @@ class ProfileView(QWidget):
         self.plot.getAxis("bottom").setStyle(showValues=not below)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the last ones."""
+        """Show these results in place of the previous ones."""
         self._snapshot = snapshot
         self._redraw()
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
-        """Show this profile of a photo in place of the last one, or none."""
+        """Show this profile of a photo in place of the previous one, or none."""
         self._photo = profile
         if profile is None:
             self._photo_levels = None
             _draw(self.photo, None)
-        elif profile.comparison is None:  # as it is in the file
+        elif profile.comparison is None:  # in the photo's own levels
             self._photo_levels = profile.raw
             _draw(self.photo, profile.raw, profile.first_column, profile.scale)
         else:  # in the simulation's levels
             self._photo_levels = profile.comparison.photo
             _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
         self.legend.show_line("photo", profile is not None)
-        self._make_room()
+        self._arrange_plots()
         if profile is not None:
             self.residual.show_profile(profile)
         self._fit_levels()
@@ -215,7 +217,7 @@ class ProfileView(QWidget):
         self._fit_columns(snapshot)
 
     def show_before(self, snapshot: Snapshot) -> None:
-        """Show the profile of these results, in grey, as that before the latest change."""
+        """Show the profile of these results in grey, as that before the latest change."""
         self._before = snapshot
         self.legend.show_line("before", True)
         self._draw_before()
@@ -227,7 +229,7 @@ class ProfileView(QWidget):
             _draw(self.before, self._before_levels)
 
     def _fit_levels(self) -> None:
-        """Show from black to the largest value, in steps, so that the axis does not tremble."""
+        """Show from black to the largest value, rounded up so that the axis rarely changes."""
         profiles = (*self._simulated_levels, self._before_levels, self._photo_levels)
         largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
         step = 20.0
@@ -247,21 +249,21 @@ class ProfileView(QWidget):
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
     def _first_of_photo(self, first: float, last: float) -> float:
-        """Begin where a photo does that lies further to the right, so that it can be compared."""
+        """Return the photo's first column if it lies further right: both are compared there."""
         comparison = None if self._photo is None else self._photo.comparison
         if comparison is None or not first < comparison.first_column < last:
             return first
         return float(comparison.first_column)
 
     def columns_in_view(self) -> tuple[int, int]:
-        """Give the first column that is seen, and the one behind the last."""
+        """Return the first visible column, and the one after the last."""
         columns = 0 if self._snapshot is None else len(self._snapshot.frame.profile)
         low, high = self.plot.viewRange()[0]
         first = min(max(int(np.ceil(low)), 0), max(columns - 2, 0))
         return first, min(max(int(high) + 1, first + 2), columns)
 
     def level_at(self, column: int) -> float | None:
-        """Give the simulated level of a column, None beside the picture."""
+        """Return the simulated level of a column, None outside the picture."""
         levels = self._simulated_levels[0] if self._simulated_levels else None
         if levels is None or not 0 <= column < len(levels):
             return None
@@ -278,7 +280,7 @@ class ProfileView(QWidget):
 
 
 def _levels(snapshot: Snapshot, enhanced: bool) -> FloatArray:
-    """Give the column values, as they stand in the picture if they are wanted enhanced."""
+    """Return the column values, before or after the camera's enhancement."""
     frame = snapshot.frame
     return frame.enhanced.astype(np.float64) if enhanced else frame.profile
 

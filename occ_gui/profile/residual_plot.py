@@ -1,4 +1,4 @@
-"""What is left of a photo's profile when the simulated one is taken away."""
+"""Plot of the residual, photo minus simulation, over the columns."""
 
 import numpy as np
 import pyqtgraph as pg
@@ -13,16 +13,16 @@ from occ_model.results import Comparison
 _LEAST_HEIGHT = 56
 
 _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
-"""Grey levels that the axis can reach, so that it does not tremble."""
+"""Grey levels at which the axis can end, so that it rarely changes."""
 
 
 class ResidualPlot(QWidget):
-    """Photo less simulation over column, with how alike they are in numbers.
+    """Photo minus simulation over column, with their correlation and RMSE.
 
     Parameters
     ----------
     linked
-        The plot of the profiles themselves, whose columns stay above those of this one.
+        The plot of the profiles, whose column range this one shares.
     parent
         The parent widget.
     """
@@ -30,14 +30,17 @@ class ResidualPlot(QWidget):
     def __init__(self, linked: pg.PlotWidget, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.numbers = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.numbers.setAccessibleName(self.tr("How alike photo and simulation are"))
+        self.numbers.setAccessibleName(self.tr("Agreement of photo and simulation"))
         self.plot = new_plot(
-            self.tr("Photo less simulation"), self.tr("column"), self.tr("rest"), self.palette()
+            self.tr("Photo minus simulation"),
+            self.tr("column"),
+            self.tr("residual"),
+            self.palette(),
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
-        # Linked by pyqtgraph, one would be shifted by what their frames are apart on the screen.
+        # pyqtgraph's own link would shift one by the distance of their frames on the screen.
         linked.getViewBox().sigXRangeChanged.connect(self._follow)
         self._linked = linked
         self._follow(linked.getViewBox(), linked.viewRange()[0])
@@ -55,30 +58,30 @@ class ResidualPlot(QWidget):
         self.plot.setXRange(*columns, padding=0)
 
     def _lead(self) -> None:
-        # As if the user had moved the other one: it follows neither panel nor packets any more.
+        # As if the user had moved the other plot, which then stops following panel or packets.
         self._linked.setXRange(*self.plot.viewRange()[0], padding=0)
         box = self._linked.getViewBox()
         box.sigRangeChangedManually.emit(box.mouseEnabled())
 
     def show_profile(self, profile: PhotoProfile) -> None:
-        """Show what is left, or say why photo and simulation cannot be compared."""
+        """Show the residual, or why photo and simulation cannot be compared."""
         comparison = profile.comparison
         self.plot.setVisible(comparison is not None)
         if comparison is None:
             self.curve.setData([], [])
-            self.numbers.set_full_text(profile.sentence or self.tr("Looking for stripes…"))
+            self.numbers.set_full_text(profile.sentence or self.tr("Searching for stripes…"))
             return
         residual = comparison.residual
         columns = comparison.first_column + np.arange(len(residual), dtype=np.float64)
         self.curve.setData(columns, residual)
         largest = float(np.abs(residual).max())
-        reach = next((step for step in _STEPS if largest <= step), _STEPS[-1])
-        self.plot.setYRange(-reach, reach, padding=0.2)
-        ticks = [(level, f"{level:.0f}") for level in (-reach, 0.0, reach)]
+        limit = next((step for step in _STEPS if largest <= step), _STEPS[-1])
+        self.plot.setYRange(-limit, limit, padding=0.2)
+        ticks = [(level, f"{level:.0f}") for level in (-limit, 0.0, limit)]
         self.plot.getAxis("left").setTicks([ticks])
         self.numbers.set_full_text(self._in_words(comparison))
 
     def _in_words(self, comparison: Comparison) -> str:
         return self.tr(
-            "Photo less simulation: correlation {correlation:.4f}, RMSE {rmse:.2f} grey levels"
+            "Photo minus simulation: correlation {correlation:.4f}, RMSE {rmse:.2f} grey levels"
         ).format(correlation=comparison.correlation, rmse=comparison.rmse)

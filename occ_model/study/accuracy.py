@@ -1,8 +1,8 @@
-"""What accuracy costs in time, for the scene at hand.
+"""Measure the time and the error of each way to simulate a scene.
 
-Four comparisons: the closed form of the exposure with samples of it; the effects, one after the
-other, with all of them; the profile path with the image path; and noise that is drawn with noise
-that is used again. All errors are root mean squares in levels of the stretched profile.
+Four comparisons: samples of the exposure with its closed form; the effects, switched on one after
+the other, with all of them; the profile path with the image path; and reused noise with noise drawn
+for each pixel. All errors are root mean squares in levels of the stretched profile.
 """
 
 from collections.abc import Callable, Iterator
@@ -34,7 +34,7 @@ SAMPLES = tuple(2**power for power in range(13))
 """1 to 4096 samples an exposure."""
 
 _EXACT_COLUMNS = 97
-"""Columns whose exposure is worked out in rational arithmetic, to compare with."""
+"""Columns whose exposure is computed in rational arithmetic as the reference."""
 
 Result = TypeVar("Result")
 
@@ -43,19 +43,19 @@ _REPEATS = 5
 
 
 def accuracy(scene: Scene, settings: SimulationSettings | None = None) -> Iterator[AccuracyPoint]:
-    """Measure what accuracy costs, point by point: whoever has enough can stop.
+    """Measure the time and the error of each way to simulate a scene, point by point.
 
     Parameters
     ----------
     scene
         The scene.
     settings
-        The settings at hand.
+        The current settings, by default ``SimulationSettings()``.
 
     Raises
     ------
     ParameterError
-        A setting cannot be.
+        A setting is not allowed.
     ProjectionError
         The scene has no picture.
     """
@@ -83,7 +83,7 @@ def _points(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterato
 
 
 def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
-    """Compare the exposure's closed form, and samples of it, with rational arithmetic."""
+    """Compare the exposure by samples and in closed form with rational arithmetic."""
     columns = scene.camera.columns
     some = np.unique(np.linspace(0, columns - 1, _EXACT_COLUMNS).astype(np.int64))
     truth = _profile(scene, exact_lit_fraction(scene, some))
@@ -144,7 +144,7 @@ def _observed(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixel
 
 
 def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
-    """Compare the column values alone, and the means of whole pictures, with all effects."""
+    """Compare the profile path and the image path with the profile that shows all effects."""
     region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
@@ -162,7 +162,7 @@ def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator
 def _noise_sources(
     scene: Scene, settings: SimulationSettings, stretch: float
 ) -> Iterator[AccuracyPoint]:
-    """Compare the size of each source's noise with the sensor's."""
+    """Compare the standard deviation of each source's noise with the sensor's."""
     complete = plan(scene, 0.0, "image")
     noises = planned(complete, NoiseEffect)
     if not noises:
@@ -187,7 +187,7 @@ def rms(values: NDArray[np.floating]) -> float:
 
 
 def timed(work: Callable[[], Result]) -> tuple[float, Result]:
-    """Give the least time of a few runs, fewer of slow ones, and what the work gives."""
+    """Give the least time of a few runs, fewer of slow work, and the work's result."""
     best, spent = np.inf, 0.0
     for _ in range(_REPEATS):
         start = perf_counter()

@@ -1,4 +1,12 @@
-"""The advisor: how fast a scene can go, and how long it can be exposed, before reading stops."""
+"""Search for the switching frequencies and exposure times at which a decoder reads a scene.
+
+Each parameter is varied by itself, over the range of its slider, widened where the scene's own
+value lies outside. A coarse search tries values in steps of a factor ``STEP`` up and down from that
+value. Success need not fall steadily: at low frequencies too few packets fit the picture, and
+beyond a null the stripes come back. The answer is therefore one interval in which the coarse search
+saw no failure: the one that holds the scene's own value, or else the nearest by ratio. A gap
+narrower than a step can be missed. Each end is then found by bisection, to a factor ``NEAR``.
+"""
 
 import math
 from collections.abc import Mapping
@@ -29,7 +37,7 @@ STEP = 1.15
 """Ratio of neighbouring values in the first, coarse search."""
 
 NEAR = 1.003
-"""Ratio of the values on both sides of an edge at which the search for it ends."""
+"""Ratio of the values on both sides of an end of the interval at which its bisection stops."""
 
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -46,13 +54,8 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
-    Each parameter is varied by itself. The range of its slider, widened where the scene's own value
-    lies outside, is first tried coarsely, in steps of a factor ``STEP`` up and down from that
-    value. Success need not fall steadily: at low frequencies too few packets fit the picture, and
-    beyond a null the stripes come back. What is reported is therefore one interval without a
-    failure, as far as the coarse search saw: the one that holds the scene's own value, or else the
-    nearest by ratio. A gap narrower than a step can be missed. Each end is then found by bisection,
-    to a factor ``NEAR``.
+    Each answer is the interval that holds the scene's own value, or else the nearest by ratio. Its
+    ends are found by bisection; a gap narrower than a step of ``STEP`` can be missed.
 
     Parameters
     ----------
@@ -63,24 +66,18 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     rate
         Success rate in percent from which it counts as reading, above 0.
     images
-        Images at each value. Their number decides how sure the answer is: each end carries the bits
-        it rests on and their interval.
+        Images at each value: the more of them, the narrower the confidence interval of each end.
     seed
-        Of each value's start times and noise.
+        Seed of each value's start times and noise.
     tolerance, force, path
-        As for :func:`occ_model.success_rate`; where the profile path holds the answer takes some
-        seconds, by whole images it takes minutes.
+        As for :func:`occ_model.success_rate`. The profile path takes seconds, whole images minutes.
     heartbeat
-        Called before each image; whatever it raises ends the search.
-
-    Returns
-    -------
-    Limits
+        Called before each image; what it raises ends the search.
 
     Raises
     ------
     ParameterError
-        The rate is not from above 0 to 100 %, or another argument cannot be.
+        The rate is not from above 0 to 100 %, or another argument is not allowed.
     ProjectionError
         The scene has no picture.
     """
@@ -88,12 +85,11 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     wanted = _checked(rate)
-    found = {}
-    for name in ("switching_frequency", "exposure_time"):
-        found[name] = _Search(scene, name, wanted, settings, heartbeat).working_range()
-    return Limits(
-        scene, decoder, wanted, images, seed, found["switching_frequency"], found["exposure_time"]
+    frequency, exposure = (
+        _Search(scene, name, wanted, settings, heartbeat).working_range()
+        for name in ("switching_frequency", "exposure_time")
     )
+    return Limits(scene, decoder, wanted, images, seed, frequency, exposure)
 
 
 def _checked(rate: object) -> float:
@@ -104,7 +100,7 @@ def _checked(rate: object) -> float:
 
 
 class _Search:
-    """The search for the values of one parameter at which a scene is read."""
+    """A search for the values of one parameter at which a scene is read."""
 
     def __init__(
         self, scene: Scene, name: str, rate: float, settings: RateSettings, heartbeat: Heartbeat
@@ -122,7 +118,7 @@ class _Search:
         self._low, self._high = min(low, self._own), max(high, self._own)
 
     def working_range(self) -> WorkingRange:
-        """Find them."""
+        """Find the interval of values."""
         values = self._coarse()
         own = values.index(self._own)
         trials = [self._try(value) for value in values]
@@ -165,7 +161,7 @@ class _Search:
         return [*(float(f"{value:.5g}") for value in between.tolist()), end]
 
     def _range_end(self, works: Trial, fails: Trial | None) -> RangeEnd:
-        """Bring two values that lie on both sides of an edge together."""
+        """Bisect, by ratio, between a value that works and one that fails."""
         while fails is not None:
             middle = float(f"{math.sqrt(works.value * fails.value):.5g}")
             ratio = max(works.value, fails.value) / min(works.value, fails.value)

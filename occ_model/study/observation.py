@@ -1,8 +1,8 @@
-"""What a decoder gets to see of a scene: by way of the image, or without one.
+"""The column means that a decoder reads, computed without an image: the profile path.
 
-The profile path needs no image. A level panel shows the same column values in every one of its
-rows, so that the mean of a column is known without its pixels: noise is sent through the
-enhancement as each pixel would send it, and averaged over as many rows.
+A level panel shows the same column values in each of its rows, so that a column's mean is known
+without its pixels. Noise passes through the enhancement as it does in each pixel, by its
+distribution, and is averaged over the rows.
 """
 
 from dataclasses import dataclass, replace
@@ -26,16 +26,16 @@ _REACH = 5.0
 """Standard deviations after which the noise's distribution is cut off."""
 
 _NODES = 81
-"""Points of the distribution that are sent through the enhancement."""
+"""Points of the distribution at which the enhancement is evaluated."""
 
 _LEVELS = 512
-"""Column values for which that is done where there are more columns; between them is a line."""
+"""Column values at which it is evaluated where there are more columns; between them linearly."""
 
 
 def panel_span(scene: Scene) -> Region | None:
-    """Give the rectangle that the panel fills in the image; None where it fills none.
+    """Give the rectangle that the panel fills in the image; None where its outline is no rectangle.
 
-    Its rows and columns are empty where the panel is not in the image.
+    The rectangle is empty where the panel is not in the image.
     """
     rows, columns = scene.camera.rows, scene.camera.columns
     first, last = row_spans(panel_corners(scene), rows, columns)
@@ -49,22 +49,22 @@ def panel_span(scene: Scene) -> Region | None:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Observation:
-    """What a decoder gets to read.
+    """The signal that a decoder reads.
 
     Parameters
     ----------
     signal : ndarray of float64 or uint8, shape (columns of the region,)
         Mean grey level of each column.
     region
-        The rectangle of the image that it was read from; None where the image shows no panel, and
-        all of one row is read.
+        The rectangle of the image that the signal is the mean of; None where the image shows no
+        panel, and the signal is a whole row.
     """
 
     signal: FloatArray | ByteArray
     region: Region | None
 
     def read(self, scene: Scene, decoder: str) -> DecodeResult:
-        """Decode it."""
+        """Decode the signal."""
         result = decode(self.signal, scene, decoder)
         return result if self.region is None else replace(result, region=self.region)
 
@@ -72,7 +72,7 @@ class Observation:
 def decode_profile(
     scene: Scene, decoder: str, plan: Plan, random: np.random.Generator
 ) -> DecodeResult | None:
-    """Decode what the image would show, without the image.
+    """Decode the column means of an image without the image.
 
     The decoder's region is found as in the image: from the first bright column to the last.
 
@@ -83,9 +83,9 @@ def decode_profile(
     decoder
         The decoder's name.
     plan
-        Its effects are simulated.
+        The effects that are simulated.
     random
-        Where the noise comes from.
+        The source of the noise.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def decode_profile(
 def observe_profile(
     view: PaperView, span: Region, plan: Plan, random: np.random.Generator
 ) -> Observation:
-    """Give what every decoder would read of the image, without the image.
+    """Compute the column means of an image that every decoder reads, without the image.
 
     Parameters
     ----------
@@ -112,9 +112,9 @@ def observe_profile(
         The rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at any
         start time.
     plan
-        Its effects are simulated; no image effect is among them.
+        The effects that are simulated; none of them is an image effect.
     random
-        Where the noise comes from.
+        The source of the noise.
     """
     scene = view.scene
     columns = expose_columns(view, plan)
@@ -156,7 +156,7 @@ def _noisy_means(
     enhancement: Enhancement,
     random: np.random.Generator,
 ) -> FloatArray:
-    """Average noisy, enhanced pixels over rows, by the distribution that they have."""
+    """Average noisy, enhanced pixels over rows, by the distribution of their values."""
     panel = columns.panel[span.first_column : span.last_column]
     low, high = float(panel.min()), float(panel.max())
     levels = panel if len(panel) <= _LEVELS else np.linspace(low, high, _LEVELS)

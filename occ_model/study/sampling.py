@@ -1,4 +1,4 @@
-"""The exposure as other simulators make it: by samples in time. Here only to be compared with."""
+"""Reference exposures for the accuracy study: by samples in time, and in rational arithmetic."""
 
 from fractions import Fraction
 
@@ -14,7 +14,7 @@ _SAMPLES_AT_ONCE = 1_000_000
 def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
     """Give t_on / t of every column from ``samples`` samples of the light in its exposure.
 
-    The samples stand in the middle of equal parts of the exposure.
+    The samples lie in the middle of equal parts of the exposure, as in other simulators.
 
     Returns
     -------
@@ -41,7 +41,7 @@ def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
     scene
         The scene.
     columns : ndarray of int64, shape (chosen,)
-        Which columns.
+        The columns.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The success rate, as the paper defines it."""
+"""Measure the success rate: the share of bits read rightly over several images."""
 
 import math
 from collections.abc import Mapping
@@ -39,24 +39,24 @@ def success_rate(
 
     SR = correct bits / (images x bits) x 100, the paper's definition. The images differ in start
     time, evenly distributed over one packet, and in noise. An image in which no bits are read
-    counts with none right. Which effects they show is planned for what a decoder sees, the profile.
+    counts with none right. The effects are planned for the profile, from which a decoder reads.
 
     Parameters
     ----------
     scene
         The scene; its start time and its flicker's phase are not used.
     images
-        How many.
+        Number of images.
     decoder
         The decoder's name.
     seed
-        Of the start times and the noise: the same seed gives the same rate.
+        Seed of the start times and the noise.
     tolerance, force
         As for :func:`occ_model.plan`.
     path
-        ``"image"``: make every image whole. ``"profile"``: decode the column means that it would
-        have, which needs rows that differ by noise at most: a level panel, and no image effect in
-        the plan. ``"auto"``: the profile wherever that holds.
+        ``"image"``: simulate every image whole. ``"profile"``: decode its column means without it,
+        which needs rows that differ by noise at most: a level panel, and no image effect in the
+        plan. ``"auto"``: the profile wherever that holds.
 
     Returns
     -------
@@ -66,8 +66,7 @@ def success_rate(
     Raises
     ------
     ParameterError
-        There are no images, no such decoder, path or effect, seed or tolerance are out of range,
-        the scene sends a raw pattern, or ``path`` is ``"profile"`` and rows differ.
+        An argument is not allowed, or the path is ``"profile"`` and rows differ.
     ProjectionError
         The scene has no picture.
     """
@@ -83,8 +82,8 @@ def right_bits(
 ) -> tuple[int, ...]:
     """Count the bits that each decoder reads rightly, all from the same images.
 
-    What a decoder reads does not depend on which others read the image too: each count is the one
-    behind :func:`success_rate` with that decoder alone.
+    A decoder's count does not depend on the other decoders: :func:`success_rate` with that decoder
+    alone rests on the same count.
 
     Parameters
     ----------
@@ -126,7 +125,7 @@ def right_bits(
 def _read(
     scene: Scene, settings: RateSettings, span: Region | None, random: np.random.Generator
 ) -> list[DecodeResult]:
-    """Make one image, or its profile, and let every decoder read it."""
+    """Simulate one image, or its profile, and decode it with every decoder."""
     view = paper_view_of(scene)
     own = SimulationSettings(settings.tolerance, "profile", settings.force)
     chosen = plan_of(view, own.checked(NAMES))
@@ -146,13 +145,13 @@ def _read(
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:
-    """Refuse to measure what has no success rate.
+    """Check a scene and the settings of a success rate.
 
     Raises
     ------
     ParameterError
-        There are no images, no such decoder, path or effect, seed or tolerance are out of range,
-        or the scene sends a raw pattern.
+        There are no images, there is no such decoder, path or effect, the seed or the tolerance
+        is out of range, or the scene sends a raw pattern.
     """
     check_count("images", settings.images, 1, MOST_IMAGES)
     check_seed(settings.seed)

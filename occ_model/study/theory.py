@@ -1,7 +1,7 @@
-"""The limits of reading that theory gives, as numbers to hold a simulation against.
+"""The limits of reading that follow from single equations, to compare a simulation with.
 
-They follow from single equations, know nothing of noise or decoders, and are where things change,
-not where reading stops: a matched decoder reads far beyond the null.
+They take account of neither noise nor decoders. They mark where the picture changes in kind, not
+where reading stops: a matched decoder reads far beyond the null.
 """
 
 import math
@@ -16,7 +16,7 @@ from occ_model.transmitter.packet import packet_length
 
 
 def band_model_frequency(scene: Scene) -> float:
-    """Give the switching frequency from which the band model says nothing: t_LED = t, f = 1/t.
+    """Give the switching frequency from which the band model is undefined: t_LED = t, f = 1/t.
 
     Beyond it every column's exposure holds a change of state, and no column shows one state alone:
     h_c = (t_LED - t) / t_r is negative (the paper's section II.B).
@@ -32,8 +32,8 @@ def band_model_frequency(scene: Scene) -> float:
 def null_frequency(scene: Scene) -> float:
     """Give the switching frequency at which an alternating pattern has no stripes: f = 2/t.
 
-    Chips on and off in turn have the period 2 t_LED. An exposure as long as that, t = 2/f, sees as
-    much light wherever it starts: the first null of sinc(t f / 2), the exposure's response to the
+    Chips that alternate have the period 2 t_LED. An exposure as long as that, t = 2/f, collects the
+    same light wherever it starts: the first null of sinc(t f / 2), the exposure's response to the
     square wave's fundamental f/2.
 
     Returns

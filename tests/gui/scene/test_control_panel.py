@@ -1,6 +1,7 @@
 """All controls of a scene: each parameter once, each control named and explained."""
 
 from collections import Counter
+from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
@@ -69,7 +70,11 @@ def test_every_row_names_its_parameter_and_tells_the_allowed_range(panel: Contro
 
 def test_all_pages_show_the_scene_and_tell_nothing(panel: ControlPanel) -> None:
     told: list[object] = []
-    for row in (panel.code, *(row for page in panel.panels.values() for row in page.rows.values())):
+    rows: list[Any] = [
+        panel.code,
+        *(r for page in panel.panels.values() for r in page.rows.values()),
+    ]
+    for row in rows:
         row.edited.connect(lambda *edit: told.append(edit))
     scene = Scene().replace(
         code=5, bits=4, pattern="01", distance=0.7, gamma=1.8, averaging="light", rows=77

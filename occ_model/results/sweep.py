@@ -1,4 +1,4 @@
-"""What a sweep finds: a success rate for each point and decoder."""
+"""The table of a sweep: a success rate for each point and decoder."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -23,15 +23,15 @@ class SweepRow:
     point
         The varied parameters, in SI units.
     decoder
-        Its name.
+        The decoder's name.
     right, sent
-        Bits read rightly, of so many.
+        Bits read rightly, and bits sent.
     rate
         Percent; None where the model refuses the scene.
     low, high
-        The 95 % interval behind it, percent; None where the model refuses the scene.
+        The ends of the rate's 95 % interval, percent; None where the model refuses the scene.
     note
-        Why it does.
+        Why the model refuses the scene; empty where it does not.
     """
 
     point: Mapping[str, ParameterValue]
@@ -48,22 +48,22 @@ class SweepRow:
 class SweepTable:
     """Success rates over all combinations of some parameters' values.
 
-    Two tables are equal when all their numbers and notes are, and so is what was asked for.
+    Two tables are equal when their requests, numbers and notes are.
 
     Parameters
     ----------
     request
-        What was measured.
+        The sweep that was measured.
     sent : ndarray of int64, shape (values of the first axis, of the second, ...)
         Bits sent at each point; 0 where the model refuses the scene.
     right : ndarray of int64, shape (..., decoders)
         Bits of them that were read rightly.
     low, high : ndarray of float64, shape (..., decoders)
-        The 95 % interval by Wilson, percent; not a number where the model refuses the scene. It
-        takes bits as independent, which those of one image are not: where images are few, the
-        rate is less sure.
+        Wilson's 95 % interval, percent; not a number where the model refuses the scene. It
+        assumes independent bits, which those of one image are not: where images are few, the
+        true interval is wider.
     notes
-        Why the model refuses a scene, by the point's index, counted with the last axis first.
+        Why the model refuses a scene, by the point's index, the last axis running fastest.
     """
 
     request: SweepRequest
@@ -89,7 +89,7 @@ class SweepTable:
         return tuple(self.each_row())
 
     def each_row(self) -> Iterator[SweepRow]:
-        """Give the rows one after the other: those of a large table need not fit the memory."""
+        """Give the rows one by one: those of a large table need not fit in memory."""
         for point in self.each_point():
             values = self.request.values(point.index)
             place = np.unravel_index(point.index, self.request.shape)
@@ -103,7 +103,7 @@ class SweepTable:
                 )
 
     def each_point(self) -> Iterator[SweepPoint]:
-        """Give what was counted, point by point, in the order of the axes."""
+        """Give the counts point by point, in the order of the axes."""
         right = self.right.reshape(-1, len(self.decoders))
         for index, sent in enumerate(self.sent.ravel().tolist()):
             counts = tuple(right[index].tolist())
@@ -115,7 +115,7 @@ class SweepTable:
         Parameters
         ----------
         decoder
-            Its name, by default the first one's.
+            The decoder's name, by default that of the first.
 
         Returns
         -------
@@ -133,7 +133,7 @@ class SweepTable:
         return rates
 
     def intervals(self, decoder: str | None = None) -> tuple[FloatArray, FloatArray]:
-        """Give both ends of the 95 % intervals behind :meth:`rates`, in percent, shaped alike."""
+        """Give the ends of the 95 % intervals of :meth:`rates`, percent, in the same shape."""
         place = self._place(decoder)
         return self.low[..., place], self.high[..., place]
 
@@ -147,7 +147,7 @@ class SweepTable:
         return self.decoders.index(decoder)
 
     def csv(self) -> Iterator[str]:
-        """Give the table as CSV, part by part: its provenance in comments, then a row a rate."""
+        """Give the table as CSV, in parts: its provenance in comment lines, then a row a rate."""
         yield header_text(self.request)
         low = self.low.reshape(-1, len(self.decoders)).tolist()
         high = self.high.reshape(-1, len(self.decoders)).tolist()
@@ -161,7 +161,7 @@ class SweepTable:
         Raises
         ------
         OutputError
-            The file cannot be written; what was there before is untouched.
+            The file cannot be written; a file that was there before is unchanged.
         """
         write_whole(Path(path), "".join(self.csv()).encode("utf-8"))
 

@@ -1,4 +1,4 @@
-"""A sweep's table as text: its provenance in comment lines, then one row a point and decoder."""
+"""Write and read a sweep's table as CSV: comment lines, then one row a point and decoder."""
 
 import csv
 import math
@@ -13,11 +13,11 @@ from occ_model.version import __version__
 _FORMAT = 1
 
 TITLE = "# Success rate over "
-"""What every table of a sweep starts with."""
+"""The beginning of every table of a sweep."""
 
 
 def header_text(request: SweepRequest) -> str:
-    """Write all that a table rests on, and the names of its columns."""
+    """Write all that determines a table's numbers, and the names of its columns."""
     settings = request.settings
     forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     lines = [
@@ -59,11 +59,12 @@ def point_text(
     Parameters
     ----------
     request
-        What is measured.
+        The sweep.
     point
-        What was counted.
+        The point's counts.
     intervals
-        Of each decoder's rate, percent; not a number where the model refuses the scene.
+        The interval of each decoder's rate, percent; not a number where the model refuses the
+        scene.
     """
     settings = request.settings
     values = [_written(value) for value in request.values(point.index).values()]
@@ -77,12 +78,12 @@ def point_text(
 
 
 class PointReader:
-    """Reads what :func:`point_text` wrote.
+    """Reads the text that :func:`point_text` writes.
 
     Parameters
     ----------
     request
-        What is measured.
+        The sweep.
     """
 
     def __init__(self, request: SweepRequest) -> None:
@@ -92,10 +93,10 @@ class PointReader:
         ]
 
     def read(self, lines: Sequence[str]) -> SweepPoint | None:
-        """Read the rows of a point, one line a decoder; None where they are none.
+        """Read the rows of a point, one line a decoder; None where they cannot be read.
 
-        What stands in them is not checked any further: :func:`point_text` gives the same text again
-        where it is right.
+        The caller checks the rest: :func:`point_text` of the point gives the same text again where
+        the rows are right.
         """
         first = len(self._axes) + 3
         try:
@@ -110,7 +111,7 @@ class PointReader:
 
 
 def one_line(sentence: str) -> str:
-    """Make a sentence fit a row: tables are read line by line."""
+    """Write a sentence in one line: tables are read line by line."""
     return " ".join(sentence.split())
 
 

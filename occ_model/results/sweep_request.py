@@ -1,4 +1,4 @@
-"""What a sweep measures: the scene, the axes, and how each rate is found."""
+"""The request of a sweep: the scene, the varied parameters, and how each rate is measured."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -11,13 +11,13 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 
 SignalPath: TypeAlias = Literal["auto", "profile", "image"]
-"""How a decoder gets to see a scene: by the column means alone, by the whole image, or whichever
-of them the plan allows for."""
+"""How a decoder's signal is simulated: as column means, as a whole image, or by column means
+wherever the plan allows."""
 
 SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "image")
 
 MOST_POINTS = 1_000_000
-"""Points of a sweep: what is counted at each is kept in memory, and written as a table at once."""
+"""Points of a sweep: their counts are kept in memory, and their table is written at once."""
 
 MOST_AXES = 31
 """Parameters that a sweep varies: numpy's arrays have 32 axes, and one is that of the decoders."""
@@ -26,14 +26,14 @@ MOST_IMAGES = 1_000_000
 """Images at a point."""
 
 MOST_JOBS = 1024
-"""Processes that may be asked for."""
+"""Processes of a sweep."""
 
 JOBS_A_CORE = 4
-"""Processes that are started at most for each core: more take memory, and no less time."""
+"""Processes that are started at most for each core: more take memory and save no time."""
 
 _SLOWEST = ("bits", "exposure_time", "switching_frequency")
-"""Parameters that change last on the way from point to point: with each of them the matched decoder
-needs the forward model of all codes anew."""
+"""Parameters that change least often from point to point: for each of their values the matched
+decoder computes the forward model of all codes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +43,11 @@ class RateSettings:
     Parameters
     ----------
     images
-        How many images are read.
+        Number of images.
     decoders
-        By which decoders; all read the same images.
+        The decoders' names; all read the same images.
     seed
-        Of the images' start times and noise.
+        Seed of the images' start times and noise.
     tolerance, force
         As for :func:`occ_model.plan`.
     path
@@ -64,12 +64,12 @@ class RateSettings:
 
 @dataclass(frozen=True, slots=True)
 class SweepRequest:
-    """What a sweep measures.
+    """A request to measure success rates at all combinations of some parameters' values.
 
     Parameters
     ----------
     scene
-        Where the axes start from.
+        The scene, which gives the parameters that are not varied.
     axes
         The values of each parameter that is varied, in SI units.
     settings
@@ -82,16 +82,16 @@ class SweepRequest:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each axis has."""
+        """The number of values of each axis."""
         return tuple(len(values) for values in self.axes.values())
 
     @property
     def points(self) -> int:
-        """How many points the axes span."""
+        """The number of combinations of the axes' values."""
         return math.prod(self.shape)
 
     def values(self, index: int) -> dict[str, ParameterValue]:
-        """Give the parameters of a point; points are counted with the last axis first."""
+        """Give the parameters of a point by its index, the last axis running fastest."""
         found: list[ParameterValue] = []
         for values in reversed(list(self.axes.values())):
             index, place = divmod(index, len(values))
@@ -99,7 +99,7 @@ class SweepRequest:
         return dict(zip(self.axes, reversed(found), strict=True))
 
     def in_order_of_work(self) -> Iterator[int]:
-        """Count the points in the order in which they take the least time."""
+        """Give the indices of the points in the order in which they take the least time."""
         names = list(self.axes)
         slow = sorted((name for name in names if name in _SLOWEST), key=_SLOWEST.index)
         order = [*slow, *(name for name in names if name not in _SLOWEST)]
@@ -110,16 +110,16 @@ class SweepRequest:
 
 @dataclass(frozen=True, slots=True)
 class SweepPoint:
-    """What was measured at one point.
+    """The counts of one point.
 
     Parameters
     ----------
     index
-        Which point, counted with the last axis first.
+        The point's index, the last axis running fastest.
     sent
         Bits sent in all images, 0 where the model refuses the scene.
     right
-        Bits of them that each decoder read rightly.
+        Number of these bits that each decoder read rightly.
     note
         Why the model refuses the scene, empty where it does not.
     """

@@ -1,1 +1,1 @@
-"""Success rates over many parameters, in several processes, written as they come."""
+"""Sweeps: success rates over any parameters, by several processes, continued from a file."""

@@ -1,4 +1,4 @@
-"""A lock on an open file that dies with the process, however that ends."""
+"""Lock an open file for one process; the lock ends with the process, however that ends."""
 
 import os
 import sys
@@ -12,7 +12,7 @@ if sys.platform == "win32":
     import msvcrt
 
     _FAR = 2**40
-    """A byte that no file has: the lock keeps nobody from reading those that it has."""
+    """A byte beyond any file's end: the bytes of the file itself stay readable by others."""
 
     def _lock(file: BinaryIO) -> None:
         place = file.tell()
@@ -30,9 +30,9 @@ else:
 
 
 def is_locked_by_us(file: BinaryIO) -> bool:
-    """Lock a file until it is closed; say whether that was possible, or another has done so.
+    """Lock a file until it is closed; return False where another process has locked it.
 
-    Some file systems know no locks; there nobody is kept out.
+    On file systems without locks no process is kept out.
     """
     try:
         _lock(file)
@@ -43,7 +43,7 @@ def is_locked_by_us(file: BinaryIO) -> bool:
 
 
 def _close_in_child() -> None:
-    """Close the locked files of the parent: a forked worker that outlives it must hold no lock."""
+    """Close the parent's locked files: a forked worker that outlives it must hold no lock."""
     for file in list(_open_here):
         os.close(file.fileno())
 

@@ -1,4 +1,4 @@
-"""What is asked of a sweep, checked before any work starts."""
+"""Check the arguments of a sweep before any work starts, and make its request."""
 
 import math
 import os
@@ -16,12 +16,12 @@ from occ_model.study.success_rate import check_rate
 
 
 def checked_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
-    """Make the request for a sweep.
+    """Check the arguments of a sweep, and make its request.
 
     Parameters
     ----------
     scene
-        Where the axes start from.
+        The scene, which gives the parameters that are not varied.
     axes
         Values by the parameters' names.
     settings
@@ -31,7 +31,7 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
     ------
     ParameterError
         An axis names no parameter, has no values, one that is out of range, or one twice; or the
-        settings cannot be.
+        settings are not allowed.
     """
     check_scene(scene)
     check_rate(scene, settings)
@@ -49,12 +49,12 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
 
 
 def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
-    """Refuse axes that have too many points between them.
+    """Refuse axes whose combinations are too many.
 
     Raises
     ------
     ParameterError
-        There are more than a sweep may have.
+        There are more points than a sweep may have.
     """
     sizes = [len(values) for values in axes.values()]
     points = math.prod(sizes)
@@ -68,31 +68,31 @@ def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
 
 
 def processes_for(jobs: int, points: int) -> int:
-    """Give how many processes are started where some number is asked for.
+    """Give the number of processes to start.
 
     Parameters
     ----------
     jobs
-        What is asked for.
+        The number asked for.
     points
-        What is to be measured: no process is idle from the start.
+        The number of points to measure: there are no more processes than points.
 
     Raises
     ------
     ParameterError
-        It is no whole number from 1, or too large.
+        ``jobs`` is no whole number from 1, or too large.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     return max(1, min(jobs, points, JOBS_A_CORE * (os.cpu_count() or 1)))
 
 
 def decoders_of(decoder: object) -> tuple[str, ...]:
-    """Give the decoders that are asked for, by one name or several.
+    """Give the names of the decoders, from one name or several.
 
     Raises
     ------
     ParameterError
-        There are none, or one is there twice.
+        There is no name, or one is given twice.
     """
     known = ", ".join(DECODERS)
     if isinstance(decoder, str):
@@ -102,7 +102,7 @@ def decoders_of(decoder: object) -> tuple[str, ...]:
     for name in decoder:
         if list(decoder).count(name) > 1:
             raise ParameterError(
-                f"decoder {shown(name)} is there twice; allowed: each of {known} once."
+                f"decoder {shown(name)} is given twice; allowed: each of {known} once."
             )
     return tuple(decoder)
 

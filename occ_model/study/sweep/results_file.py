@@ -1,8 +1,8 @@
-"""The file that a sweep's results are appended to, and found in again.
+"""The CSV file to which a sweep appends its results, and from which it can be continued.
 
-Points are written as they come, each in one go, and kept whatever happens to the program. A file is
-only ever continued by the very sweep that it belongs to: its comment lines hold all that decides
-over the numbers, and are compared with what that sweep would write.
+Each point is written at once, in one piece, so that the file survives the end of the program. Only
+the sweep that began a file can continue it: the file's comment lines hold all that determines the
+numbers, and are compared with those that the sweep would write.
 """
 
 import os
@@ -20,28 +20,28 @@ from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_t
 from occ_model.study.sweep.file_lock import is_locked_by_us
 
 _SYNC_SECONDS = 2.0
-"""How much work a power cut may cost."""
+"""Seconds of work that a power cut may cost."""
 
 Intervals = Callable[[SweepPoint], list[tuple[float, float]]]
 
 
 class ResultsFile:
-    """A CSV file of one sweep, open and locked from entering its context to leaving it.
+    """A CSV file of one sweep, open and locked within its context.
 
     Parameters
     ----------
     path
-        The file; it is made where there is none.
+        The file; it is created where there is none.
     request
         The sweep.
     intervals
-        Gives the interval of each rate of a point, percent.
+        Function that gives the interval of each rate of a point, percent.
 
     Raises
     ------
     OutputError
-        On entering: the path is no regular file or cannot be written, another sweep is using it, or
-        it holds something that is no part of this sweep. It is left as it is then.
+        On entering the context: the path is no regular file or cannot be written, another sweep is
+        using it, or it holds something else than this sweep. The file is left unchanged then.
     """
 
     def __init__(self, path: Path, request: SweepRequest, intervals: Intervals) -> None:
@@ -72,7 +72,7 @@ class ResultsFile:
         self._file.close()
 
     def _opened(self) -> BinaryIO:
-        """Open the file and lock it; where it was replaced in between, open the new one."""
+        """Open and lock the file; where it was replaced before it was locked, open the new one."""
         while True:
             check_replaceable(self._path)
             try:
@@ -92,7 +92,7 @@ class ResultsFile:
             file.close()
 
     def _check_header(self) -> None:
-        """Refuse the file of anything else; begin one that is new, or was only just begun."""
+        """Refuse a file of anything else; complete the header of a file that was only just begun."""
         there = self._file.read(len(self._header))
         if there == self._header:
             return
@@ -104,7 +104,7 @@ class ResultsFile:
             raise OutputError(f"{self._name} holds no results of a sweep; name another file.")
         wanted = self._header.decode("utf-8").splitlines()
         found = there.decode("utf-8", errors="replace").splitlines()
-        last = len(found) - 1  # which was not read whole, where lines before it are longer
+        last = len(found) - 1  # may be cut: only as many bytes as this header has were read
         for place, (mine, other) in enumerate(zip(wanted, found, strict=False)):
             if mine != other and not (place == last and mine.startswith(other)):
                 raise OutputError(
@@ -115,14 +115,14 @@ class ResultsFile:
         raise OutputError(f"{self._name} was changed by another program; name another file.")
 
     def points_there(self) -> Iterator[SweepPoint]:
-        """Read the points that the file holds already; what was torn at its end is cut off.
+        """Read the points that the file holds already; an incomplete last point is cut off.
 
-        To be read to its end before anything is appended.
+        The iterator must be exhausted before a point is appended.
 
         Raises
         ------
         OutputError
-            There are lines that this sweep has not written; the file is left as it is.
+            There are lines that this sweep has not written; the file is left unchanged.
         """
         reader = PointReader(self._request)
         height = len(self._request.settings.decoders)
@@ -152,24 +152,24 @@ class ResultsFile:
         self._file.seek(whole)
 
     def append(self, point: SweepPoint) -> None:
-        """Write a point.
+        """Write a point at the end of the file.
 
         Raises
         ------
         OutputError
-            It cannot be written; what was written before stays.
+            The point cannot be written; the points before it stay.
         """
         self._note_order(point)
         self._write(self._text(point), keep=self._file.tell())
 
     def finish(self, table: SweepTable) -> None:
-        """Put the rows of the complete table in the order of the axes, where they are not."""
+        """Rewrite the complete table in the order of the axes, unless it is in that order."""
         try:
             os.fsync(self._file.fileno())
         except OSError as error:
             raise self._unwritable(error) from None
         if not self._in_order:
-            # Without room for a second file, say, the first stays: it is as complete.
+            # Where there is no space for a second file the first stays: it is as complete.
             with suppress(OutputError):
                 write_whole(self._path, "".join(table.csv()).encode("utf-8"))
 
@@ -181,7 +181,7 @@ class ResultsFile:
         self._last = point.index
 
     def _write(self, text: bytes, keep: int) -> None:
-        """Write at the end; where that fails, keep what was there before and nothing half."""
+        """Write at the end; where that fails, cut the file back to its length before."""
         try:
             left = memoryview(text)
             while left:
@@ -190,7 +190,7 @@ class ResultsFile:
                 os.fsync(self._file.fileno())
                 self._synced = monotonic()
         except OSError as error:
-            # Where this fails too, the torn line is cut off when the sweep is continued.
+            # Where this fails too, the incomplete line is cut off when the sweep is continued.
             with suppress(OSError):
                 self._file.truncate(keep)
             raise self._unwritable(error) from None

@@ -120,7 +120,7 @@ def test_what_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:
         ({"distance": [1.0]}, {"images": 0}, "images is 0"),
         ({"distance": [1.0]}, {"decoder": []}, "decoder is"),
         ({"distance": [1.0]}, {"decoder": ["matched", "x"]}, "no decoder 'x'"),
-        ({"distance": [1.0]}, {"decoder": ["matched"] * 2}, "'matched' is there twice"),
+        ({"distance": [1.0]}, {"decoder": ["matched"] * 2}, "'matched' is given twice"),
         ({"distance": [1.0]}, {"seed": -1}, "seed is -1"),
         ({"distance": [1.0]}, {"jobs": 0}, "jobs is 0"),
         ({"distance": [1.0]}, {"path": "guess"}, "path is 'guess'"),

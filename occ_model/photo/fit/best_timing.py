@@ -8,7 +8,8 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.initial_search import Candidate, Search
-from occ_model.photo.fit.least_squares import StripeFit, StripeModel, Timing
+from occ_model.photo.fit.least_squares import StripeFit, StripeModel
+from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results import Stripes
 from occ_model.transmitter.waveform import Waveform

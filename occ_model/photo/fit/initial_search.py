@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.least_squares import Timing
+from occ_model.photo.fit.timing import Timing
 
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
 """Exposures in chips that a search tries; a fit goes on from the nearest."""

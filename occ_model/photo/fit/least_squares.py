@@ -9,18 +9,18 @@ Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.transmitter.waveform import Duration, Phases, Waveform
+from occ_model.transmitter.waveform import Waveform
 
 _SMALL = 0.02
 """Columns by which a timing is changed to see what the model makes of it."""
@@ -50,42 +50,6 @@ model: a standard deviation."""
 
 _DARKEST = -0.1
 """How far the dark level may lie below black, as a share of the swing: dark columns are black."""
-
-
-@dataclass(frozen=True, slots=True)
-class Timing:
-    """How the exposures of the columns run over the chips.
-
-    Parameters
-    ----------
-    step
-        Chips from one column's start to the next one's: t_r / t_LED.
-    exposure
-        Chips that an exposure lasts: t / t_LED.
-    middle
-        Where in the period of the chips the middle of the middle column's exposure is. Unlike the
-        first column's start it hardly depends on the other two.
-    gamma
-        The exponent of the tone.
-    """
-
-    step: float
-    exposure: float
-    middle: float
-    gamma: float
-
-    def start(self, columns: int) -> float:
-        """Say where in the chips the first column's exposure starts."""
-        return self.middle - 0.5 * self.step * (columns - 1) - 0.5 * self.exposure
-
-    def lit_fraction(self, waveform: Waveform, columns: int) -> FloatArray:
-        """Give the share of each column's exposure in which the LED is on, shape (columns,)."""
-        place = self.start(columns) + self.step * np.arange(columns)
-        chip = np.floor(place)
-        phases = Phases((chip % waveform.period).astype(np.int64), place - chip)
-        exposure = Duration.of(Fraction(self.exposure), waveform.period)
-        lit = waveform.lit_chips(phases, exposure) / exposure.in_chips(waveform.period)
-        return np.clip(lit, 0.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -9,11 +9,11 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, one_line
+from occ_model.photo.reading.formats import format_and_factory
 from occ_model.photo.reading.limits import check_decoder, check_file_size, check_memory
 from occ_model.photo.reading.watched_file import Teller, WatchedFile
 
@@ -21,12 +21,6 @@ if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
 
     Opener: TypeAlias = Callable[[float, float], ImageFile]
-
-_FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "QOI", "JPEG2000", "AVIF")
-"""What photos come in. Pillow reads more, and starts other programs for some of it."""
-
-_HEIC_BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
-_ANY_HEIF_BRANDS = (b"mif1", b"msf1")
 
 _BYTES_A_PIXEL, _BYTES_OF_NOTES = 8, 16_000_000
 """Four channels of 16 bits, and what else an honest file of so many pixels may hold."""
@@ -144,7 +138,7 @@ def _first_picture(
 ) -> "ImageFile":
     """Open the file's first picture, and check its size before anything of it is decoded."""
     shown, size = one_line(str(path)), os.fstat(file.fileno()).st_size
-    name, factory = _factory(path, file)
+    name, factory = format_and_factory(path, file)
     check_file_size(path, name, size)
     file.seek(0, os.SEEK_SET)
     file.watch(size, *shares)
@@ -192,47 +186,6 @@ def _is_covered(picture: "ImageFile") -> bool:
     corners = [tile[1][2:] for tile in picture.tile if tile[1] is not None]
     reach = [max((corner[axis] for corner in corners), default=0) for axis in (0, 1)]
     return reach[0] * reach[1] >= picture.width * picture.height
-
-
-def _factory(path: Path, file: IO[bytes]) -> "tuple[str, Callable[[IO[bytes]], ImageFile]]":
-    """Give the format of a file that begins like this one, and what opens it."""
-    from PIL import Image
-    from PIL.JpegImagePlugin import JpegImageFile
-
-    file.seek(0, os.SEEK_SET)
-    start = file.read(64)
-    if _is_heic(start):
-        return "HEIF", _heic_factory(path)
-    Image.init()
-    for name in _FORMATS:
-        factory, accepts = Image.OPEN.get(name, (None, None))
-        if factory is not None and accepts is not None and accepts(start[:16]) is True:
-            # Not Pillow's own for JPEG: it fails where the list of further pictures is damaged.
-            return name, partial(_open, JpegImageFile if name == "JPEG" else factory)
-    raise PhotoError(f"{one_line(str(path))} is not an image that can be read.")
-
-
-def _open(factory: "Callable[[IO[bytes], str], ImageFile]", file: IO[bytes]) -> "ImageFile":
-    return factory(file, "")
-
-
-def _is_heic(start: bytes) -> bool:
-    if start[4:8] != b"ftyp":
-        return False
-    brand, others = start[8:12], start[12:]
-    return brand in _HEIC_BRANDS or (brand in _ANY_HEIF_BRANDS and b"avif" not in others)
-
-
-def _heic_factory(path: Path) -> "Callable[[IO[bytes]], ImageFile]":
-    """Find what opens a HEIC photo, without entering it into Pillow's global list."""
-    try:
-        from pillow_heif import HeifImageFile
-    except ImportError:
-        raise PhotoError(
-            f"{one_line(str(path))} is a HEIC photo; to read it: pip install occ-explorer[heic]."
-        ) from None
-    factory: Callable[[IO[bytes]], ImageFile] = HeifImageFile
-    return factory
 
 
 def _damaged(error: Exception, problem: str = "the file is damaged") -> str:

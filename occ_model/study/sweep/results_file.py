@@ -92,7 +92,7 @@ class ResultsFile:
             file.close()
 
     def _check_header(self) -> None:
-        """Refuse a file of anything else; complete the header of a file that was only just begun."""
+        """Refuse a file of anything else; complete the header of a file that was just begun."""
         there = self._file.read(len(self._header))
         if there == self._header:
             return

@@ -8,8 +8,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from occ_model.arrays import ByteArray
-from occ_model.photo.fit.least_squares import Timing
 from occ_model.photo.fit.read_pattern import canonical, read_pattern
+from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 
 PATTERNS = st.lists(st.integers(0, 1), min_size=2, max_size=26).map(

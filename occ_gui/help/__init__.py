@@ -1,0 +1,1 @@
+"""The pages of the manual, shown in a window of their own."""

@@ -1,0 +1,65 @@
+"""The entries of the menu Help that open the manual."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QMenu
+
+from occ_gui.help.pages import GUIDE, PAGE_OF_PANE, docs_folder
+
+if TYPE_CHECKING:  # made when it is first asked for: the application starts so much sooner
+    from occ_gui.help.help_window import HelpWindow
+
+
+class HelpMenu(QObject):
+    """Opens the manual: as a whole, or where it explains the current pane.
+
+    Parameters
+    ----------
+    window
+        The application's window.
+    menu
+        Its menu Help.
+    current_pane
+        Gives the name of the pane that the user is at.
+    """
+
+    status_message = Signal(str)
+    """Why the manual cannot be shown."""
+
+    def __init__(self, window: QMainWindow, menu: QMenu, current_pane: Callable[[], str]) -> None:
+        super().__init__(window)
+        self._window, self._current_pane = window, current_pane
+        self._help: HelpWindow | None = None
+        first = menu.actions()[0] if menu.actions() else None
+        self.guide = QAction(self.tr("&User's guide"), menu)
+        self.pane = QAction(self.tr("About this &pane"), menu)
+        self.pane.setShortcut(QKeySequence(self.tr("Shift+F1")))
+        self.guide.triggered.connect(lambda: self.show_page(GUIDE))
+        self.pane.triggered.connect(self._show_pane)
+        for action in (self.guide, self.pane):
+            menu.insertAction(first, action)
+
+    def _show_pane(self) -> None:
+        self.show_page(PAGE_OF_PANE.get(self._current_pane(), GUIDE))
+
+    def show_page(self, page: str) -> None:
+        """Open the manual at a page or heading, such as ``guide.md#heading``."""
+        try:
+            shown = self._window_of_manual()
+        except OSError as error:
+            self.status_message.emit(self.tr("The manual cannot be read: {}.").format(error.strerror))
+            return
+        shown.show()
+        shown.show_page(page)
+        shown.raise_()
+        shown.activateWindow()
+
+    def _window_of_manual(self) -> "HelpWindow":
+        if self._help is None:
+            from occ_gui.help.help_window import HelpWindow
+
+            self._help = HelpWindow(docs_folder(), self._window)
+        return self._help

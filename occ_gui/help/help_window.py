@@ -1,0 +1,132 @@
+"""The window of the manual: list of pages, the page, back and forward, search in the page."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QSize, Qt, QUrl
+from PySide6.QtGui import QAction, QKeySequence, QTextCursor, QTextDocument
+from PySide6.QtWidgets import (
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QMainWindow,
+    QSplitter,
+    QToolBar,
+    QWidget,
+)
+
+from occ_gui.help.help_browser import HelpBrowser
+from occ_gui.help.pages import pages
+
+_SIZE = QSize(960, 720)
+_LIST_WIDTH = 190
+_SEARCH_WIDTH = 240
+_FILE = Qt.ItemDataRole.UserRole
+
+
+class HelpWindow(QMainWindow):
+    """Shows the pages of the manual.
+
+    Parameters
+    ----------
+    folder
+        Where the pages are.
+    parent
+        The window above which it stays, and with which it closes.
+
+    Raises
+    ------
+    OSError
+        The table of contents cannot be read.
+    """
+
+    def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._folder = folder
+        self.list = QListWidget()
+        self.list.setAccessibleName(self.tr("Pages"))
+        self.list.setToolTip(self.tr("The pages of the manual."))
+        for title, name in pages(folder):
+            item = QListWidgetItem(title, self.list)
+            item.setData(_FILE, name)
+        self.browser = HelpBrowser()
+        self.browser.setAccessibleName(self.tr("Page"))
+        self.search = QLineEdit()
+        self._lay_out()
+        self.list.itemActivated.connect(self._show_item)
+        self.list.itemClicked.connect(self._show_item)
+        self.browser.sourceChanged.connect(self._on_page)
+        self.search.textEdited.connect(self._find_from_start)
+        self.search.returnPressed.connect(self.find_next)
+        self.resize(_SIZE)
+
+    def _lay_out(self) -> None:
+        bar = QToolBar(self.tr("Navigation"))
+        bar.setMovable(False)
+        keys = QKeySequence.StandardKey
+        back = self._action(bar, self.tr("Back"), keys.Back)
+        forward = self._action(bar, self.tr("Forward"), keys.Forward)
+        for action, go, can_go in (
+            (back, self.browser.backward, self.browser.backwardAvailable),
+            (forward, self.browser.forward, self.browser.forwardAvailable),
+        ):
+            action.setEnabled(False)
+            action.triggered.connect(go)
+            can_go.connect(action.setEnabled)
+        bar.addSeparator()
+        self.search.setPlaceholderText(self.tr("Find in this page"))
+        self.search.setAccessibleName(self.tr("Find in this page"))
+        self.search.setToolTip(self.tr("Enter finds the next place."))
+        self.search.setClearButtonEnabled(True)
+        self.search.setMaximumWidth(_SEARCH_WIDTH)
+        bar.addWidget(self.search)
+        self.addToolBar(bar)
+        find, close = QAction(self), QAction(self)
+        find.setShortcut(QKeySequence(keys.Find))
+        find.triggered.connect(self.search.setFocus)
+        close.setShortcut(QKeySequence(Qt.Key.Key_Escape))
+        close.triggered.connect(self.close)
+        self.addActions([find, close])
+        parts = QSplitter()
+        parts.addWidget(self.list)
+        parts.addWidget(self.browser)
+        parts.setStretchFactor(1, 1)
+        parts.setSizes([_LIST_WIDTH, _SIZE.width() - _LIST_WIDTH])
+        self.setCentralWidget(parts)
+
+    @staticmethod
+    def _action(bar: QToolBar, text: str, key: QKeySequence.StandardKey) -> QAction:
+        action = bar.addAction(text)
+        action.setShortcut(QKeySequence(key))
+        action.setToolTip(f"{text} ({action.shortcut().toString()})")
+        return action
+
+    def show_page(self, page: str) -> None:
+        """Show a page, such as ``guide.md``, or one of its headings, ``guide.md#heading``."""
+        name, _, heading = page.partition("#")
+        url = QUrl.fromLocalFile(str(self._folder / name))
+        url.setFragment(heading or None)
+        self.browser.setSource(url)
+
+    def find_next(self) -> bool:
+        """Find the next place of the text that is searched for, from the start after the last."""
+        text = self.search.text()
+        if not text:
+            return False
+        if self.browser.find(text):
+            return True
+        self.browser.moveCursor(QTextCursor.MoveOperation.Start)
+        return self.browser.find(text)
+
+    def _find_from_start(self) -> None:
+        self.browser.moveCursor(QTextCursor.MoveOperation.Start)
+        self.find_next()
+
+    def _show_item(self, item: QListWidgetItem) -> None:
+        self.show_page(item.data(_FILE))
+
+    def _on_page(self, url: QUrl) -> None:
+        for place in range(self.list.count()):
+            item = self.list.item(place)
+            if item.data(_FILE) == url.fileName():
+                self.list.setCurrentItem(item)
+                self.setWindowTitle(self.tr("Manual: {title}").format(title=item.text()))

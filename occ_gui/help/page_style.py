@@ -1,0 +1,74 @@
+"""Margins, code and tables of a page, which Markdown leaves to whoever shows it."""
+
+from PySide6.QtGui import (
+    QColor,
+    QPalette,
+    QTextBlock,
+    QTextBlockFormat,
+    QTextCursor,
+    QTextDocument,
+    QTextFormat,
+    QTextFrameFormat,
+    QTextTable,
+)
+
+_CODE = QTextFormat.Property.BlockCodeFence
+_CODE_MARGIN, _HEADING_ABOVE, _HEADING_BELOW = 14, 16, 4
+_CELL_PADDING = 4
+
+
+def style_page(document: QTextDocument, palette: QPalette) -> None:
+    """Set the margins of headings, the ground of code blocks and the lines of tables.
+
+    Parameters
+    ----------
+    document
+        A page that was read from Markdown.
+    palette
+        The colours of the widget that shows it.
+    """
+    ground, line = palette.alternateBase(), palette.mid().color()
+    tables: set[int] = set()
+    block = document.begin()
+    while block.isValid():
+        cursor = QTextCursor(block)
+        if block.blockFormat().headingLevel():
+            cursor.mergeBlockFormat(_heading_format())
+        elif block.blockFormat().hasProperty(_CODE):
+            code = _code_format(block)
+            code.setBackground(ground)
+            cursor.mergeBlockFormat(code)
+        elif (table := cursor.currentTable()) is not None and table.firstPosition() not in tables:
+            tables.add(table.firstPosition())
+            _style_table(table, line)
+        block = block.next()
+
+
+def _heading_format() -> QTextBlockFormat:
+    changes = QTextBlockFormat()
+    changes.setTopMargin(_HEADING_ABOVE)
+    changes.setBottomMargin(_HEADING_BELOW)
+    return changes
+
+
+def _code_format(block: QTextBlock) -> QTextBlockFormat:
+    """Indent a line of code, and keep the lines of a block together."""
+    changes = QTextBlockFormat()
+    changes.setLeftMargin(_CODE_MARGIN)
+    if not block.previous().blockFormat().hasProperty(_CODE):
+        changes.setTopMargin(_CELL_PADDING)
+    if not block.next().blockFormat().hasProperty(_CODE):
+        changes.setBottomMargin(2 * _CELL_PADDING)
+    return changes
+
+
+def _style_table(table: QTextTable, line: QColor) -> None:
+    changes = table.format()
+    changes.setBorderCollapse(True)
+    changes.setBorder(1)
+    changes.setBorderStyle(QTextFrameFormat.BorderStyle.BorderStyle_Solid)
+    changes.setBorderBrush(line)
+    changes.setCellPadding(_CELL_PADDING)
+    changes.setTopMargin(_CELL_PADDING)
+    changes.setBottomMargin(2 * _CELL_PADDING)
+    table.setFormat(changes)

@@ -1,0 +1,58 @@
+"""The pages of the manual: where they are, their order, and which one explains a pane."""
+
+import re
+from pathlib import Path
+
+from occ_model.files.resources import resource_path
+
+CONTENTS = "index.md"
+"""The page that lists the others."""
+
+GUIDE = "guide.md"
+"""The page to begin with."""
+
+PAGE_OF_PANE = {
+    "picture": "guide.md#look-at-the-picture",
+    "controls": "guide.md#set-up-a-scene",
+    "profile": "guide.md#compare-column-profiles",
+    "decode": "decoders.md",
+    "photo": "photos.md",
+    "accuracy": "effects.md#accuracy-against-time",
+    "map": "sweeps.md#the-detection-map",
+    "equations": "model.md",
+    "compare": "guide.md#compare-two-states",
+    "explorations": "guide.md#follow-an-exploration",
+}
+"""Page and heading that explain a pane, by the pane's name."""
+
+_LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
+
+
+def docs_folder() -> Path:
+    """Give the folder of the pages; the pictures they show are in a folder beside it.
+
+    Raises
+    ------
+    OSError
+        The program was installed without its pages.
+    """
+    # From an archive, both are copied.
+    resource_path("pictures")
+    return resource_path("docs")
+
+
+def pages(folder: Path) -> list[tuple[str, str]]:
+    """List title and file name of every page, in the order of the table of contents.
+
+    Raises
+    ------
+    OSError
+        The table of contents cannot be read.
+    """
+    text = (folder / CONTENTS).read_text(encoding="utf-8")
+    return [("Contents", CONTENTS), *_LISTED.findall(text)]
+
+
+def heading_id(text: str) -> str:
+    """Give the name by which a link reaches a heading, as the usual viewers of Markdown make it."""
+    return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")

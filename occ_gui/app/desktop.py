@@ -18,6 +18,7 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Memory
 from occ_gui.files.session import Session
 from occ_gui.files.session_keeper import SessionKeeper
+from occ_gui.help.help_menu import HelpMenu
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
@@ -88,6 +89,7 @@ class Desktop(QObject):
         pane = CurrentPane(window, window.docks)
         self.export = ExportController(window, self.figures, memory, pane, parts.decode.decoder)
         self.export.connect_actions(window.menus.figures)
+        self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name)
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
@@ -109,7 +111,7 @@ class Desktop(QObject):
         parts, window = self._parts, self._parts.window
         parts.simulation.snapshot_shown.connect(self.figures.show_snapshot)
         parts.photo_wiring.photos.opened.connect(self._on_photo)
-        for teller in (self.export, self.brightness, self.session):
+        for teller in (self.export, self.brightness, self.session, self.help):
             teller.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
         self.pointer.moved.connect(window.pointed.setText)

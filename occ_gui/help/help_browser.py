@@ -28,11 +28,16 @@ class HelpBrowser(QTextBrowser):
         self._pictures: dict[str, QImage] = {}
         self.sourceChanged.connect(self._style)
 
-    def doSetSource(self, name: QUrl, type: QTextDocument.ResourceType = _UNKNOWN) -> None:  # noqa: A002, N802 - Qt's names
+    def doSetSource(  # noqa: N802 - Qt's name
+        self,
+        name: QUrl | str,
+        type: QTextDocument.ResourceType = _UNKNOWN,  # noqa: A002 - Qt's name
+    ) -> None:
         """Show a page from its start, or from the heading that the link names."""
         super().doSetSource(name, type)
-        if name.hasFragment():
-            self._scroll_to_heading(name.fragment())
+        url = QUrl(name)
+        if url.hasFragment():
+            self._scroll_to_heading(url.fragment())
 
     def _scroll_to_heading(self, wanted: str) -> None:
         block = self.document().begin()
@@ -44,14 +49,14 @@ class HelpBrowser(QTextBrowser):
                 return
             block = block.next()
 
-    def loadResource(self, type: int, name: QUrl) -> object:  # noqa: A002, N802 - Qt's names
+    def loadResource(self, type: int, name: QUrl | str) -> object:  # noqa: A002, N802 - Qt's names
         """Read a page or a picture from a file; nothing is fetched from the network."""
-        url = self.source().resolved(name)
+        url = self.source().resolved(QUrl(name))
         if not url.isLocalFile():
             return None
         if type != _IMAGE.value:
             return super().loadResource(type, name)
-        key = name.toString()
+        key = QUrl(name).toString()
         if key not in self._pictures:
             self._pictures[key] = QImage(url.toLocalFile())
         return self._fitted(self._pictures[key])

@@ -21,7 +21,7 @@ class HelpMenu(QObject):
     window
         The application's window.
     menu
-        Its menu Help.
+        Its menu Help; the manual comes before the entries that are there.
     current_pane
         Gives the name of the pane that the user is at.
     """
@@ -33,14 +33,12 @@ class HelpMenu(QObject):
         super().__init__(window)
         self._window, self._current_pane = window, current_pane
         self._help: HelpWindow | None = None
-        first = menu.actions()[0] if menu.actions() else None
         self.guide = QAction(self.tr("&User's guide"), menu)
         self.pane = QAction(self.tr("About this &pane"), menu)
         self.pane.setShortcut(QKeySequence(self.tr("Shift+F1")))
         self.guide.triggered.connect(lambda: self.show_page(GUIDE))
         self.pane.triggered.connect(self._show_pane)
-        for action in (self.guide, self.pane):
-            menu.insertAction(first, action)
+        menu.insertActions(menu.actions()[0], [self.guide, self.pane])
 
     def _show_pane(self) -> None:
         self.show_page(PAGE_OF_PANE.get(self._current_pane(), GUIDE))
@@ -50,11 +48,12 @@ class HelpMenu(QObject):
         try:
             shown = self._window_of_manual()
         except OSError as error:
-            self.status_message.emit(self.tr("The manual cannot be read: {}.").format(error.strerror))
+            self.status_message.emit(
+                self.tr("The manual cannot be read: {}.").format(error.strerror)
+            )
             return
         shown.show()
         shown.show_page(page)
-        shown.raise_()
         shown.activateWindow()
 
     def _window_of_manual(self) -> "HelpWindow":

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QUrl
-from PySide6.QtGui import QAction, QKeySequence, QTextCursor, QTextDocument
+from PySide6.QtGui import QAction, QKeySequence, QTextCursor
 from PySide6.QtWidgets import (
     QLineEdit,
     QListWidget,
@@ -92,6 +92,7 @@ class HelpWindow(QMainWindow):
         parts.setStretchFactor(1, 1)
         parts.setSizes([_LIST_WIDTH, _SIZE.width() - _LIST_WIDTH])
         self.setCentralWidget(parts)
+        self.browser.setFocus()
 
     @staticmethod
     def _action(bar: QToolBar, text: str, key: QKeySequence.StandardKey) -> QAction:
@@ -104,7 +105,8 @@ class HelpWindow(QMainWindow):
         """Show a page, such as ``guide.md``, or one of its headings, ``guide.md#heading``."""
         name, _, heading = page.partition("#")
         url = QUrl.fromLocalFile(str(self._folder / name))
-        url.setFragment(heading or None)
+        if heading:
+            url.setFragment(heading)
         self.browser.setSource(url)
 
     def find_next(self) -> bool:

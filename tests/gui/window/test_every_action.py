@@ -26,6 +26,7 @@ from PySide6.QtWidgets import (
     QMessageBox,
     QScrollBar,
     QTabBar,
+    QTextBrowser,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
@@ -209,6 +210,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
         window.saveState().toBase64().data(),
         QGuiApplication.clipboard().image().size(),
         [widget.isVisible() for widget in image.findChildren(QWidget)],
+        [browser.source() for browser in window.findChildren(QTextBrowser)],
     ]
 
 

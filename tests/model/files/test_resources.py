@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -20,7 +21,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with zipfile.ZipFile(path, "w") as packed:
         for file in sorted((ROOT / "occ_model").rglob("*.py")):
             packed.write(file, file.relative_to(ROOT))
-        for folder in ("explorations", "photos", "presets"):
+        for folder in ("docs", "explorations", "photos", "pictures", "presets"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))
     return path
@@ -78,6 +79,23 @@ def test_photos_of_an_archive_are_copied_until_the_program_ends(archive: Path) -
     assert int(size) == resource_path("photos", "led-1khz.jpg").stat().st_size
     assert missing == "False"
     assert not Path(folder).exists()
+
+
+def test_pages_of_an_archive_are_copied_beside_their_pictures(archive: Path) -> None:
+    program = (
+        "from occ_model.files.resources import resource_path\n"
+        "pictures, pages = resource_path('pictures'), resource_path('docs')\n"
+        "print((pages / 'guide.md').is_file(), (pages / '../pictures/window.png').is_file())\n"
+    )
+    assert run(archive, program) == ["True True"]
+
+
+def test_a_wheel_has_every_folder_of_resources_inside() -> None:
+    with (ROOT / "pyproject.toml").open("rb") as file:
+        included = tomllib.load(file)["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    folders = [path.name for path in (ROOT / "resources").iterdir() if path.is_dir()]
+    names = {name for name in folders if not name.startswith("__")}
+    assert included == {f"resources/{name}": f"occ_model/resources/{name}" for name in names}
 
 
 def test_the_command_line_runs_out_of_an_archive(archive: Path) -> None:

@@ -1,0 +1,152 @@
+"""The pages of the manual: their links, tables, examples and commands."""
+
+import ast
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, without_code
+
+import occ_model as occ
+from occ_gui.app.command_line import read_command_line as read_gui_line
+from occ_gui.help.pages import CONTENTS, heading_id, pages
+from occ_model.commands import read_command_line
+from occ_model.commands.listing import parameter_table
+from occ_model.effects.registry import EFFECTS
+from occ_model.receiver.decoder import Decoder
+from occ_model.scene.preset_file import preset_from
+
+every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+every_document = pytest.mark.parametrize("page", [README, *PAGES], ids=lambda page: page.name)
+
+
+def headings(page: Path) -> list[str]:
+    return re.findall(r"^#+ (.+)$", without_code(text_of(page)), re.MULTILINE)
+
+
+def page_named(name: str) -> str:
+    return text_of(FOLDER / f"{name}.md")
+
+
+@every_page
+def test_every_link_leads_to_a_page_heading_or_picture_of_ours(page: Path) -> None:
+    for link in links(text_of(page)):
+        name, _, heading = link.partition("#")
+        target = (FOLDER / name).resolve() if name else page
+        assert target.is_file(), link
+        assert target.parent in (FOLDER, ROOT / "resources" / "pictures"), link
+        if heading:
+            assert heading in map(heading_id, headings(target)), link
+
+
+@every_page
+def test_a_page_begins_with_its_only_title(page: Path) -> None:
+    text = without_code(text_of(page))
+    assert text.startswith("# ")
+    assert len(re.findall(r"^# ", text, re.MULTILINE)) == 1
+
+
+def test_the_contents_list_every_page() -> None:
+    assert sorted(name for _, name in pages(FOLDER)) == [page.name for page in PAGES]
+    assert pages(FOLDER)[0][1] == CONTENTS
+
+
+def test_every_picture_is_shown_somewhere() -> None:
+    shown = {Path(link).name for page in [README, *PAGES] for link in links(text_of(page))}
+    pictures = {path.name for path in (ROOT / "resources" / "pictures").iterdir()}
+    assert pictures <= shown
+
+
+@every_document
+def test_every_path_of_the_project_is_there(page: Path) -> None:
+    named = re.findall(r"\b((?:occ_model|occ_gui|tests|resources)/[\w/.-]*\w)", text_of(page))
+    drawn_by_us = ("resources/pictures/",)
+    missing = [name for name in named if not (ROOT / name).exists()]
+    assert [name for name in missing if not name.startswith(drawn_by_us)] == []
+
+
+@every_page
+def test_every_name_is_in_the_file_that_it_is_said_to_be_in(page: Path) -> None:
+    said = re.findall(r"`(\w+)`\s+(?:in|of)\s+`(occ_\w+/[\w/]+\.py)`", text_of(page))
+    assert [name for name, file in said if name not in text_of(ROOT / file)] == []
+
+
+def commands(text: str) -> list[list[str]]:
+    """Give the words of every command of ours that a document names."""
+    code = "\n".join(blocks(text, "")).replace("\\\n", " ")
+    inline = [" ".join(c.split()) for c in re.findall(r"`([^`]+)`", without_code(text))]
+    lines = [line.removeprefix("$ ") for line in [*code.splitlines(), *inline]]
+    return [shlex.split(line, comments=True) for line in lines if line.startswith("occ-")]
+
+
+def test_most_pages_name_a_command() -> None:
+    assert sum(bool(commands(text_of(page))) for page in PAGES) > 6
+
+
+@every_document
+def test_every_command_is_one_that_the_program_takes(page: Path) -> None:
+    read = {"occ-gui": read_gui_line, "occ-model": read_command_line}
+    for program, *words in commands(text_of(page)):
+        if {"...", "--help"}.isdisjoint(words):
+            read[program](words)  # ends the test where it does not understand them
+
+
+def test_the_table_of_parameters_is_that_of_the_declarations() -> None:
+    """``occ-model parameters --markdown`` prints it anew."""
+    assert parameter_table() in page_named("parameters")
+
+
+def test_the_table_of_effects_is_that_of_the_registry() -> None:
+    named = re.findall(r"^\| ([^|]+) \|", page_named("effects"), re.MULTILINE)
+    assert named[1:] == [effect.label for effect in EFFECTS]
+
+
+def calls(folder: str, name: str) -> list[ast.Call]:
+    """Find the calls of a function in a folder of tests."""
+    trees = [ast.parse(text_of(file)) for file in sorted((ROOT / "tests" / folder).glob("*.py"))]
+    return [
+        node
+        for tree in trees
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == name
+    ]
+
+
+def constant(node: ast.expr) -> str | None:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else None
+
+
+def test_numerical_health_has_every_law_that_is_tried() -> None:
+    """``OCC_HARD_CASES=100000 pytest tests/hard_cases`` prints the table anew."""
+    page = page_named("numerical-health")
+    laws = {law for call in calls("hard_cases", "record") if (law := constant(call.args[0]))}
+    assert len(laws) > 40
+    assert [law for law in sorted(laws) if f"\n| {law} |" not in page] == []
+
+
+def test_costs_have_every_line_of_the_report() -> None:
+    """``python tests/benchmarks/report.py --markdown`` prints the table anew."""
+    page = page_named("costs")
+    rows = {what for call in calls("benchmarks", "Row") if (what := constant(call.args[0]))}
+    assert len(rows) > 10
+    assert [what for what in sorted(rows) if f"\n| {what} |" not in page] == []
+
+
+def test_the_preset_of_the_manual_can_be_loaded() -> None:
+    (text,) = blocks(page_named("extending"), "toml")
+    preset = preset_from("my-camera", text)
+    assert preset.scene.camera.readout_time == 9.2e-6
+    assert preset.scene.camera.exposure_time == 136e-6
+    assert set(preset.assumed) >= {"f_number"}
+
+
+def test_the_decoder_of_the_manual_is_one() -> None:
+    (code,) = blocks(page_named("extending"), "python")
+    names: dict[str, object] = {"__name__": "example"}
+    exec(compile(code, "extending.md", "exec"), names)
+    decoder = names["DECODER"]
+    assert isinstance(decoder, Decoder)
+    scene = occ.load_preset("phone-68us")
+    result = decoder.read(occ.column_profile(scene), scene)
+    assert (result.code, result.failure) == (None, "No code was looked for.")

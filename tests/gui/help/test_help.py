@@ -1,0 +1,191 @@
+"""The manual in its window: pages, links, pictures, search, and the page of each pane."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QObject, QPoint, Qt, QUrl, Slot
+from PySide6.QtGui import QColor, QDesktopServices, QPalette, QTextCursor, QTextDocument
+from PySide6.QtWidgets import QTextBrowser
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.app.command_line import PANES
+from occ_gui.help import help_menu
+from occ_gui.help.help_browser import HelpBrowser
+from occ_gui.help.help_window import HelpWindow
+from occ_gui.help.pages import CONTENTS, GUIDE, PAGE_OF_PANE, docs_folder, heading_id, pages
+from occ_gui.window.current_pane import PICTURE
+
+IMAGE = int(QTextDocument.ResourceType.ImageResource.value)
+
+
+@pytest.fixture
+def manual(qtbot: QtBot) -> HelpWindow:
+    """Show the manual at its guide."""
+    window = HelpWindow(docs_folder())
+    qtbot.addWidget(window)
+    window.show()
+    window.show_page(GUIDE)
+    return window
+
+
+class SystemBrowser(QObject):
+    """Notes the links that the system is asked to open."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.opened: list[str] = []
+
+    @Slot(QUrl)
+    def open(self, url: QUrl) -> None:
+        self.opened.append(url.toString())
+
+
+@pytest.fixture
+def system() -> Iterator[SystemBrowser]:
+    """Open the links to web pages in place of the system."""
+    browser = SystemBrowser()
+    QDesktopServices.setUrlHandler("https", browser, "open")  # type: ignore[arg-type]  # it takes text
+    yield browser
+    QDesktopServices.unsetUrlHandler("https")
+
+
+def top_heading(browser: QTextBrowser) -> str:
+    """Give the text of the first line that is seen."""
+    return browser.cursorForPosition(QPoint(20, 20)).block().text()
+
+
+def click(qtbot: QtBot, browser: QTextBrowser, target: str) -> None:
+    """Click on the first link to a target."""
+    cursor = QTextCursor(browser.document())
+    while cursor.charFormat().anchorHref() != target:
+        assert cursor.movePosition(QTextCursor.MoveOperation.NextCharacter), target
+    browser.setTextCursor(cursor)
+    browser.ensureCursorVisible()
+    place = browser.cursorRect(cursor).center()
+    qtbot.mouseClick(browser.viewport(), Qt.MouseButton.LeftButton, pos=place)
+
+
+def test_every_pane_has_a_page_and_its_heading(manual: HelpWindow) -> None:
+    assert set(PAGE_OF_PANE) == {*PANES, PICTURE}
+    for page in PAGE_OF_PANE.values():
+        name, _, heading = page.partition("#")
+        text = (docs_folder() / name).read_text(encoding="utf-8")
+        titles = [heading_id(line.lstrip("#")) for line in text.splitlines() if line[:1] == "#"]
+        assert not heading or heading in titles, page
+        manual.show_page(page)
+        assert manual.browser.source().fileName() == name
+
+
+def test_every_page_is_listed_and_shown_under_its_title(manual: HelpWindow) -> None:
+    for place, (title, name) in enumerate(pages(docs_folder())):
+        manual.list.itemClicked.emit(manual.list.item(place))
+        assert manual.browser.source().fileName() == name
+        assert manual.list.currentItem().text() == title
+        assert manual.windowTitle().endswith(title)
+        assert len(manual.browser.toPlainText()) > 300
+
+
+def test_a_link_with_a_heading_shows_the_heading_at_the_top(manual: HelpWindow) -> None:
+    manual.show_page("guide.md#compare-column-profiles")
+    assert top_heading(manual.browser) == "Compare column profiles"
+
+
+def test_a_relative_link_is_followed_and_undone(qtbot: QtBot, manual: HelpWindow) -> None:
+    click(qtbot, manual.browser, "parameters.md")
+    assert manual.browser.source().fileName() == "parameters.md"
+    manual.browser.backward()
+    assert manual.browser.source().fileName() == GUIDE
+    manual.browser.forward()
+    assert manual.browser.source().fileName() == "parameters.md"
+
+
+def test_a_web_page_is_opened_by_the_system_only(
+    qtbot: QtBot, manual: HelpWindow, system: SystemBrowser
+) -> None:
+    manual.show_page("sweeps.md")
+    web = "https://distributed.dask.org/en/stable/tls.html"
+    click(qtbot, manual.browser, web)
+    assert system.opened == [web]
+    assert manual.browser.source().fileName() == "sweeps.md"
+
+
+@pytest.mark.parametrize("url", ["https://example.org/x.png", "http://example.org/x.md", "qrc:/x"])
+def test_nothing_is_read_but_files_of_this_computer(manual: HelpWindow, url: str) -> None:
+    for kind in (IMAGE, int(QTextDocument.ResourceType.MarkdownResource.value)):
+        assert manual.browser.loadResource(kind, QUrl(url)) is None
+
+
+def picture_width(browser: QTextBrowser) -> float:
+    """Give the width of the guide's picture on the screen."""
+    picture = browser.document().resource(IMAGE, QUrl("../pictures/window.png"))
+    return float(picture.width() / picture.devicePixelRatio())
+
+
+def test_a_picture_is_as_wide_as_the_page_and_no_wider(qtbot: QtBot, manual: HelpWindow) -> None:
+    for width in (900, 760, 3000):
+        manual.resize(width, 700)
+        qtbot.wait(1)
+        room = manual.browser.viewport().width()
+        wanted = min(room, 1280)
+        assert wanted - 40 <= picture_width(manual.browser) <= wanted
+        assert manual.browser.horizontalScrollBar().maximum() == 0
+
+
+def test_a_search_finds_the_next_place_and_begins_again(qtbot: QtBot, manual: HelpWindow) -> None:
+    qtbot.keyClicks(manual.search, "slider")
+    found = set()
+    for _ in range(40):
+        cursor = manual.browser.textCursor()
+        assert cursor.selectedText().lower() == "slider"
+        found.add(cursor.position())
+        qtbot.keyClick(manual.search, Qt.Key.Key_Return)
+    assert len(found) == manual.browser.toPlainText().lower().count("slider") > 3
+    qtbot.keyClicks(manual.search, " of no page")
+    assert not manual.find_next()
+
+
+def test_code_stands_on_a_ground_of_the_theme(manual: HelpWindow) -> None:
+    manual.show_page("model.md")
+    for colour in ("#112233", "#ddeeff"):
+        palette = QPalette(manual.palette())
+        palette.setColor(QPalette.ColorRole.AlternateBase, QColor(colour))
+        manual.setPalette(palette)
+        cursor = manual.browser.document().find("PV_max    =")
+        assert cursor.blockFormat().background().color() == QColor(colour)
+
+
+def test_the_menu_opens_the_guide_and_the_page_of_the_pane(application: Application) -> None:
+    entries = application.desktop.help
+    entries.guide.trigger()
+    (browser,) = application.window.findChildren(HelpBrowser)
+    assert browser.window().isVisible()
+    assert browser.source().fileName() == GUIDE
+    for pane, page in PAGE_OF_PANE.items():
+        application.desktop.export.current_pane.name = pane
+        entries.pane.trigger()
+        assert browser.source().toString().endswith(f"/{page}")
+    assert application.window.findChildren(HelpBrowser) == [browser]
+
+
+def test_a_missing_manual_is_answered_with_a_sentence(
+    application: Application, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(help_menu, "docs_folder", lambda: tmp_path)
+    application.desktop.help.guide.trigger()
+    message = application.window.statusBar().currentMessage()
+    assert message == "The manual cannot be read: No such file or directory."
+    assert not (tmp_path / CONTENTS).exists()
+
+
+def test_the_start_does_not_import_the_window_of_the_manual() -> None:
+    program = "import sys, occ_gui.app.application; print(*sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    loaded = done.stdout.split()
+    assert "occ_gui.help.help_menu" in loaded
+    assert {"occ_gui.help.help_window", "occ_gui.help.help_browser"}.isdisjoint(loaded)

@@ -34,10 +34,14 @@ def photos() -> Path:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option that tries all of what a sample is tried of otherwise."""
+    """Add the options of the tests themselves."""
     parser.addoption(
         "--whole", action="store_true", default=bool(os.environ.get("CI")),
         help="run the tests marked `whole` too, as CI does",
+    )  # fmt: skip
+    parser.addoption(
+        "--renew-snapshots", action="store_true",
+        help="store the pictures of the panes anew in place of comparing them",
     )  # fmt: skip
 
 

@@ -1,0 +1,116 @@
+"""The drawn panes look like their stored pictures.
+
+`pytest tests/gui/snapshots --renew-snapshots` stores the pictures anew. That is right when a
+change of the look was wanted, or a new version of Qt or pyqtgraph draws the same otherwise, and
+only after both pictures were looked at. The new pictures are a commit of their own, which says
+what looks different and why. It is wrong where a test fails for a reason that nobody knows.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from gui.snapshots.drawing import show
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
+from occ_gui.picture.image_view import ImageView
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results import AccuracyPoint, SweepPoint
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+SnapshotOf = Callable[..., Snapshot]
+Matches = Callable[[QWidget, str], None]
+
+
+def test_the_picture_looks_as_stored(
+    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
+) -> None:
+    view = ImageView()
+    show(qtbot, view, 480, 260)
+    view.show_snapshot(snapshot_of())
+    matches_its_picture(view, "picture")
+
+
+def test_the_profile_looks_as_stored(
+    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
+) -> None:
+    view = ProfileView()
+    show(qtbot, view, 560, 260)
+    view.show_snapshot(snapshot_of())
+    matches_its_picture(view, "profile")
+
+
+def test_the_steps_of_each_decoder_look_as_stored(
+    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
+) -> None:
+    view = DecodeView()
+    show(qtbot, view, 380, 560)
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    for place, result in enumerate((snapshot.decoded, *snapshot.others)):
+        view.decoders.setCurrentIndex(place)
+        matches_its_picture(view, f"decode-{result.decoder}")
+
+
+def test_the_map_looks_as_stored(
+    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
+) -> None:
+    view = MapView(("threshold", "matched"))
+    show(qtbot, view, 640, 280)
+    x, y = lattice("switching_frequency", 13), lattice("distance", 7)
+    rates = RateMap("switching_frequency", "distance", x, y, ("threshold", "matched"))
+    points = [(column, row) for column in range(13) for row in range(7)]
+    known = [
+        SweepPoint(number, 10, (max(0, 10 - column), max(0, 10 - abs(column + row - 9))))
+        for number, (column, row) in enumerate(points)
+        if row < 6
+    ]
+    refused = [
+        SweepPoint(number, 0, (0, 0), "The panel is behind the camera.")
+        for number, (_, row) in enumerate(points)
+        if row == 6
+    ]
+    rates.enter([*known, *refused], 1)
+    places = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 5)
+    slope = places[0][:, None] + 0.2 * places[1]
+    sides = {line: slope - 0.3 * place for place, line in enumerate(LINES, 1)}
+    rates.theory = TheoryFields(places, sides)
+    view.show_map(rates)
+    view.show_scene(small_scene)
+    view.show_progress(len(points), len(points), 1)
+    matches_its_picture(view, "map")
+
+
+def test_the_accuracy_looks_as_stored(
+    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
+) -> None:
+    measured = snapshot_of(edge_time=5e-6, vignetting_exponent=2.0)
+    # What a clock has measured is another each time.
+    timings = {name: 1e-3 * place for place, name in enumerate(sorted(measured.frame.timings), 1)}
+    snapshot = replace(measured, frame=replace(measured.frame, timings=timings))
+    view = AccuracyView()
+    show(qtbot, view, 760, 300)
+    view.show_settings(SimulationSettings())
+    view.set_seen(True)
+    view.show_snapshot(snapshot)
+    points = (
+        AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
+        AccuracyPoint("integration", "closed form", 1e-4, 1e-14, current=True),
+        AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
+        AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0),
+        AccuracyPoint("effects", "this plan", 1e-2, 0.5, current=True),
+        AccuracyPoint("path", "profile path", 1e-4, 0.4),
+        AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
+    )
+    view.plot.show_study_begun()
+    for number, point in enumerate(points, 1):
+        view.plot.show_point(point, number, len(points))
+    view.plot.show_study_finished()
+    matches_its_picture(view, "accuracy")

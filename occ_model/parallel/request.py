@@ -63,21 +63,22 @@ class Run:
     unreported: list[Any] = field(default_factory=list)
     _coming: Iterator[Stage] | None = None
 
-    def next_stage(self) -> StageProgress | None:
-        """Give the first stage with a job that waits, None where there is none any more.
-
-        A stage begins when all jobs of those before it are with workers.
-        """
+    def advance(self) -> None:
+        """Begin the next stage once all jobs of those before it are with workers."""
         if self._coming is None:
             self._coming = iter(self.stages())
-        while not any(stage.has_waiting for stage in self.begun):
+        while self.waiting_stage is None:
             stage = next(self._coming, None)
             if stage is None:
-                return None
+                return
             progress = StageProgress(stage)
             if progress.has_waiting:
                 self.begun.append(progress)
-        return next(stage for stage in self.begun if stage.has_waiting)
+
+    @property
+    def waiting_stage(self) -> StageProgress | None:
+        """The first stage with a job that waits, None where there is none."""
+        return next((stage for stage in self.begun if stage.has_waiting), None)
 
     @property
     def is_done(self) -> bool:

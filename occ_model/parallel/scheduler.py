@@ -14,6 +14,7 @@ from occ_model.parallel.job import (
     WorkersLostError,
     reason_of,
 )
+from occ_model.parallel.reports import Reports
 from occ_model.parallel.request import Run, StageProgress
 
 _JOBS_PER_WORKER = 2
@@ -63,14 +64,12 @@ class Scheduler:
         self._start = start
         self._listener = listener
         self._fallback = fallback
-        self._interval, self._stage_interval = interval, stage_interval
-        self._clock = clock
+        self._reports = Reports(listener, interval, stage_interval, clock)
         self._inbox: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
         self.workers: Workers | None = None
         self._runs: dict[int, Run] = {}
         self._pending: dict[int, Run] = {}
         self._in_flight: dict[Future[JobResult], tuple[Run, StageProgress, Job]] = {}
-        self._reported: dict[int, float] = {}
         self._losses = 0
 
     def put(self, run: Run) -> None:
@@ -79,7 +78,7 @@ class Scheduler:
 
     def cancel(self, channel: int, run: int) -> None:
         """Abandon all runs of a channel that are earlier than ``run``."""
-        self._inbox.put(lambda: self._abandon(channel, run))
+        self._inbox.put(lambda: self._cancel(channel, run))
 
     def close(self) -> None:
         """Let :meth:`run` end after the messages that wait."""
@@ -128,6 +127,15 @@ class Scheduler:
         else:
             self._begin(run)
 
+    def _cancel(self, channel: int, number: int) -> None:
+        self._abandon(channel, number)
+        if channel not in self._runs:
+            self._begin_pending(channel)
+
+    def _begin_pending(self, channel: int) -> None:
+        if channel in self._pending:
+            self._begin(self._pending.pop(channel))
+
     def _begin(self, run: Run) -> None:
         self._abandon(run.channel, run.number)
         self._runs[run.channel] = run
@@ -143,11 +151,11 @@ class Scheduler:
     def _advance(self, run: Run) -> None:
         """Begin the run's next stage where it is time, and end the run where there is none."""
         try:
-            stage = run.next_stage()
+            run.advance()
         except Exception as error:  # noqa: BLE001 - a mistake in one request must not stop others
             self._fail(run, error)
             return
-        if stage is None and run.is_done:
+        if run.is_done:
             self._finish(run)
 
     def _fill(self) -> None:
@@ -191,7 +199,7 @@ class Scheduler:
         """Choose the run and the stage whose job goes next."""
         ready = []
         for run in self._runs.values():
-            stage = next((each for each in run.begun if each.has_waiting), None)
+            stage = run.waiting_stage
             if stage is None:
                 continue
             if stage.stage.uninterruptible or run.channel not in self._pending:
@@ -235,34 +243,23 @@ class Scheduler:
         self._progress(run, stage)
 
     def _progress(self, run: Run, stage: StageProgress) -> None:
-        """Report results where it is time, and end what is complete."""
-        interval = self._stage_interval if stage.stage.uninterruptible else self._interval
-        elapsed = self._clock() - self._reported.get(run.channel, -interval)
-        if stage.is_done or elapsed >= interval:
-            self._report(run)
+        """Report the results of a job, and begin or end what it leads to."""
+        self._reports.report(run, stage)
         if stage.is_done:
             run.begun.remove(stage)
         if run.channel in self._pending and not run.is_uninterruptible:
-            self._begin(self._pending.pop(run.channel))
+            self._begin_pending(run.channel)
         else:
             self._advance(run)
 
-    def _report(self, run: Run) -> None:
-        if run.unreported:
-            self._reported[run.channel] = self._clock()
-            results, run.unreported = run.unreported, []
-            self._listener.results_ready(run.channel, run.number, results)
-
     def _finish(self, run: Run) -> None:
-        self._report(run)
         del self._runs[run.channel]
         self._listener.finished(run.channel, run.number)
 
     def _fail(self, run: Run, error: Exception) -> None:
         self._abandon(run.channel, run.number + 1)
         self._listener.failed(run.channel, run.number, error)
-        if run.channel in self._pending:
-            self._begin(self._pending.pop(run.channel))
+        self._begin_pending(run.channel)
 
     def _recover(self, workers: Workers, error: Exception) -> None:
         """Replace workers that ended, and let the jobs that they had wait again."""

@@ -59,6 +59,23 @@ def test_jobs_in_flight_are_repeated_in_their_order_for_each_request(bench: Benc
     assert bench.results == ["m", "s", "t"]
 
 
+def test_jobs_of_two_stages_are_repeated_in_their_order(bench: Bench) -> None:
+    bench.ask(MAP, 1, stage(0, "a"), stage(0, "b", "c"))
+    bench.worker.die()
+    bench.settle()
+    bench.finish_all()
+    assert bench.sent == ["a", "b", "a", "b", "c"]
+
+
+def test_a_request_that_has_ended_hears_of_no_loss(bench: Bench) -> None:
+    bench.ask(MAP, 1, stage(0, "a"))
+    bench.finish_all()
+    bench.ask(STRIPS, 1, stage(0, "s"))
+    bench.worker.die()
+    bench.settle()
+    assert bench.notices == [("replaced", STRIPS, 1)]
+
+
 def test_a_job_of_an_abandoned_request_is_not_repeated(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b"))
     bench.ask(MAP, 2, stage(0, "x"))
@@ -71,8 +88,12 @@ def test_a_job_of_an_abandoned_request_is_not_repeated(bench: Bench) -> None:
 
 def test_a_job_that_cannot_be_sent_as_the_worker_died_is_sent_again(bench: Bench) -> None:
     class DyingAtSubmit(HeldWorker):
+        attempts = 0
+
         def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
             if len(self.sent) == 1 and not self.renewed:
+                self.attempts += 1
+                assert self.attempts < 3
                 raise self.lost_by[0]("It was killed.")
             return super().submit(job, channel, run)
 

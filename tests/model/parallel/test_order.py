@@ -149,10 +149,11 @@ def test_an_uninterruptible_stage_that_has_not_begun_is_replaced(bench: Bench) -
 
 def test_a_request_waits_for_uninterruptible_stages_of_its_own_channel_only(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
+    bench.ask(MAP, 2, stage(0, "x"))
     bench.ask(STRIPS, 1, stage(0, "s"))
     bench.ask(STRIPS, 2, stage(0, "t"))
     bench.finish_all()
-    assert bench.sent == ["a", "b", "c", "t"]
+    assert bench.sent == ["a", "b", "c", "t", "x"]
 
 
 def test_a_newer_request_replaces_an_older_one_before_it_starts(bench: Bench) -> None:
@@ -191,16 +192,29 @@ def test_other_channels_keep_their_requests(bench: Bench) -> None:
     assert sorted(bench.ended) == [(MAP, 2), (STRIPS, 1)]
 
 
-@pytest.mark.parametrize("number", [2, 3])
-def test_a_cancelled_request_ends_and_the_one_behind_it_too(bench: Bench, number: int) -> None:
+def test_a_cancelled_request_ends_and_the_one_behind_it_too(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
     bench.ask(MAP, 2, stage(0, "x"))
-    bench.scheduler.cancel(MAP, number)
+    bench.scheduler.cancel(MAP, 3)
     bench.settle()
-    assert bench.worker.abandoned[-1] == (MAP, number)
+    assert bench.worker.abandoned[-1] == (MAP, 3)
     bench.finish_all()
     assert bench.results == []
     assert bench.sent == ["a", "b"]
+    bench.ask(MAP, 3, stage(0, "y"), stage(0, "z"))
+    bench.finish_all()
+    assert bench.results == ["y", "z"]
+    assert bench.ended == [(MAP, 3)]
+
+
+def test_the_request_behind_one_that_is_cancelled_alone_begins(bench: Bench) -> None:
+    bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
+    bench.ask(MAP, 2, stage(0, "x"))
+    bench.scheduler.cancel(MAP, 2)
+    bench.settle()
+    bench.finish_all()
+    assert bench.sent == ["a", "b", "x"]
+    assert bench.results == ["x"]
 
 
 def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> None:

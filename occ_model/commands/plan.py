@@ -9,7 +9,7 @@ from occ_model.commands.options import (
     scene_of,
     simulation_settings_of,
 )
-from occ_model.effects.plan import plan
+from occ_model.effects.plan import plan_with
 from occ_model.scene.simulation_settings import SimulationSettings
 
 
@@ -24,5 +24,5 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene, settings = scene_of(options), simulation_settings_of(options)
-    print(plan(scene, settings.tolerance, settings.observable, settings.force))
+    print(plan_with(scene, settings))
     return 0

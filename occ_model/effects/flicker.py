@@ -43,7 +43,8 @@ class Flicker(LightEffect):
 
 def _seen_depth(scene: Scene) -> float:
     """Give the flicker's depth in the mean light of an exposure."""
-    return scene.surroundings.flicker_depth * abs(response(scene))
+    depth = scene.surroundings.flicker_depth
+    return depth * abs(response(scene)) if depth else 0.0
 
 
 def ambient_shares(scene: Scene) -> FloatArray:

@@ -1,1 +1,1 @@
-"""Two pinned states, compared."""
+"""Comparison of two pinned states, A and B."""

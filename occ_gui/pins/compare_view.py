@@ -1,4 +1,4 @@
-"""Two pinned states side by side: only what differs, and both profiles."""
+"""Pane of the comparison: the differences of two pinned states, and both profiles."""
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -24,18 +24,19 @@ _LEAST_TABLE = 250
 
 
 class CompareView(QWidget):
-    """Buttons that pin, the table of what differs, and the profiles of A and B.
+    """Buttons that pin, the table of differences, and the profiles of A and B.
 
-    What is not seen is not drawn: the view must be told whether it is.
+    It draws only while it is visible, as :meth:`set_seen` says.
     """
 
     pin_asked = Signal(str)
-    """What is shown is to be kept as "A" or "B"."""
+    """The user pins the current state as "A" or "B"."""
 
     go_asked = Signal(str)
-    """The scene of "A" or "B" is wanted back."""
+    """The user returns to the scene of "A" or "B"."""
 
     clear_asked = Signal()
+    """The user clears both."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -59,7 +60,7 @@ class CompareView(QWidget):
     def _pin_button(self, name: str) -> QPushButton:
         button = QPushButton(self.tr("Pin {name}").format(name=name))
         button.setToolTip(
-            self.tr("Keep what is shown as {name}, to compare it (Ctrl+Shift+{name}).").format(
+            self.tr("Keep the current state as {name}, to compare it (Ctrl+Shift+{name}).").format(
                 name=name
             )
         )
@@ -69,21 +70,21 @@ class CompareView(QWidget):
     def _return_button(self, name: str) -> QPushButton:
         button = QPushButton(self.tr("Take me to {name}").format(name=name))
         button.setToolTip(
-            self.tr(
-                "Put the scene of {name} in place of the scene, as one step that can be undone."
-            ).format(name=name)
+            self.tr("Replace the scene by that of {name}, as one step that can be undone.").format(
+                name=name
+            )
         )
         button.clicked.connect(lambda: self.go_asked.emit(name))
         return button
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 3)
-        self.table.setHorizontalHeaderLabels([self.tr("Only what differs"), "A", "B"])
-        self.table.setAccessibleName(self.tr("What differs between A and B"))
+        self.table.setHorizontalHeaderLabels([self.tr("Difference"), "A", "B"])
+        self.table.setAccessibleName(self.tr("Differences between A and B"))
         self.table.setToolTip(self.tr("Inputs that differ between A and B, then outputs."))
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        # A row of a long sentence can be higher than the table.
+        # A row with a long sentence can be higher than the table.
         self.table.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.table.verticalHeader().hide()
         self.table.setMinimumWidth(_LEAST_TABLE)
@@ -92,8 +93,8 @@ class CompareView(QWidget):
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         for column in (1, 2):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
-        # A decoder's reason is a sentence: it needs another height at every width, once all
-        # columns have theirs.
+        # The height of a sentence depends on the width of its column, so rows are fitted after all
+        # columns are.
         self._fitting = QTimer(self, singleShot=True)
         self._fitting.setInterval(0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
@@ -133,13 +134,13 @@ class CompareView(QWidget):
         layout.addStretch()
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the view."""
+        """Draw from now on, or stop drawing while the pane is hidden."""
         self._seen = seen
         if seen and self._drawn is not self._pinned:
             self._redraw()
 
     def show_pinned(self, pinned: Pinned) -> None:
-        """Show these two states in place of the last ones."""
+        """Show these two states in place of the previous ones."""
         self._pinned = pinned
         if self._seen:
             self._redraw()
@@ -156,19 +157,19 @@ class CompareView(QWidget):
                 self.curves[name].setData(
                     np.arange(len(pin.profile), dtype=np.float64), pin.profile
                 )
-        there = [pin for pin in pins.values() if pin is not None]
-        self.clear.setEnabled(bool(there))
-        self.hint.setText(self._what_is_missing(pinned))
+        present = [pin for pin in pins.values() if pin is not None]
+        self.clear.setEnabled(bool(present))
+        self.hint.setText(self._hint(pinned))
         self.hint.setVisible(bool(self.hint.text()))
-        self._panes.setVisible(bool(there))
-        self.table.setVisible(len(there) == len(pins))
+        self._panes.setVisible(bool(present))
+        self.table.setVisible(len(present) == len(pins))
         self._fill(pinned)
-        if there:
-            self._fit(there)
+        if present:
+            self._fit(present)
 
-    def _what_is_missing(self, pinned: Pinned) -> str:
+    def _hint(self, pinned: Pinned) -> str:
         if pinned.a is None and pinned.b is None:
-            return self.tr("Pin what is shown as A, change the scene, and pin it as B.")
+            return self.tr("Pin the current state as A, change the scene, and pin it as B.")
         if pinned.a is None or pinned.b is None:
             name = "A" if pinned.a is None else "B"
             return self.tr("Change the scene, and pin it as {name}.").format(name=name)
@@ -206,7 +207,7 @@ class CompareView(QWidget):
             self.table.setItem(place, column, item)
 
     def _fit(self, pins: list[Pin]) -> None:
-        """Show the first packets of both, and all their levels from black."""
+        """Show the first packets of both, and their levels from black."""
         first = min(pin.first_column for pin in pins)
         last = max(pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in pins)
         last = min(last, max(len(pin.profile) - 1.0 for pin in pins))

@@ -1,4 +1,4 @@
-"""Pin two states of the window, compare them, and go back to either."""
+"""Controller of the pins: keep two states, compare them, and return to either."""
 
 from typing import Protocol
 
@@ -20,10 +20,10 @@ _ALL_DIGITS = 17
 
 
 class ComparePane(Protocol):
-    """A pane that shows how two states differ."""
+    """A pane that shows the differences of two states."""
 
     def show_pinned(self, pinned: Pinned) -> None:
-        """Show these two in place of the last ones."""
+        """Show these two states in place of the previous ones."""
 
 
 class PinController(QObject):
@@ -32,13 +32,13 @@ class PinController(QObject):
     Parameters
     ----------
     scenes
-        Takes a pinned scene when the user wants to go back to it.
+        The scene, which a return to A or B replaces.
     pane
-        Shows how they differ.
+        The pane that shows the differences.
     """
 
     status_message = Signal(str)
-    """What was done, or why it was not."""
+    """What was done, or why it could not be done."""
 
     def __init__(self, scenes: SceneStore, pane: ComparePane) -> None:
         super().__init__()
@@ -48,18 +48,18 @@ class PinController(QObject):
         self.pinned = Pinned()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Pin these results from now on, when asked to."""
+        """Keep these results for the next pin."""
         self._snapshot = snapshot
 
     def pin(self, name: str) -> None:
-        """Keep what is shown as A or as B."""
+        """Keep the current state as A or as B."""
         if self._snapshot is None:
-            self.status_message.emit(self.tr("There is no picture yet that could be pinned."))
+            self.status_message.emit(self.tr("There is no picture to pin yet."))
             return
         new = self._pin_of(self._snapshot)
         a, b = (new, self.pinned.b) if name == "A" else (self.pinned.a, new)
         self._put(a, b)
-        self.status_message.emit(self.tr("Pinned what is shown as {name}.").format(name=name))
+        self.status_message.emit(self.tr("Pinned the current state as {name}.").format(name=name))
 
     def clear(self) -> None:
         """Forget both."""
@@ -67,7 +67,7 @@ class PinController(QObject):
         self.status_message.emit(self.tr("Nothing is pinned any more."))
 
     def go_to(self, name: str) -> None:
-        """Put the scene of A or of B in place of the scene, as one step."""
+        """Replace the scene by that of A or of B, as one step."""
         pin = self.pinned.a if name == "A" else self.pinned.b
         if pin is None:
             self.status_message.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
@@ -96,7 +96,7 @@ class PinController(QObject):
         rows = []
         for declared, one, other in inputs:
             if one != other:
-                texts = _told_apart(declared, one, other)
+                texts = _distinguished(declared, one, other)
                 first, second = (text or self.tr("none") for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
         return rows
@@ -121,28 +121,28 @@ class PinController(QObject):
             (
                 self.tr("Contrast"),
                 self.tr("{swing:.1f} grey levels").format(swing=float(np.ptp(frame.profile))),
-                self.tr("Swing of the profile: its largest less its smallest value."),
+                self.tr("Swing of the profile: its largest minus its smallest value."),
             ),
             (
                 self.tr("Columns a chip"),
                 self.tr("{columns:.2f} columns").format(columns=period / scene.camera.readout_time),
-                self.tr("Switching period over readout time."),
+                self.tr("Switching period divided by readout time."),
             ),
             (
                 self.tr("Exposure"),
                 self.tr("{chips:.3f} chips").format(chips=scene.camera.exposure_time / period),
-                self.tr("Exposure time over switching period."),
+                self.tr("Exposure time divided by switching period."),
             ),
             *self._readings(snapshot),
             (
                 self.tr("Effects simulated"),
                 ", ".join(shown.values()) or self.tr("none"),
-                self.tr("What the plan includes of the effects."),
+                self.tr("The effects that the plan includes."),
             ),
             (
                 self.tr("Simulation time"),
                 self.tr("{time:.1f} ms").format(time=1e3 * snapshot.simulation_seconds),
-                self.tr("Time that the simulation of the picture took."),
+                self.tr("Computing time of the picture."),
             ),
         ]
 
@@ -150,11 +150,11 @@ class PinController(QObject):
         rows = []
         for result in (snapshot.decoded, *snapshot.others):
             name = self.tr("Decoder “{name}”").format(name=result.decoder)
-            rows.append((name, self._reading(result, snapshot), self.tr("What it read.")))
+            rows.append((name, self._reading(result, snapshot), self.tr("The code that it read.")))
             if result.decoder != snapshot.decoded.decoder:
                 sure = result.confidence
                 text = self.tr("none") if sure is None else f"{sure:.3f}"
-                meaning = self.tr("How far the best code is ahead of the second best, 0 to 1.")
+                meaning = self.tr("Lead of the best code over the second best, 0 to 1.")
                 rows.append((self.tr("Confidence, “{name}”").format(name=result.decoder), text,
                              meaning))  # fmt: skip
         return rows
@@ -167,8 +167,10 @@ class PinController(QObject):
         return self.tr("code {code}, {verdict}").format(code=result.code, verdict=verdict)
 
 
-def _told_apart(declared: Parameter, one: ParameterValue, other: ParameterValue) -> tuple[str, str]:
-    """Write two values with as many digits as tell them apart."""
+def _distinguished(
+    declared: Parameter, one: ParameterValue, other: ParameterValue
+) -> tuple[str, str]:
+    """Format two different values with enough digits to distinguish them."""
     if isinstance(declared, Quantity):
         a, b = float(one), float(other)
         texts = declared.format(a), declared.format(b)

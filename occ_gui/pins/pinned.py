@@ -1,4 +1,4 @@
-"""Two states that the user has pinned, and how they differ."""
+"""Two states that the user has pinned, and their differences."""
 
 from dataclasses import dataclass
 
@@ -8,20 +8,20 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pin:
-    """A state that is kept to be compared.
+    """A state kept for comparison: its scene, profile and outputs.
 
     Parameters
     ----------
     scene
         The scene.
     tolerance
-        With which it was simulated.
+        The tolerance of its simulation.
     profile : ndarray of float64, shape (columns,)
         Its profile in grey levels.
     first_column, packet_columns
-        Where the panel begins in it, and how many columns one period of what is sent spans.
+        The first column of the panel, and the columns of one period of the signal sent.
     outputs
-        What came out, each as its name, its text and what it means.
+        The outputs, each as its name, its text and its meaning.
     """
 
     scene: Scene
@@ -34,16 +34,16 @@ class Pin:
 
 @dataclass(frozen=True, slots=True)
 class ComparedRow:
-    """Something that differs between the two states.
+    """One quantity that differs between the two states.
 
     Parameters
     ----------
     what
-        Its name.
+        The name of the quantity.
     a, b
-        What it is in each.
+        Its value in each state.
     meaning
-        What it means.
+        Its meaning.
     """
 
     what: str
@@ -54,14 +54,14 @@ class ComparedRow:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pinned:
-    """The two states, and what differs between them once there are both.
+    """The two states, and their differences if both are pinned.
 
     Parameters
     ----------
     a, b
-        The states, None where none has been pinned.
+        The states, None if not pinned.
     inputs, outputs
-        Only what differs.
+        The inputs and outputs that differ.
     """
 
     a: Pin | None = None

@@ -16,8 +16,7 @@ from occ_gui.files.autosave import Autosave
 from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Memory
-from occ_gui.files.session import Session
-from occ_gui.files.session_keeper import SessionKeeper
+from occ_gui.files.session import Session, SessionFile
 from occ_gui.help.help_menu import HelpMenu
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
@@ -94,9 +93,7 @@ class Desktop(QObject):
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
         self.layout = Layout(window, window.docks, memory)
-        self.session = SessionKeeper(
-            parts.store, parts.settings, self.document, memory, lambda: self._photo
-        )
+        self.autosave = Autosave(parts.store, parts.settings, self.document, lambda: self._photo)
         self.error_reports = ErrorReports()
         self.pointer = Pointer(
             parts.profile,
@@ -111,8 +108,8 @@ class Desktop(QObject):
         parts, window = self._parts, self._parts.window
         parts.simulation.snapshot_shown.connect(self.figures.show_snapshot)
         parts.photo_wiring.photos.opened.connect(self._on_photo)
-        for teller in (self.export, self.brightness, self.session, self.help):
-            teller.status_message.connect(window.say)
+        for source in (self.export, self.brightness, self.autosave, self.help):
+            source.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
         self.pointer.moved.connect(window.pointed.setText)
         window.arranged.connect(self.layout.note_first)
@@ -139,19 +136,19 @@ class Desktop(QObject):
         """Whether all figures that were asked for are written."""
         return self.export.is_idle
 
-    def resume(self, autosave: Autosave, session: Session, scene_wins: bool, fresh: bool) -> None:
-        """Take up the last session before the window is shown, and keep this one.
+    def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
+        """Restore the last session before the window is shown, and store this one.
 
         Parameters
         ----------
-        autosave
-            Keeps the scene, and knows what a crash has left behind.
+        file
+            The file of this window's session, which also contains the scene of a crash.
         session
             The last session; its scene and settings are in the stores already.
         scene_wins
-            Whether the store's scene was asked for on the command line.
+            Whether the command line names the scene.
         fresh
-            Whether the window comes as at its very first start.
+            Whether the window is to look as at its first start.
         """
         memory = self._parts.memory
         if not fresh:
@@ -160,13 +157,13 @@ class Desktop(QObject):
             if (mode := memory.recall(_OVERLAY)) in MODES:
                 self._parts.show_mode(mode)
             self.brightness.switch(memory.recall(_HOLD) == _YES)
-        self.session.resume(autosave, session, scene_wins)
+        self.autosave.resume(file, session, scene_wins)
 
     def _on_photo(self, photo: Photo | None) -> None:
         self._photo = None if photo is None else photo.path
         self.figures.show_photo(photo)
         self.document.show_photo(None if photo is None else photo.path.name)
-        self.session.note()
+        self.autosave.note_change()
 
     def _choose_theme(self, action: QAction) -> None:
         self.theme.choose(action.data())
@@ -201,10 +198,10 @@ class Desktop(QObject):
 
     def end(self) -> None:
         """Keep what is to be there at the next start."""
-        if self.session.is_kept:
+        if self.autosave.is_kept:
             self.layout.keep()
             self._parts.memory.keep(_OVERLAY, self._parts.image.mode.key())
-        self.session.end()
+        self.autosave.end()
 
     def stop(self) -> None:
         """Let the work in the background end."""

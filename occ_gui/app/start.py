@@ -1,4 +1,4 @@
-"""What a start takes up of the last one: settings, session, and where they are kept."""
+"""Start of a window: its scene and settings, from the command line or the last session."""
 
 import os
 from argparse import Namespace
@@ -14,35 +14,37 @@ if TYPE_CHECKING:
     from PySide6.QtCore import QSettings
 
     from occ_gui.app.application import Application
-    from occ_gui.files.session import Session
+    from occ_gui.files.session import Session, SessionFile
 
 
 _NAMES = ("occ-explorer", "occ-gui")
-"""Under which the settings are kept where nothing else is asked for."""
+"""Organisation and application under which Qt stores the settings by default."""
 
 
 class DefaultOption(str):
-    """What an option is where nobody has said anything: its default, and known as such."""
+    """The default of an option, which can be told from the same value given by the user."""
 
     __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What a window begins with.
+    """What a window starts with.
 
     Parameters
     ----------
     scene, settings
-        The scene, and how it is simulated at first.
+        The first scene and the settings of its simulation.
     scene_asked
-        Whether the scene was named, and wins over the last session's.
+        Whether the command line names a scene, which takes precedence over the last session's.
     memory
-        Where things are kept; None where nothing is.
+        The stored preferences; None where nothing is stored.
     session
         The last session.
+    session_file
+        The file of this window's session; None where nothing is stored.
     fresh
-        Whether nothing of it is wanted.
+        Whether nothing of the last session is to be restored.
     """
 
     scene: Scene
@@ -50,55 +52,53 @@ class Start:
     scene_asked: bool
     memory: "QSettings | None"
     session: "Session"
+    session_file: "SessionFile | None"
     fresh: bool
 
     def restore(self, application: "Application", with_photo: bool) -> None:
-        """Take up the session in a window that is not shown yet, and keep it from now on."""
-        if self.memory is None:
+        """Restore the session in a window before it is shown, and store it from now on."""
+        if self.session_file is None:
             return
         application.desktop.error_reports.install()
-        from occ_gui.files.autosave import Autosave, state_folder
-
         wins = self.scene_asked or self.fresh
-        autosave = Autosave(state_folder())
-        application.desktop.resume(autosave, self.session, wins, self.fresh)
+        application.desktop.resume(self.session_file, self.session, wins, self.fresh)
         if with_photo and not wins and self.session.photo is not None:
             application.open_photo(self.session.photo, front=False)
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
-    """Decide what the window begins with.
+    """Determine what the window starts with.
 
     Parameters
     ----------
     options
         The command line.
     scene, settings
-        What it asks for.
+        The scene and the settings that follow from it.
     own
-        Whether the settings are those that hold where it asks for none.
+        Whether the settings are the defaults, as the command line names none.
     """
-    from occ_gui.files.preferences import Memory
-    from occ_gui.files.session import Session, recall_session
+    from occ_gui.files.session import Session, SessionFile, state_folder
 
     asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
-    if options.screenshot:  # of the window as it comes, whatever its user did last
-        return Start(scene, settings, asked, None, Session(), fresh=True)
+    if options.screenshot:  # it does not depend on the last session
+        return Start(scene, settings, asked, None, Session(), None, fresh=True)
     memory = kept_settings()
-    session = Session() if options.fresh else recall_session(Memory(memory), NAMES)
+    session_file = SessionFile(state_folder(), NAMES)
+    session = Session() if options.fresh else session_file.last
     if session.scene is not None and not asked:
         scene = session.scene
     if session.settings is not None and own:
         settings = session.settings
-    return Start(scene, settings, asked, memory, session, options.fresh)
+    return Start(scene, settings, asked, memory, session, session_file, options.fresh)
 
 
 def kept_settings() -> "QSettings":
-    """Open what is remembered from one start to the next."""
+    """Open the stored preferences."""
     from PySide6.QtCore import QSettings, QStandardPaths
 
-    from occ_gui.files.autosave import STATE_FOLDER, state_folder
     from occ_gui.files.kept_file import is_something_else
+    from occ_gui.files.session import STATE_FOLDER, state_folder
 
     is_named = bool(os.environ.get(STATE_FOLDER))
     if is_named:
@@ -106,6 +106,6 @@ def kept_settings() -> "QSettings":
     else:
         place = QStandardPaths.StandardLocation.GenericConfigLocation
         path = Path(QStandardPaths.writableLocation(place), *_NAMES).with_suffix(".conf")
-    if is_something_else(path):  # which Qt would read, and wait: another one beside it
+    if is_something_else(path):  # Qt would block on a pipe: use another file beside it
         return QSettings(str(path.with_stem(f"{path.stem}-new")), QSettings.Format.IniFormat)
     return QSettings(str(path), QSettings.Format.IniFormat) if is_named else QSettings(*_NAMES)

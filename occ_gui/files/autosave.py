@@ -1,126 +1,118 @@
-"""The scene is kept on the disk at all times, so that a crash loses a second of work at most."""
+"""Autosave: writes the session at most a second after every change, and restores it at a start."""
 
-import os
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
-from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
-from occ_gui.files.kept_file import is_something_else, read_kept
+from occ_gui.files.document import Document
+from occ_gui.files.kept_file import is_readable
+from occ_gui.files.session import Session, SessionFile
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
-from occ_model.files.writing import make_folder, write_whole
+from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.scene import Scene
 
-STATE_FOLDER = "OCC_STATE"
-"""The environment variable that names another folder for what the program keeps."""
-
 LONGEST_WAIT_MS = 1000
-"""How long a change waits at most until it is written; those that come meanwhile go with it."""
-
-_WINDOWS = 8
-"""Windows that can be open at a time, each with a file of its own."""
-
-
-def state_folder() -> Path:
-    """Give the folder of what the program keeps, which need not be there yet."""
-    folder = os.environ.get(STATE_FOLDER)
-    if folder:
-        return Path(folder)
-    # Not needed where the folder is named.
-    from platformdirs import user_state_path
-
-    return user_state_path("occ-explorer", appauthor=False)
-
-
-class WriteTimer(QTimer):
-    """Calls for a writing some time after the first change, whatever changes after that.
-
-    A timer that every change starts anew would never run out while a slider keeps moving.
-
-    Parameters
-    ----------
-    parent
-        The owner.
-    write
-        Writes all that has changed by then.
-    """
-
-    def __init__(self, parent: QObject, write: Callable[[], None]) -> None:
-        super().__init__(parent, singleShot=True)
-        self.setInterval(LONGEST_WAIT_MS)
-        self.timeout.connect(write)
-
-    def note_change(self) -> None:
-        """Tell of a change that is to be written."""
-        if not self.isActive():
-            self.start()
+"""Longest time from a change to its writing; later changes within it are written with it."""
 
 
 class Autosave(QObject):
-    """Writes the scene a moment after every change, and finds what a crash left behind.
-
-    A file whose lock nobody holds is of a window that did not come to its end.
+    """Writes the session of a window to its file; before :meth:`resume` it writes nothing.
 
     Parameters
     ----------
-    folder
-        Where to.
+    store, settings
+        The stores of the scene and of the settings of its simulation.
+    document
+        Knows the file of the scene.
+    photo
+        Returns the path of the open photo, if any.
     """
 
-    failed = Signal(str)
-    """Why the scene could not be written; told once until it can be again."""
+    status_message = Signal(str)
+    """What has been restored, or why the session cannot be written; the latter is not repeated."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(
+        self,
+        store: SceneStore,
+        settings: SettingsStore,
+        document: Document,
+        photo: Callable[[], Path | None],
+    ) -> None:
         super().__init__()
-        self._store: SceneStore | None = None
-        self._lock: QLockFile | None = None
-        self._path: Path | None = None
+        self._store, self._settings = store, settings
+        self._document = document
+        self._photo = photo
+        self._file: SessionFile | None = None
         self._has_failed = False
-        self._timer = WriteTimer(self, self.write)
-        self.recovered: Scene | None = None
-        """The scene of a window that did not come to its end."""
-        self._folder = folder
-        try:
-            make_folder(folder)
-        except OccError:
-            return  # there will be a sentence when the scene is to be written
-        self._take_place(folder)
+        # Started by the first change only: if each change restarted it, it would never run out
+        # while a slider keeps moving.
+        self._timer = QTimer(self, singleShot=True)
+        self._timer.setInterval(LONGEST_WAIT_MS)
+        self._timer.timeout.connect(self.write)
 
-    def _take_place(self, folder: Path) -> None:
-        """Take a place that no other window holds: one with work left behind, if there is one."""
-        places = [folder / f"scene-{number}.toml" for number in range(1, _WINDOWS + 1)]
-        for path in sorted(places, key=lambda path: not path.exists()):
-            if is_something_else(path.with_suffix(".lock")):  # which Qt would read, and wait
-                continue
-            lock = QLockFile(str(path.with_suffix(".lock")))
-            lock.setStaleLockTime(0)  # only that of a process that is gone is broken
-            if not lock.tryLock(0):
-                continue
-            self._lock, self._path = lock, path
-            if path.exists():
-                self.recovered = _scene_in(path)
-            return
+    @property
+    def is_kept(self) -> bool:
+        """Whether the session is written, to be restored at the next start."""
+        return self._file is not None
 
-    def follow(self, store: SceneStore) -> None:
-        """Write this store's scene from now on."""
-        self._store = store
-        store.changed.connect(self._timer.note_change)
+    def resume(self, file: SessionFile, session: Session, scene_wins: bool) -> None:
+        """Restore a session, and write this window's to a file from now on.
+
+        Parameters
+        ----------
+        file
+            The window's file, which also contains the scene of a window that crashed.
+        session
+            The session; its scene and settings are in the stores already, if they are wanted.
+        scene_wins
+            Whether the store's scene was asked for and is to stay, even after a crash.
+        """
+        self._file = file
+        asked = self._store.scene
+        if not scene_wins and session.scene_file is not None:
+            self._document.resume(session.scene_file, _saved_in(session.scene_file))
+        if file.crashed is not None:
+            self._restore(file.crashed, asked, scene_wins)
+        for store in (self._store, self._settings):
+            store.changed.connect(self.note_change)
+        self.note_change()
+
+    def _restore(self, crashed: Scene, asked: Scene, scene_wins: bool) -> None:
+        self._store.put(crashed, self.tr("restoring of the last session"))
+        if scene_wins and crashed != asked:
+            self._store.put(asked, self.tr("opening of what was asked for"))
+            message = self.tr(
+                "The last session did not come to its end; Undo brings its scene back."
+            )
+        else:
+            message = self.tr("The last session did not come to its end: its scene is restored.")
+        self.status_message.emit(message)
+
+    def note_change(self) -> None:
+        """Write the session within :data:`LONGEST_WAIT_MS`: a part of it has changed."""
+        if self._file is not None and not self._timer.isActive():
+            self._timer.start()
 
     def write(self) -> None:
-        """Write the scene now."""
+        """Write the session now."""
+        self._write(in_use=True)
+
+    def _write(self, in_use: bool) -> None:
         self._timer.stop()
-        if self._store is None:
+        if self._file is None:
             return
+        session = Session(
+            self._store.scene, self._settings.settings, self._document.path, self._photo()
+        )
         try:
-            if self._path is None:
-                raise OccError(self.tr("there is no place for it in {0}").format(self._folder))
-            write_whole(self._path, self._store.scene.to_toml().encode("utf-8"))
+            self._file.write(session, in_use)
         except OccError as error:
             if not self._has_failed:
                 self._has_failed = True
-                self.failed.emit(
+                self.status_message.emit(
                     self.tr("The scene is not kept over a crash: {reason}").format(
                         reason=str(error).rstrip(".") + "."
                     )
@@ -129,21 +121,15 @@ class Autosave(QObject):
         self._has_failed = False
 
     def end(self) -> None:
-        """Leave nothing behind: the window comes to its end."""
-        self._timer.stop()
-        self._store = None
-        if self._path is not None:
-            with suppress(OSError):
-                self._path.unlink(missing_ok=True)
-        if self._lock is not None:
-            self._lock.unlock()
+        """Write the session for the last time, and release its file."""
+        self._write(in_use=False)
+        if self._file is not None:
+            self._file.close()
+            self._file = None
 
 
-def _scene_in(path: Path) -> Scene | None:
-    """Read what was left behind; what cannot be read stays beside it, for its owner to look at."""
+def _saved_in(path: Path) -> Scene | None:
     try:
-        return Scene.from_toml(read_kept(path))
-    except Exception:  # noqa: BLE001 - whatever is in it, the window starts
-        with suppress(OSError):
-            path.replace(path.with_suffix(".unreadable"))
+        return read_scene_file(path) if is_readable(path) else None
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None

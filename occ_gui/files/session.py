@@ -1,11 +1,20 @@
-"""What a window is at work on, kept from its end to the next start."""
+"""Session: what a window is working on, stored in one file that the window keeps locked."""
 
 import json
+import os
 from collections.abc import Collection
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
-from occ_gui.files.preferences import Memory, text_of
+from PySide6.QtCore import QLockFile
+
+from occ_gui.files.kept_file import LARGEST, is_something_else
+from occ_gui.files.preferences import text_of
+from occ_model.errors import OccError, OutputError
+from occ_model.files.reading import read_text
+from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
@@ -15,24 +24,40 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
 )
 
-_SCENE, _SETTINGS = "session/scene", "session/settings"
-_SCENE_FILE, _PHOTO = "session/scene_file", "session/photo"
+STATE_FOLDER = "OCC_STATE"
+"""The environment variable that names another folder for the files that the program keeps."""
+
+_FORMAT = 1
+
+_MOST_WINDOWS = 8
+"""Windows that can be open at a time, each with its own session file."""
+
+
+def state_folder() -> Path:
+    """Return the folder of the files that the program keeps, which may not exist yet."""
+    folder = os.environ.get(STATE_FOLDER)
+    if folder:
+        return Path(folder)
+    # Not needed where the folder is named.
+    from platformdirs import user_state_path
+
+    return user_state_path("occ-explorer", appauthor=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """What a window was at work on, as far as it could be read.
+    """What a window is working on, as far as it is known.
 
     Parameters
     ----------
     scene
         The scene.
     settings
-        How it was simulated.
+        The settings of its simulation.
     scene_file
         The file that the scene is saved to.
     photo
-        The photo that was open.
+        The photo that is open.
     """
 
     scene: Scene | None = None
@@ -41,43 +66,136 @@ class Session:
     photo: Path | None = None
 
 
-def recall_session(memory: Memory, effects: Collection[str]) -> Session:
-    """Read the last session; rubbish in it is left out.
+class SessionFile:
+    """The session file of one window, locked while the window is open.
+
+    A file that says it is in use, but is not locked, belongs to a window that crashed.
 
     Parameters
     ----------
-    memory
-        Where it was kept.
+    folder
+        The folder of the session files.
     effects
-        Names of the effects that there are.
+        Names of the effects that the settings may refer to.
     """
-    return Session(
-        scene=_scene(memory.recall(_SCENE)),
-        settings=_settings(memory.recall(_SETTINGS), effects),
-        scene_file=_file(memory.recall(_SCENE_FILE)),
-        photo=_file(memory.recall(_PHOTO)),
-    )
+
+    def __init__(self, folder: Path, effects: Collection[str]) -> None:
+        self._folder, self._effects = folder, effects
+        self._lock: QLockFile | None = None
+        self._path: Path | None = None
+        self.crashed: Scene | None = None
+        """The scene of a window that crashed."""
+        self.last = Session()
+        """The session that was written last, whichever window wrote it."""
+        # If the folder cannot be made, the first writing reports it.
+        with suppress(OccError):
+            make_folder(folder)
+            self._open()
+
+    def _open(self) -> None:
+        """Lock a file that no other window uses, preferably that of a window that crashed."""
+        numbers = range(1, _MOST_WINDOWS + 1)
+        paths = [self._folder / f"session-{number}.json" for number in numbers]
+        records = {path: _record_in(path) for path in paths}
+        readable = [path for path in paths if records[path] is not None]
+        if readable:
+            self.last = self._session(records[max(readable, key=_time_of)])
+        for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
+            if is_something_else(path.with_suffix(".lock")):  # QLockFile would block on a pipe
+                continue
+            lock = QLockFile(str(path.with_suffix(".lock")))
+            lock.setStaleLockTime(0)  # never stale by age, only if its process has ended
+            if not lock.tryLock(0):
+                continue
+            self._lock, self._path = lock, path
+            self._recover(path)
+            return
+
+    def _recover(self, path: Path) -> None:
+        """Take over a file: restore the scene of a crash, and put damaged content aside."""
+        record = _record_in(path)  # now that no other window can write it
+        scene = self._session(record).scene
+        if _is_in_use(record):
+            self.crashed = scene
+        if os.path.lexists(path) and scene is None:
+            with suppress(OSError):
+                path.replace(path.with_suffix(".unreadable"))
+
+    def _session(self, record: dict[str, Any] | None) -> Session:
+        """Read a session; invalid parts are left out."""
+        if record is None:
+            return Session()
+        return Session(
+            scene=_scene(record.get("scene")),
+            settings=_settings(record.get("settings"), self._effects),
+            scene_file=_file(record.get("scene_file")),
+            photo=_file(record.get("photo")),
+        )
+
+    def write(self, session: Session, in_use: bool) -> None:
+        """Write the session.
+
+        Parameters
+        ----------
+        session
+            The session.
+        in_use
+            Whether the window stays open.
+
+        Raises
+        ------
+        OutputError
+            There is no file for this window, or it cannot be written.
+        """
+        if self._path is None:
+            raise OutputError(f"there is no free session file in {self._folder}.")
+        scene, settings = session.scene, session.settings
+        record = {
+            "format": _FORMAT,
+            "in_use": in_use,
+            "scene": "" if scene is None else scene.to_toml(),
+            "settings": None if settings is None else asdict(settings),
+            "scene_file": _text(session.scene_file),
+            "photo": _text(session.photo),
+        }
+        write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))
+
+    def close(self) -> None:
+        """Release the file for other windows."""
+        self._path = None
+        if self._lock is not None:
+            self._lock.unlock()
 
 
-def keep_session(memory: Memory, session: Session) -> None:
-    """Keep a session for the next start."""
-    scene, settings = session.scene, session.settings
-    memory.keep(_SCENE, "" if scene is None else scene.to_toml())
-    memory.keep(_SETTINGS, "" if settings is None else json.dumps(asdict(settings)))
-    for key, path in ((_SCENE_FILE, session.scene_file), (_PHOTO, session.photo)):
-        memory.keep(key, "" if path is None else text_of(path.absolute()))
-
-
-def _scene(text: str) -> Scene | None:
+def _record_in(path: Path) -> dict[str, Any] | None:
+    """Read a session file; None where there is none or it is damaged."""
     try:
-        return Scene.from_toml(text) if text else None
-    except Exception:  # noqa: BLE001 - whatever was kept, the window starts
+        record = json.loads(read_text(path, LARGEST))
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return None
+    return record if isinstance(record, dict) and record.get("format") == _FORMAT else None
+
+
+def _is_in_use(record: dict[str, Any] | None) -> bool:
+    return record is not None and record.get("in_use") is True
+
+
+def _time_of(path: Path) -> int:
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:  # another window has just replaced it
+        return 0
+
+
+def _scene(text: object) -> Scene | None:
+    try:
+        return Scene.from_toml(text) if isinstance(text, str) and text else None
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None
 
 
-def _settings(text: str, effects: Collection[str]) -> SimulationSettings | None:
+def _settings(values: Any, effects: Collection[str]) -> SimulationSettings | None:
     try:
-        values = json.loads(text)
         force = values["force"]
         settings = SimulationSettings(
             tolerance=TOLERANCE.check(values["tolerance"]),
@@ -88,15 +206,19 @@ def _settings(text: str, effects: Collection[str]) -> SimulationSettings | None:
         )
         check_seed(settings.seed)
         is_known = settings.observable in OBSERVABLES and settings.noise in NOISE_SOURCES
-    except Exception:  # noqa: BLE001 - whatever was kept, the window starts
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None
     return settings if is_known else None
 
 
-def _file(text: str) -> Path | None:
-    """Give a file that is still there."""
+def _file(text: object) -> Path | None:
+    """Return the path of a file that still exists."""
     try:
-        path = Path(text)
-        return path if text and path.is_absolute() and path.is_file() else None
+        path = Path(text) if isinstance(text, str) and text else None
+        return path if path is not None and path.is_absolute() and path.is_file() else None
     except (OSError, ValueError):
         return None
+
+
+def _text(path: Path | None) -> str:
+    return "" if path is None else text_of(path.absolute())

@@ -38,7 +38,7 @@ def works(application: Application, user: User) -> bool:
     return application.store.scene.camera.iso == 456.0 and not user.message
 
 
-def broken(*_arguments: object) -> None:
+def broken(*_arguments: object, **_named: object) -> None:
     raise ZeroDivisionError("a mistake")
 
 

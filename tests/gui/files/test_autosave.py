@@ -1,44 +1,68 @@
-"""The scene on the disk at all times: each window its own, and a full disk told of once."""
+"""The session on the disk at all times: each window its own, and a full disk told of once."""
 
 import itertools
-from collections.abc import Iterator
+import json
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QSettings, QTimer
+from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files import autosave as autosave_room
+from occ_gui.files import autosave as autosave_module
 from occ_gui.files.autosave import Autosave
-from occ_gui.files.preferences import Memory
-from occ_gui.files.session import Session
-from occ_gui.files.session_keeper import SessionKeeper
+from occ_gui.files.session import Session, SessionFile
 from occ_gui.scene.scene_store import SceneStore
+from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 
+Begin = Callable[[Path], Autosave]
 
-def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path, qtbot: QtBot) -> None:
-    first, second = Autosave(tmp_path), Autosave(tmp_path)
-    stores = [SceneStore(Scene()), SceneStore(Scene())]
-    for autosave, store in zip((first, second), stores, strict=True):
-        autosave.follow(store)
-        autosave.write()
-    assert {path.name for path in tmp_path.glob("*.toml")} == {"scene-1.toml", "scene-2.toml"}
-    assert second.recovered is None
-    first.end()
-    second.end()
-    assert list(tmp_path.iterdir()) == []
+
+@pytest.fixture
+def begin(application: Application) -> Begin:
+    """Write the session of a window into a folder from now on."""
+
+    def resume(folder: Path) -> Autosave:
+        autosave = Autosave(
+            application.store, application.settings, application.desktop.document, lambda: None
+        )
+        autosave.resume(SessionFile(folder, NAMES), Session(), scene_wins=True)
+        return autosave
+
+    return resume
+
+
+def scenes_in(folder: Path) -> list[Scene]:
+    """Read the scenes of all session files."""
+    paths = sorted(folder.glob("*.json"))
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+    return [Scene.from_toml(record["scene"]) for record in records]
+
+
+def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path) -> None:
+    first, second = SessionFile(tmp_path, NAMES), SessionFile(tmp_path, NAMES)
+    for file in (first, second):
+        file.write(Session(Scene()), in_use=True)
+    third = SessionFile(tmp_path, NAMES)
+    assert {path.name for path in tmp_path.glob("*.json")} == {"session-1.json", "session-2.json"}
+    assert [file.crashed for file in (first, second, third)] == [None] * 3
+    for file in (first, second):
+        file.write(Session(Scene()), in_use=False)
+        file.close()
+    third.close()
+    assert SessionFile(tmp_path, NAMES).crashed is None
+    assert not list(tmp_path.glob("*.toml"))
 
 
 def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    begin: Begin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    autosave, store = Autosave(tmp_path), SceneStore(Scene())
+    autosave = begin(tmp_path)
     messages: list[str] = []
-    autosave.failed.connect(messages.append)
-    autosave.follow(store)
+    autosave.status_message.connect(messages.append)
     write = Path.write_bytes
 
     def full(path: Path, content: bytes) -> int:
@@ -57,28 +81,37 @@ def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
 
 
 def test_a_folder_that_cannot_be_made_is_told_of_and_the_window_works(
-    tmp_path: Path, qtbot: QtBot
+    begin: Begin, tmp_path: Path
 ) -> None:
     (tmp_path / "file").write_text("")
-    autosave = Autosave(tmp_path / "file" / "folder")
+    autosave = begin(tmp_path / "file" / "folder")
     messages: list[str] = []
-    autosave.failed.connect(messages.append)
-    autosave.follow(SceneStore(Scene()))
+    autosave.status_message.connect(messages.append)
     autosave.write()
     assert len(messages) == 1
     autosave.end()
 
 
-def test_the_scene_is_written_a_moment_after_it_was_changed(tmp_path: Path, qtbot: QtBot) -> None:
-    autosave, store = Autosave(tmp_path), SceneStore(Scene())
-    autosave.follow(store)
+def test_the_scene_is_written_a_moment_after_it_was_changed(
+    begin: Begin, application: Application, tmp_path: Path, qtbot: QtBot
+) -> None:
+    autosave, store = begin(tmp_path), application.store
     store.change(iso=321.0)
     store.change(iso=322.0)
-    assert not list(tmp_path.glob("*.toml"))
-    qtbot.waitUntil(lambda: bool(list(tmp_path.glob("*.toml"))))
-    (path,) = tmp_path.glob("*.toml")
-    assert Scene.from_toml(path.read_text(encoding="utf-8")) == store.scene
+    assert scenes_in(tmp_path) == []
+    qtbot.waitUntil(lambda: scenes_in(tmp_path) == [store.scene])
     autosave.end()
+
+
+def test_the_settings_are_written_in_the_same_file_as_the_scene(
+    begin: Begin, application: Application, tmp_path: Path
+) -> None:
+    autosave = begin(tmp_path)
+    application.settings.set_tolerance(3.5)
+    autosave.end()
+    last = SessionFile(tmp_path, NAMES).last
+    assert (last.scene, last.settings) == (application.store.scene, application.settings.settings)
+    assert [path.name for path in tmp_path.glob("*.json")] == ["session-1.json"]
 
 
 @contextmanager
@@ -94,38 +127,20 @@ def scene_in_motion(store: SceneStore) -> Iterator[None]:
 
 
 def test_a_scene_that_never_rests_is_written_all_the_same(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    begin: Begin,
+    application: Application,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    qtbot: QtBot,
 ) -> None:
-    monkeypatch.setattr(autosave_room, "LONGEST_WAIT_MS", 100)
-    autosave, store = Autosave(tmp_path), SceneStore(Scene())
-    autosave.follow(store)
-    written: set[str] = set()
+    monkeypatch.setattr(autosave_module, "LONGEST_WAIT_MS", 100)
+    autosave = begin(tmp_path)
+    written: set[float] = set()
 
     def is_written_twice() -> bool:
-        written.update(path.read_text(encoding="utf-8") for path in tmp_path.glob("*.toml"))
+        written.update(scene.camera.iso for scene in scenes_in(tmp_path))
         return len(written) == 2
 
-    with scene_in_motion(store):
+    with scene_in_motion(application.store):
         qtbot.waitUntil(is_written_twice)
     autosave.end()
-
-
-def test_the_session_of_a_scene_that_never_rests_is_kept_all_the_same(
-    application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
-) -> None:
-    monkeypatch.setattr(autosave_room, "LONGEST_WAIT_MS", 100)
-    memory = Memory(QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat))
-    store = application.store
-    keeper = SessionKeeper(
-        store, application.settings, application.desktop.document, memory, lambda: None
-    )
-    keeper.resume(Autosave(tmp_path), Session(), scene_wins=True)
-    kept: set[str] = set()
-
-    def is_kept_twice() -> bool:
-        kept.update({memory.recall("session/scene")} - {""})
-        return len(kept) == 2
-
-    with scene_in_motion(store):
-        qtbot.waitUntil(is_kept_twice)
-    keeper.end()

@@ -1,6 +1,8 @@
 """Whatever stands in the files that the window reads at its start, it starts."""
 
+import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -14,10 +16,9 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.explorations.exploration_controller import ExplorationController
 from occ_gui.explorations.exploration_view import ExplorationView
-from occ_gui.files.autosave import Autosave
 from occ_gui.files.kept_file import LARGEST
 from occ_gui.files.preferences import Memory
-from occ_gui.files.session import Session, keep_session, recall_session
+from occ_gui.files.session import Session, SessionFile
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -66,33 +67,46 @@ NO_FILES: dict[str, Damage] = {
 }
 
 
+def left_behind(folder: Path, **record: object) -> None:
+    """Write a session file."""
+    (folder / "session-1.json").write_text(json.dumps({"format": 1, **record}), "ascii")
+
+
 @pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
 def test_a_damaged_scene_in_the_session_is_left_out(tmp_path: Path, text: str) -> None:
-    class Damaged(Memory):
-        def _value(self, key: str) -> object:
-            return text if key == "session/scene" else None
-
-    assert recall_session(Damaged(), NAMES) == Session()
+    left_behind(tmp_path, in_use=False, scene=text)
+    file = SessionFile(tmp_path, NAMES)
+    assert (file.last, file.crashed) == (Session(), None)
+    file.close()
 
 
 @pytest.mark.parametrize("text", DAMAGED_SETTINGS.values(), ids=DAMAGED_SETTINGS)
 def test_damaged_settings_in_the_session_are_left_out(tmp_path: Path, text: str) -> None:
-    kept = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
-    memory = Memory(kept)
-    keep_session(memory, Session(Scene(), SimulationSettings()))
-    whole = memory.recall("session/settings")
-    assert recall_session(memory, NAMES).settings == SimulationSettings()
-    kept.setValue("session/settings", whole[:-1] + ", " + text + "}")
-    assert recall_session(memory, NAMES).settings is None
+    file = SessionFile(tmp_path, NAMES)
+    file.write(Session(Scene(), SimulationSettings()), in_use=False)
+    file.close()
+    path = tmp_path / "session-1.json"
+    whole = path.read_text("ascii")
+    damaged = re.sub(
+        r'("settings": \{[^}]*\}[^}]*)\}', lambda found: f"{found[1]}, {text}}}", whole
+    )
+    assert damaged != whole
+    file = SessionFile(tmp_path, NAMES)
+    assert file.last.settings == SimulationSettings()
+    file.close()
+    path.write_text(damaged, "ascii")
+    file = SessionFile(tmp_path, NAMES)
+    assert file.last.settings is None
+    file.close()
 
 
 @pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
 def test_a_damaged_scene_of_a_crash_is_kept_aside(tmp_path: Path, qtbot: QtBot, text: str) -> None:
-    (tmp_path / "scene-1.toml").write_text(text, "utf-8", "surrogatepass")
-    autosave = Autosave(tmp_path)
-    assert autosave.recovered is None
-    assert (tmp_path / "scene-1.unreadable").exists()
-    autosave.end()
+    left_behind(tmp_path, in_use=True, scene=text)
+    file = SessionFile(tmp_path, NAMES)
+    assert file.crashed is None
+    assert (tmp_path / "session-1.unreadable").exists()
+    file.close()
 
 
 LOOK = """
@@ -112,7 +126,7 @@ sys.exit(app.main([]))
 
 
 @pytest.mark.parametrize("damage", NO_FILES.values(), ids=NO_FILES)
-@pytest.mark.parametrize("name", ["scene-1.toml", "scene-1.lock", "settings.ini"])
+@pytest.mark.parametrize("name", ["session-1.json", "session-1.lock", "settings.ini"])
 def test_what_is_no_file_does_not_keep_the_window_from_starting(
     tmp_path: Path, name: str, damage: Damage
 ) -> None:
@@ -145,12 +159,11 @@ def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
 def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path, kind: str) -> None:
     path = tmp_path / "settings.ini"
     value = rf"@Variant(\0\0\0\x{kind}\0\0\0\0\x61)"
-    keys = ("files/folder", "files/recent", "view/margins", "session/scene")
+    keys = ("files/folder", "files/recent", "view/margins")
     sections = (f"[{key.split('/')[0]}]\n{key.split('/')[1]}={value}\n" for key in keys)
     path.write_text("".join(sections), "ascii")
     memory = Memory(QSettings(str(path), QSettings.Format.IniFormat))
     assert (memory.folder, memory.files, memory.slider_strips) == ("", (), True)
-    assert recall_session(memory, NAMES) == Session()
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Work is there again at the next start: after an end, after a crash, and whatever was kept."""
 
+import json
 import os
 import signal
 import subprocess
@@ -15,11 +16,8 @@ from PySide6.QtCore import QEvent, QSettings, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.files.autosave import Autosave
-from occ_gui.files.preferences import Memory
-from occ_gui.files.session import Session, recall_session
+from occ_gui.files.session import Session, SessionFile
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -42,12 +40,12 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
 
     @contextmanager
     def begin(asked: Scene | None = None, fresh: bool = False) -> Iterator[Application]:
-        session = Session() if fresh else recall_session(Memory(kept), NAMES)
+        file = SessionFile(tmp_path / "state", NAMES)
+        session = Session() if fresh else file.last
         scene = asked or session.scene or small_scene
         application = Application(scene, session.settings or SimulationSettings(), kept)
-        autosave = Autosave(tmp_path / "state")
         wins = asked is not None or fresh
-        application.desktop.resume(autosave, session, wins, fresh)
+        application.desktop.resume(file, session, wins, fresh)
         if session.photo is not None:
             application.open_photo(session.photo, front=False)
         application.window.show()
@@ -119,12 +117,13 @@ def test_a_layout_of_other_panes_is_left_alone(start: Start, kept: QSettings) ->
 
 @pytest.mark.parametrize("rubbish", ["", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000])
 def test_rubbish_in_what_was_kept_is_left_out(
-    start: Start, kept: QSettings, small_scene: Scene, rubbish: str
+    start: Start, kept: QSettings, tmp_path: Path, small_scene: Scene, rubbish: str
 ) -> None:
     with start() as application:
         application.store.change(iso=321.0)
     for key in kept.allKeys():
         kept.setValue(key, rubbish)
+    (tmp_path / "state" / "session-1.json").write_text(rubbish, encoding="utf-8")
     with start() as application:
         assert application.store.scene == small_scene
         assert application.settings.settings == SimulationSettings()
@@ -141,18 +140,24 @@ def test_rubbish_in_what_was_kept_is_left_out(
         '{"tolerance": 1, "observable": [], "force": {}, "noise": {}, "seed": 1}',
     ],
 )
-def test_settings_that_cannot_be_are_left_out(kept: QSettings, text: str) -> None:
-    kept.setValue("session/settings", text)
-    assert recall_session(Memory(kept), NAMES).settings is None
+def test_settings_that_cannot_be_are_left_out(tmp_path: Path, text: str) -> None:
+    record = {"format": 1, "in_use": False, "settings": json.loads(text)}
+    (tmp_path / "session-1.json").write_text(json.dumps(record), encoding="utf-8")
+    assert SessionFile(tmp_path, NAMES).last.settings is None
 
 
-def test_a_settings_file_that_is_no_settings_file_is_left_out(
-    tmp_path: Path, small_scene: Scene
-) -> None:
-    path = tmp_path / "settings.ini"
-    path.write_bytes(os.urandom(4000))
-    kept = QSettings(str(path), QSettings.Format.IniFormat)
-    assert recall_session(Memory(kept), NAMES) == Session()
+def test_a_settings_file_that_is_no_settings_file_is_left_out(tmp_path: Path) -> None:
+    (tmp_path / "session-1.json").write_bytes(os.urandom(4000))
+    assert SessionFile(tmp_path, NAMES).last == Session()
+
+
+def test_a_session_of_the_older_form_is_left_alone(tmp_path: Path, small_scene: Scene) -> None:
+    old = tmp_path / "scene-1.toml"
+    old.write_text(small_scene.to_toml(), encoding="utf-8")
+    file = SessionFile(tmp_path, NAMES)
+    assert (file.last, file.crashed) == (Session(), None)
+    file.close()
+    assert list(tmp_path.iterdir()) == [old]
 
 
 def test_a_scene_that_is_asked_for_wins(start: Start, small_scene: Scene) -> None:
@@ -165,21 +170,36 @@ def test_a_scene_that_is_asked_for_wins(start: Start, small_scene: Scene) -> Non
 
 def crash(folder: Path, scene: Scene) -> None:
     """Leave behind what a window leaves that does not come to its end."""
-    folder.mkdir(exist_ok=True)
-    (folder / "scene-1.toml").write_text(scene.to_toml(), encoding="utf-8")
+    file = SessionFile(folder, NAMES)
+    file.write(Session(scene, SimulationSettings(tolerance=7.0)), in_use=True)
+    file.close()
 
 
-def test_the_scene_of_a_crash_is_restored_as_a_step(
+def test_the_scene_and_settings_of_a_crash_are_restored_once(
     start: Start, tmp_path: Path, small_scene: Scene
 ) -> None:
     lost = small_scene.replace(iso=777.0)
     crash(tmp_path / "state", lost)
     with start() as application:
         assert application.store.scene == lost
+        assert application.settings.settings.tolerance == 7.0
+        assert "is restored" in application.window.statusBar().currentMessage()
+    assert SessionFile(tmp_path / "state", NAMES).crashed is None
+
+
+def test_the_scene_of_a_crash_is_restored_as_a_step(
+    start: Start, tmp_path: Path, small_scene: Scene
+) -> None:
+    lost, later = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
+    other = SessionFile(tmp_path / "state", NAMES)  # of a window that outlives the other one
+    crash(tmp_path / "state", lost)
+    other.write(Session(later), in_use=False)
+    other.close()
+    with start() as application:
+        assert application.store.scene == lost
         assert "is restored" in application.window.statusBar().currentMessage()
         application.store.undo_stack.undo()
-        assert application.store.scene == small_scene
-    assert not (tmp_path / "state" / "scene-1.toml").exists()
+        assert application.store.scene == later
 
 
 @pytest.mark.parametrize("fresh", [False, True])
@@ -196,10 +216,16 @@ def test_the_scene_of_a_crash_is_one_undo_away_from_one_that_was_asked_for(
 
 def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Start, tmp_path: Path) -> None:
     (tmp_path / "state").mkdir()
-    (tmp_path / "state" / "scene-1.toml").write_text("format = 99\n", encoding="utf-8")
+    left = json.dumps({"format": 1, "in_use": True, "scene": "format = 99\n"})
+    (tmp_path / "state" / "session-1.json").write_text(left, encoding="utf-8")
     with start():
         pass
-    assert (tmp_path / "state" / "scene-1.unreadable").read_text() == "format = 99\n"
+    assert (tmp_path / "state" / "session-1.unreadable").read_text() == left
+
+
+def kept_scene(path: Path) -> Scene:
+    """Read the scene in a session file."""
+    return Scene.from_toml(json.loads(path.read_text(encoding="utf-8"))["scene"])
 
 
 RUN = """
@@ -241,13 +267,13 @@ def test_the_work_of_a_killed_window_is_there_at_the_next_start(tmp_path: Path) 
     }  # fmt: skip
     command = [sys.executable, "-c"]
     running = subprocess.Popen([*command, RUN, "777"], cwd=PROJECT, env=environment)
-    kept = tmp_path / "state" / "scene-1.toml"
+    kept = tmp_path / "state" / "session-1.json"
     deadline = time.monotonic() + 60
     while not kept.exists() and time.monotonic() < deadline:
         time.sleep(0.05)
     running.send_signal(signal.SIGKILL)
     running.wait()
-    assert occ.Scene.from_toml(kept.read_text(encoding="utf-8")).camera.iso == 777.0
+    assert kept_scene(kept).camera.iso == 777.0
     again = subprocess.run(
         [*command, LOOK],
         cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
@@ -255,4 +281,4 @@ def test_the_work_of_a_killed_window_is_there_at_the_next_start(tmp_path: Path) 
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.splitlines()[0] == "777.0 100"
     assert "is restored" in again.stdout
-    assert not kept.exists()
+    assert json.loads(kept.read_text(encoding="utf-8"))["in_use"] is False

@@ -1,1 +1,1 @@
-"""Work off the window's thread."""
+"""Work off the window's thread, and its results as signals."""

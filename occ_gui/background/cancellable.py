@@ -123,6 +123,6 @@ class _Worker(QObject):
             result = self._work(request, report)
         except Cancelled:
             return
-        except Exception as error:  # noqa: BLE001 - the window must outlive a mistake of ours
+        except Exception as error:  # noqa: BLE001 - the window must outlive any error
             failure = sentence_of(error, self._name, request)
         self.ended.emit(run, result, failure)

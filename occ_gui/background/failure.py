@@ -1,4 +1,4 @@
-"""What went wrong in the background, in a sentence."""
+"""Failure of work in the background, as a sentence."""
 
 import logging
 
@@ -8,16 +8,16 @@ _log = logging.getLogger(__name__)
 
 
 def sentence_of(error: Exception, name: str, request: object) -> str:
-    """Say why work has no result; a mistake of ours goes to the log with its traceback.
+    """Say why work has no result; an unexpected error goes to the log with its traceback.
 
     Parameters
     ----------
     error
-        What was raised, while it is being handled.
+        The error.
     name
-        What the work is.
+        What the work does.
     request
-        What was asked for.
+        The request, for the log.
     """
     if isinstance(error, OccError):
         return str(error)

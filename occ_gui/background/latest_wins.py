@@ -15,7 +15,7 @@ class LatestWins(QObject, Generic[Request, Result]):
     """Runs one function on a thread of its own, for one request at a time.
 
     A request that comes while another is at work waits; a newer one takes its place. The running
-    one is never cut short: cancelling it at every move of a slider would show nothing until the
+    one is never cancelled: cancelling it at every move of a slider would show nothing until the
     slider stops.
 
     Parameters
@@ -23,7 +23,7 @@ class LatestWins(QObject, Generic[Request, Result]):
     work
         The function: a request in, a result out. It must not touch a widget.
     name
-        What it is, for the thread's name and the log.
+        What it does, for the thread's name and the log.
     """
 
     finished = Signal(object)
@@ -72,7 +72,7 @@ class LatestWins(QObject, Generic[Request, Result]):
 
     @Slot(object, str)
     def _on_done(self, result: Any, failure: str) -> None:
-        if self._stopped:  # whoever would show it is going away
+        if self._stopped:  # what would show it is being closed
             return
         self._busy = False
         # The next request goes to work before this result is drawn: both cores are then busy.
@@ -103,6 +103,6 @@ class _Worker(QObject):
         result, failure = None, ""
         try:
             result = self._work(request)
-        except Exception as error:  # noqa: BLE001 - the window must outlive a mistake of ours
+        except Exception as error:  # noqa: BLE001 - the window must outlive any error
             failure = sentence_of(error, self._name, request)
         self.done.emit(result, failure)

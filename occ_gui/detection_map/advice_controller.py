@@ -1,4 +1,4 @@
-"""Find out how fast a scene can go, when the user asks."""
+"""Controller of the advisor: it searches for the limits of a scene when the user asks."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,13 +18,13 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 RATE = 99.0
-"""Percent of the bits from which a decoder counts as reading."""
+"""Success rate, in percent, from which a decoder counts as reading."""
 
 IMAGES = 20
-"""At each value that is tried."""
+"""Images at each value that is tried."""
 
 _USUAL = 95
-"""Values that a search tries as a rule: the progress is told by it."""
+"""Values that a search usually tries, from which its progress is estimated."""
 
 _LOOK_MS = 100
 
@@ -34,7 +34,7 @@ _RANK = -1
 
 @dataclass(frozen=True, slots=True)
 class AdviceRequest:
-    """All that the advice depends on.
+    """What the advice depends on.
 
     Parameters
     ----------
@@ -63,32 +63,32 @@ class AdvicePane(Protocol):
     """A pane that shows advice."""
 
     def show_advice_begun(self) -> None:
-        """Tell that advice is on its way."""
+        """Show that a search has begun."""
 
     def show_advice_progress(self, share: float) -> None:
-        """Tell how much of the search is done, from 0 to 1."""
+        """Show the share of the search that is done, from 0 to 1."""
 
     def show_advice(self, advice: Advice) -> None:
-        """Show how far one decoder reaches."""
+        """Show the limits of one decoder."""
 
     def show_advice_ended(self, sentence: str) -> None:
-        """Tell that no more comes, and why, unless all has come."""
+        """Show that the search has ended, and why where it is not complete."""
 
     def show_advice_outdated(self) -> None:
-        """Tell that the scene is another one now."""
+        """Show that the advice is not of the current scene."""
 
 
 class AdvisorController(QObject):
-    """Connects the stores, the processes and the pane.
+    """Connects the stores, the job channel and the pane.
 
     Parameters
     ----------
     scenes, settings
-        What is searched.
+        The scene that is searched, and how it is simulated.
     queue, channel
         Do the work.
     pane
-        Shows what is found.
+        Shows the limits.
     """
 
     def __init__(
@@ -106,7 +106,7 @@ class AdvisorController(QObject):
         self._counted = 0
         self._look = QTimer(self)
         self._look.setInterval(_LOOK_MS)
-        self._look.timeout.connect(self._tell_progress)
+        self._look.timeout.connect(self._show_progress)
         channel.results_ready.connect(self._take)
         channel.finished.connect(lambda _request: self._end(""))
         channel.failed.connect(self._end)
@@ -123,7 +123,7 @@ class AdvisorController(QObject):
         self._with_image_effects = wanted
 
     def start(self) -> None:
-        """Search for the limits of the scene as it is now."""
+        """Search for the limits of the current scene."""
         request = AdviceRequest(
             self._scenes.scene, self._settings.settings, self._with_image_effects
         )
@@ -133,19 +133,19 @@ class AdvisorController(QObject):
         self._look.start()
 
     def cancel(self) -> None:
-        """Search no more."""
+        """Stop the search."""
         if not self._channel.is_idle:
             self._channel.cancel()
             self._end(self.tr("Cancelled."))
 
     def take_there(self, name: str, value: float) -> None:
-        """Take the scene to a limit, in one step."""
+        """Set the scene to a limit, in one step."""
         self._scenes.change(NO_GESTURE, **{name: value})
 
     def _count(self) -> int:
         return sum(self._queue.counted(counter) for counter, _ in enumerate(DECODERS, 1))
 
-    def _tell_progress(self) -> None:
+    def _show_progress(self) -> None:
         share = (self._count() - self._counted) / (_USUAL * IMAGES * len(DECODERS))
         self._pane.show_advice_progress(min(share, 0.99))
 

@@ -1,4 +1,4 @@
-"""Measure success rates over two parameters while somebody looks."""
+"""Controller of the detection map: it measures success rates while the map is seen."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -32,29 +32,29 @@ UNSEEN: dict[str, ParameterValue] = {
     "flicker_phase": 0.0,
     "band_reading": "literal",
 }
-"""Parameters that no rate depends on: it is over all start times."""
+"""Parameters that no rate depends on, as it is a mean over all start times."""
 
 
 class MapPane(Protocol):
-    """A pane that shows a map as it comes."""
+    """A pane that shows a map while it is measured."""
 
     def show_axes(self, x: str, y: str) -> None:
-        """Show which parameters the map is over."""
+        """Show the parameters of the axes."""
 
     def show_map(self, rates: RateMap) -> None:
-        """Show what is known by now."""
+        """Show the rates that are known by now."""
 
     def show_scene(self, scene: Scene) -> None:
         """Mark the current setting."""
 
     def show_progress(self, known: int, total: int, images: int) -> None:
-        """Tell how many points are known, and that every one rests on so many images."""
+        """Show how many points are known, and the least number of images of any of them."""
 
     def show_failure(self, sentence: str) -> None:
-        """Tell why the map is not of the scene as it is, or what happened on the way."""
+        """Show why the map is not of the current scene, or what happened meanwhile."""
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
-        """Tell which of the scene's image effects the map leaves out."""
+        """Show which of the scene's image effects the map leaves out."""
 
     def show_facts(self, facts: PointFacts | None) -> None:
         """Show what is known of the point under the mouse."""
@@ -62,7 +62,7 @@ class MapPane(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class MapRequest:
-    """All that a map depends on.
+    """What a map depends on.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class MapRequest:
 
 
 class DetectionMapController(QObject):
-    """Connects the stores, the processes and the pane.
+    """Connects the stores, the job channel and the pane.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class DetectionMapController(QObject):
     channel
         Does the work.
     pane
-        Shows the map; nothing is measured until it is said to be seen.
+        Shows the map; nothing is measured before :meth:`set_seen`.
     """
 
     def __init__(
@@ -128,22 +128,22 @@ class DetectionMapController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that was asked for is shown."""
+        """Whether all that is measured is shown."""
         return self._channel.is_idle
 
     @property
     def is_current(self) -> bool:
-        """Whether what is shown is of the scene as it is."""
+        """Whether the map that is shown is of the current scene."""
         return self.map is not None and self._shown == self._request()
 
     @property
     def is_full(self) -> bool:
-        """Whether every point of the scene as it is is known."""
+        """Whether every point is known for the current scene."""
         return self.is_current and self.map is not None and self.map.least_images > 0
 
     @property
     def full(self) -> "tuple[RateMap, MapRequest] | None":
-        """The map and what it was measured for, None while a point of it is not known."""
+        """The map and its request, None while a point of it is not known."""
         if not self.is_full or self.map is None or self._shown is None:
             return None
         return self.map, self._shown
@@ -155,7 +155,7 @@ class DetectionMapController(QObject):
         return MapRequest(scene, x, y, self._settings.settings, self._with_image_effects)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the map."""
+        """Measure while the map is seen, and stop when it is not."""
         self._seen = seen
         if seen:
             self._move_on()
@@ -180,7 +180,7 @@ class DetectionMapController(QObject):
         if not self._seen:
             return
         self._pane.show_scene(self._scenes.scene)
-        self._tell_left_out()
+        self._show_left_out()
         request = self._request()
         if request == self._asked:
             return
@@ -195,12 +195,12 @@ class DetectionMapController(QObject):
         x, y = request.x, request.y
         return RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), tuple(DECODERS))
 
-    def _tell_left_out(self) -> None:
+    def _show_left_out(self) -> None:
         effects: tuple[str, ...] = ()
         if not self._with_image_effects:
             try:
                 effects = leaves_out(self._scenes.scene, self._settings.settings)
-            except OccError:  # there is no picture, which others tell
+            except OccError:  # there is no picture, which other panes say
                 effects = ()
         self._pane.show_left_out(effects)
 
@@ -213,16 +213,16 @@ class DetectionMapController(QObject):
             else:
                 self.map.enter(list(result.points), result.images)
         self._pane.show_map(self.map)
-        self._tell_progress()
+        self._show_progress()
 
-    def _tell_progress(self) -> None:
-        assert self.map is not None  # noqa: S101 - there is something to tell of
+    def _show_progress(self) -> None:
+        assert self.map is not None  # noqa: S101 - it is called when there is a map
         total = self.map.images.size
         self._pane.show_progress(self.map.known, total, self.map.least_images)
 
     def _finish(self, request: MapRequest) -> None:
         if request == self._shown:
-            self._tell_progress()
+            self._show_progress()
 
     def _fail(self, sentence: str) -> None:
         self._pane.show_failure(sentence)
@@ -232,7 +232,7 @@ class DetectionMapController(QObject):
         self._asked = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:
-        """Tell the pane what is known of a point, given by its places along both axes."""
+        """Show the facts of a point, given by its places along both axes."""
         shown = self.map
         if place is None or shown is None:
             self._pane.show_facts(None)
@@ -256,7 +256,7 @@ class DetectionMapController(QObject):
         )  # fmt: skip
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Take the scene to a point, given by its places along both axes, in one step."""
+        """Set the scene to a point, given by its places along both axes, in one step."""
         shown = self.map
         if shown is not None:
             x, y = place

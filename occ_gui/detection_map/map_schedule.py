@@ -1,4 +1,4 @@
-"""In which order the points of a map are measured."""
+"""Stages of a detection map: a coarse map first, then all points, then more images of each."""
 
 from collections.abc import Iterable, Iterator
 from itertools import groupby, islice
@@ -25,7 +25,7 @@ COARSE, FINE, SURE = 0, 2, 4
 """Ranks: the first answer, all points, and more images of each. Strips go in between."""
 
 _THEORY_SHAPES = ((7, 5), (17, 9))
-"""Points that the limits of theory are known at, at first and then."""
+"""Points along both axes at which the limits of theory are computed, at first and then."""
 
 
 def map_request(
@@ -38,18 +38,18 @@ def map_request(
     images: int = IMAGES[0],
     with_image_effects: bool = False,
 ) -> SweepRequest:
-    """Say what a map measures.
+    """Make the request for a map's sweep.
 
     Parameters
     ----------
     scene
-        The scene; what its map does not depend on may be as it is.
+        The scene; parameters that the map does not depend on may have any value.
     x, y
         The parameters that the map is over.
     settings
         How the window simulates.
     decoders
-        Who reads.
+        The decoders.
     images
         Images a point.
     with_image_effects
@@ -63,16 +63,16 @@ def map_request(
 def map_stages(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, whole_images: bool
 ) -> Iterator[Stage]:
-    """Give the stages of a map: some points first, then those between, then more images of each.
+    """Give the stages of a map.
 
     Parameters
     ----------
     requests
-        The same map with more and more images a point.
+        The same map with an increasing number of images a point.
     images : ndarray of int64, shape (points along x, points along y)
-        Images that each point has been read at already.
+        Images that were read at each point already.
     with_theory
-        Whether the limits that theory gives are wanted, too.
+        Whether the limits of theory are computed, too.
     whole_images
         Whether points may take long.
     """
@@ -88,7 +88,7 @@ def map_stages(
         if with_theory and stride != STRIDES[-1]:
             # Last, so that it occupies a process that has no more points to measure.
             jobs = (*jobs, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
-        # A whole image takes too long to be waited for.
+        # With whole images it takes too long to be completed for an older request.
         yield Stage(COARSE if coarse else FINE, jobs, uninterruptible=coarse and not whole_images)
     for request in others:
         new = [i for i in order if done[i] < request.settings.images]
@@ -101,7 +101,7 @@ def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:
 
 
 def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
-    """Say which points are on a coarser lattice, by their index."""
+    """Give for each point, by its index, whether it is on a coarser lattice."""
     along = [np.arange(n) % stride == 0 for n in shape]
     return np.asarray(np.logical_and.outer(*along).ravel())
 

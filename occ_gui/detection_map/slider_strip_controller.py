@@ -1,4 +1,4 @@
-"""Measure along each of the main sliders how well a decoder would read."""
+"""Controller of the slider strips: it measures success rates along each of the main sliders."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -24,17 +24,17 @@ POSITIONS = 29
 """Positions along a slider."""
 
 STRIDES = (4, 1)
-"""Every how many of them are known, one after the other."""
+"""Distances between measured positions: a coarse strip first, then all positions."""
 
 IMAGES = 2
 
 RANKS = (3, 3)
-"""Where there is a map in sight, the strips come once all its points are known."""
+"""After all points of a map that is seen, before further images of them."""
 
 
 @dataclass(frozen=True, slots=True)
 class SliderStripRequest:
-    """All that the strips depend on.
+    """What the strips depend on.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class SliderStripRequest:
     settings
         How the window simulates.
     decoder
-        Who reads.
+        The decoder.
     """
 
     scene: Scene
@@ -51,7 +51,7 @@ class SliderStripRequest:
     decoder: str
 
     def along(self, name: str) -> "SliderStripRequest":
-        """Give what the strip of one slider depends on: not on the slider itself."""
+        """Give the request of one slider's strip, which does not depend on the slider itself."""
         given = {**UNSEEN, name: quantity(name).default}
         return SliderStripRequest(self.scene.replace(**given), self.settings, self.decoder)
 
@@ -60,7 +60,7 @@ class SliderStripPane(Protocol):
     """Strips, one a slider."""
 
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
-        """Show the share of bits read rightly at positions along a slider, None: not known."""
+        """Show the share of correct bits at positions along a slider, None: not known."""
 
 
 def strip_stages(missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"]) -> Iterator[Stage]:
@@ -69,7 +69,7 @@ def strip_stages(missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"]) -
     Parameters
     ----------
     missing
-        For each slider what it depends on, and the positions that are not known.
+        For each slider its request and the positions that are not known.
     """
     done: set[int] = set()
     for stride, rank in zip(STRIDES, RANKS, strict=True):
@@ -91,9 +91,9 @@ def _job(request: SliderStripRequest, name: str, places: list[int]) -> Job:
 
 
 class SliderStripController(QObject):
-    """Connects the stores, the processes and the strips.
+    """Connects the stores, the job channel and the strips.
 
-    What lies under a slider does not change while that slider is moved.
+    The strip under a slider does not change while that slider is moved.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ class SliderStripController(QObject):
     channel
         Does the work.
     pane
-        Shows the strips; nothing is measured until they are said to be seen.
+        Shows the strips; nothing is measured before :meth:`set_seen`.
     names
         The sliders.
     """
@@ -129,11 +129,11 @@ class SliderStripController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that was asked for is shown."""
+        """Whether all that is measured is shown."""
         return self._channel.is_idle
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the strips."""
+        """Measure while the strips are seen, and stop when they are not."""
         self._seen = seen
         if seen:
             self._move_on()
@@ -142,7 +142,7 @@ class SliderStripController(QObject):
             self._asked = None
 
     def choose_decoder(self, decoder: str) -> None:
-        """Let another decoder read."""
+        """Measure with another decoder."""
         self._decoder = decoder
         self._move_on()
 

@@ -1,4 +1,4 @@
-"""All that tells how far decoding reaches, put together: map, strips and advice."""
+"""Wiring of the detection map, the slider strips and the advisor, which share processes."""
 
 from PySide6.QtCore import QObject, QTimer
 
@@ -19,19 +19,19 @@ NICENESS = 10
 """How far the processes yield to the window."""
 
 START_MS = 400
-"""How long the strips wait at first: the window and its first picture come before them."""
+"""Milliseconds that the strips wait at first: the window and its first picture come before them."""
 
 
 def new_workers() -> Workers:
-    """Make the processes that work beside the window."""
-    # Only who needs processes pays for importing what starts them.
+    """Make the worker processes."""
+    # Importing what starts processes takes time.
     from occ_model.parallel.process_pool import ProcessPool
 
     return ProcessPool(PROCESSES, PRELOAD, NICENESS)
 
 
 class DetectionMapWiring(QObject):
-    """The controllers, connected with the panes; they share some processes.
+    """The controllers, connected with their panes; they share a work queue.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class DetectionMapWiring(QObject):
     pane
         Shows the map and the advice.
     strips
-        Show how well a decoder would read along the sliders.
+        Show success rates along the sliders.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class DetectionMapWiring(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that can be seen is known, and nothing is about to be measured."""
+        """Whether all that is seen is measured, and nothing is about to be measured."""
         parts = (self.map, self.slider_strips, self.advisor)
         return not self._start.isActive() and all(part.is_idle for part in parts)
 
@@ -83,6 +83,6 @@ class DetectionMapWiring(QObject):
             self.slider_strips.set_seen(False)
 
     def stop(self) -> None:
-        """Measure no more, and end the processes."""
+        """Stop measuring and end the processes."""
         self._start.stop()
         self.queue.stop()

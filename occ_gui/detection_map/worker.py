@@ -1,4 +1,4 @@
-"""What the processes beside the window do; nothing here needs Qt."""
+"""Jobs of the detection map, the slider strips and the advisor; nothing here needs Qt."""
 
 import math
 from collections.abc import Mapping
@@ -30,12 +30,12 @@ SEED = 1
 """Of all rates: that of :func:`occ_model.sweep`, so that its table is the map's."""
 
 PRELOAD = __name__
-"""What a process needs to do the work."""
+"""The module that a worker process needs."""
 
 
 @dataclass(frozen=True, slots=True)
 class Along:
-    """What was measured along one slider.
+    """Points that were measured along one slider.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class Along:
 def rate_settings(
     settings: SimulationSettings, images: int, decoders: tuple[str, ...], with_image_effects: bool
 ) -> RateSettings:
-    """Say how rates are measured beside the window.
+    """Give the settings with which rates are measured for the window.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def rate_settings(
     images
         Images a point.
     decoders
-        Who reads them.
+        The decoders that read them.
     with_image_effects
         Whether whole images are made where the scene calls for them; otherwise what needs them is
         left out, or refused where it cannot be.
@@ -74,7 +74,7 @@ def rate_settings(
 
 
 def leaves_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
-    """Name what the scene calls for and a profile cannot show.
+    """Name the effects that the scene calls for and a profile cannot show.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def measure_along(
 def theory_fields(
     scene: Scene, x: str, y: str, counts: tuple[int, int], heartbeat: Heartbeat
 ) -> TheoryFields:
-    """Say on which side of each limit the points of a coarse lattice lie.
+    """Compute on which side of each limit the points of a coarse lattice lie.
 
     The numbers are logarithms of ratios, which on logarithmic axes are nearly planes, so that lines
     between few points are exact enough.
@@ -136,7 +136,7 @@ def _sides(scene: Scene) -> dict[str, float]:
 def advise(
     scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
 ) -> Advice:
-    """Find how far a decoder reaches, with the numbers that theory gives.
+    """Find the limits of a decoder's working range, with those that theory gives.
 
     Raises
     ------

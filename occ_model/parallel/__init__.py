@@ -1,1 +1,1 @@
-"""Work in several processes."""
+"""Jobs for worker processes: the scheduler, the workers and the rules between them. No Qt."""

@@ -61,7 +61,7 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class JobResult:
-    """The outcome of a job: a value, an error, or neither where the job was abandoned.
+    """What a job gives: a value, an error, or neither where the job was abandoned.
 
     An error is a value here, so that an exception of a future is always the workers' own.
     """

@@ -1,4 +1,4 @@
-"""Worker processes: how they are started, and how they end with their parent."""
+"""Start of worker processes, and their end with the process that started them."""
 
 import os
 import signal
@@ -11,24 +11,24 @@ from multiprocessing import get_all_start_methods, get_context, parent_process
 from typing import Any
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
-"""What tells linear algebra how many threads it may start."""
+"""Environment variables that limit the threads of linear algebra."""
 
 _LONGEST_FOLDER = 70
-"""Bytes of a temporary folder's path. A server's socket has a name of 32 bytes in it, and a path of
-at most 103 bytes on macOS and 107 on Linux."""
+"""Bytes of a temporary folder's path. The path of a server's socket in it is 32 bytes longer, and
+may have at most 103 bytes on macOS and 107 on Linux."""
 
 
 def process_context(preload: Sequence[str]) -> Any:
-    """Choose how processes are started.
+    """Choose the way in which processes are started.
 
     Parameters
     ----------
     preload
-        Modules that they will need: where it can be shared it is imported only once.
+        Modules that they need; where possible they are imported only once for all.
     """
-    # A forked process has the locks of threads that it does not have: only a server that has
-    # none is forked, and where there is no such server a process starts from nothing.
-    has_server = "forkserver" in get_all_start_methods() and _has_room_for_a_socket()
+    # A process forked from one with threads copies locks that no thread will ever release. So it
+    # is forked from a server without threads, or started anew where there is no such server.
+    has_server = "forkserver" in get_all_start_methods() and _socket_path_fits()
     method = "forkserver" if has_server else "spawn"
     context: Any = get_context(method)
     if method == "forkserver":
@@ -36,8 +36,8 @@ def process_context(preload: Sequence[str]) -> Any:
     return context
 
 
-def _has_room_for_a_socket() -> bool:
-    """Say whether a server's socket can stand in the folder for temporary files."""
+def _socket_path_fits() -> bool:
+    """Say whether the path of a server's socket in the temporary folder is short enough."""
     try:
         return len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_FOLDER
     except OSError:  # there is none that can be written to
@@ -48,9 +48,9 @@ def _has_room_for_a_socket() -> bool:
 def worker_start() -> Iterator[None]:
     """Prepare the start of workers within the context.
 
-    They do linear algebra in one thread, as they are many themselves, and Ctrl-C reaches them at no
-    moment of their lives. Here it is answered when all are started: half of a start would leave
-    workers that nobody knows.
+    They do linear algebra in one thread, as they are several themselves, and Ctrl-C never reaches
+    them. In this process it is answered when all are started: an interrupted start would leave
+    workers that nothing ends.
     """
     with interrupts_held(), _interrupts_blocked(), _single_threads():
         yield
@@ -58,28 +58,28 @@ def worker_start() -> Iterator[None]:
 
 @contextmanager
 def interrupts_held() -> Iterator[None]:
-    """Answer Ctrl-C at the end of the context; outside the main thread it does not come anyway."""
-    answer = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(answer):
+    """Answer Ctrl-C at the end of the context; it only ever reaches the main thread."""
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
         yield
         return
-    came: list[int] = []
-    signal.signal(signal.SIGINT, lambda number, _frame: came.append(number))
+    received: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, _frame: received.append(number))
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, answer)
-        if came:
+        signal.signal(signal.SIGINT, handler)
+        if received:
             signal.raise_signal(signal.SIGINT)
 
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Let processes started meanwhile have Ctrl-C blocked, as they have what this thread has."""
+    """Block Ctrl-C in processes started meanwhile, which inherit this thread's signal mask."""
     if sys.platform == "win32":
         yield
         return
-    # It would be started by the first process, and let Ctrl-C through again when it was.
+    # The first process would start it, and that would unblock Ctrl-C again.
     from multiprocessing import resource_tracker
 
     resource_tracker.ensure_running()
@@ -92,6 +92,7 @@ def _interrupts_blocked() -> Iterator[None]:
 
 @contextmanager
 def _single_threads() -> Iterator[None]:
+    """Let processes started meanwhile do linear algebra in one thread."""
     before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     try:
@@ -105,14 +106,14 @@ def _single_threads() -> Iterator[None]:
 
 
 def begin_worker() -> None:
-    """Prepare a worker: it ends with its parent, and only by it."""
-    # Ctrl-C reaches all processes of a terminal; the parent decides what becomes of it.
+    """Prepare a worker: only its parent ends it, also by its own end."""
+    # Ctrl-C reaches all processes of a terminal; the parent answers it for all.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
 def _end_with_parent() -> None:
-    """Wait for a parent that was killed: nobody else tells a worker that it is alone."""
+    """End when the parent has ended, also where it was killed and could not end its workers."""
     parent = parent_process()
     if parent is not None:
         parent.join()

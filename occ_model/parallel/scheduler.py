@@ -152,7 +152,7 @@ class Scheduler:
         """Begin the run's next stage where it is time, and end the run where there is none."""
         try:
             run.advance()
-        except Exception as error:  # noqa: BLE001 - a mistake in one request must not stop others
+        except Exception as error:  # noqa: BLE001 - an error in one must not stop others
             self._fail(run, error)
             return
         if run.is_done:
@@ -174,7 +174,7 @@ class Scheduler:
                 stage.put_back(job)
                 self._recover(workers, error)
                 continue
-            except Exception as error:  # noqa: BLE001 - a mistake in one must not stop others
+            except Exception as error:  # noqa: BLE001 - an error in one must not stop others
                 self._fail(run, error)
                 continue
             self._in_flight[future] = (run, stage, job)
@@ -191,7 +191,7 @@ class Scheduler:
                 return None
             self.workers = self._fallback()
             self._listener.workers_missing(run.channel, run.number, error)
-        except Exception as error:  # noqa: BLE001 - a mistake in one must not stop others
+        except Exception as error:  # noqa: BLE001 - an error in one must not stop others
             self._fail(run, error)
         return self.workers
 

@@ -189,7 +189,7 @@ def measure(
     if executor is not None:
         return measure_by(GivenExecutor(executor), request, todo, heartbeat)
     if jobs > 1:
-        # Only who wants processes pays for importing what starts them.
+        # Importing what starts processes takes time.
         from occ_model.parallel.process_pool import ProcessPool
 
         try:

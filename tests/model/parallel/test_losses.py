@@ -261,7 +261,7 @@ def test_an_abandoned_result_counts_for_nothing(bench: Bench) -> None:
     future.set_result(JobResult(is_abandoned=True))
     bench.settle()
     bench.finish_all()
-    assert bench.results == ["b"]
+    assert bench.reports == [(MAP, 1, ["b"])]
     assert bench.ended == [(MAP, 1)]
 
 

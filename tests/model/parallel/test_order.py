@@ -218,10 +218,11 @@ def test_the_request_behind_one_that_is_cancelled_alone_begins(bench: Bench) -> 
 
 
 def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> None:
-    bench.ask(MAP, 2, stage(0, "a", "b", "c"))
+    bench.ask(MAP, 2, stage(0, "a", "b", "c", whole=True))
+    bench.ask(MAP, 3, stage(0, "x"))
     bench.scheduler.cancel(MAP, 2)
     bench.finish_all()
-    assert bench.results == ["a", "b", "c"]
+    assert bench.results == ["a", "b", "c", "x"]
 
 
 def test_a_request_without_jobs_ends_at_once_also_while_the_worker_is_busy(bench: Bench) -> None:

@@ -38,8 +38,8 @@ def test_the_end_of_a_stage_is_reported_at_once() -> None:
 def test_each_channel_has_its_own_interval() -> None:
     bench = Bench(interval=1.0)
     bench.ask(MAP, 1, stage(0, "a", "b", "c"))
-    bench.ask(STRIPS, 1, stage(1, "s", "t"))
-    bench.finish(4)
+    bench.ask(STRIPS, 1, stage(1, "s", "t", "u"))
+    bench.finish(5)
     assert bench.reports == [(MAP, 1, ["a"]), (MAP, 1, ["b", "c"]), (STRIPS, 1, ["s"])]
 
 

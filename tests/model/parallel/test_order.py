@@ -152,6 +152,8 @@ def test_a_request_waits_for_uninterruptible_stages_of_its_own_channel_only(benc
     bench.ask(MAP, 2, stage(0, "x"))
     bench.ask(STRIPS, 1, stage(0, "s"))
     bench.ask(STRIPS, 2, stage(0, "t"))
+    bench.finish(2)
+    assert bench.sent == ["a", "b", "c", "t"]
     bench.finish_all()
     assert bench.sent == ["a", "b", "c", "t", "x"]
 
@@ -230,6 +232,13 @@ def test_a_request_without_jobs_ends_at_once_also_while_the_worker_is_busy(bench
     bench.ask(MAP, 1)
     bench.ask(MAP, 2, stage(0), stage(1, whole=True))
     assert bench.ended == [(MAP, 1), (MAP, 2)]
+
+
+def test_a_stage_without_jobs_holds_nothing_up(bench: Bench) -> None:
+    bench.ask(MAP, 1, stage(0, whole=True), stage(1, "a", "b", "c"))
+    bench.ask(MAP, 2, stage(1, "x"))
+    bench.finish_all()
+    assert bench.sent == ["a", "b", "x"]
 
 
 def test_the_end_is_reported_once_after_all_results(bench: Bench) -> None:

@@ -1,1 +1,1 @@
-"""The detection map, the strips under the sliders, and the advisor."""
+"""The detection map, the strips under the sliders, and the advice on the limits of decoding."""

@@ -1,4 +1,4 @@
-"""Advice in plain sentences."""
+"""Sentences of the advice: the limits of a decoder, found and theoretical, in words."""
 
 import math
 from dataclasses import dataclass
@@ -11,21 +11,21 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 
 _DIGITS = 4
-"""Of an edge that is known to a few thousandths."""
+"""Significant digits: the ends of a range are found to a few thousandths."""
 
 
 @dataclass(frozen=True, slots=True)
 class AdviceLine:
-    """One sentence or two.
+    """One line of the advice: a sentence or two.
 
     Parameters
     ----------
     text
-        What is said.
+        The sentences.
     destination
-        Where it leads: a parameter, its value in SI units, and that value in words.
+        The change that its button makes: a parameter, its value in SI units, and as text.
     is_title
-        Whether it stands over what follows.
+        Whether it is the title of the lines that follow.
     """
 
     text: str
@@ -33,8 +33,8 @@ class AdviceLine:
     is_title: bool = False
 
 
-class AdviceWords(QObject):
-    """Says how far a decoder reaches."""
+class AdviceSentences(QObject):
+    """Writes advice in translatable sentences."""
 
     def lines(self, advice: Advice) -> list[AdviceLine]:
         """Write a title and a few lines on what was found."""
@@ -58,7 +58,7 @@ class AdviceWords(QObject):
                 if (end.parameter, end.side) in ends
             )
             lines.append(AdviceLine(theory))
-        lines.append(AdviceLine(self._how_sure(advice.limits)))
+        lines.append(AdviceLine(self._confidence(advice.limits)))
         return lines
 
     def _nowhere(self, limits: Limits, found: WorkingRange) -> str:
@@ -74,10 +74,10 @@ class AdviceWords(QObject):
                 "the most it reads is {right} of {sent} bits, at {value}."
             ),
         }
-        low, high = (_written(found.parameter, value) for value in found.searched)
+        low, high = (_formatted(found.parameter, value) for value in found.searched)
         return texts[found.parameter].format(
             rate=limits.rate, low=low, high=high, right=found.best.right, sent=found.best.sent,
-            value=_written(found.parameter, found.best.value),
+            value=_formatted(found.parameter, found.best.value),
         )  # fmt: skip
 
     def _title(self, found: Limits) -> str:
@@ -89,19 +89,19 @@ class AdviceWords(QObject):
             rate=found.rate,
             frequency=HERTZ.format(scene.transmitter.switching_frequency, _DIGITS),
             exposure=SECOND.format(scene.camera.exposure_time, _DIGITS),
-            distance=_written("distance", scene.pose.distance),
+            distance=_formatted("distance", scene.pose.distance),
         )
 
     def _line(self, text: str, end: EndFacts) -> AdviceLine:
-        value = _written(end.parameter, end.value)
-        ground = self.tr("there it read {counted}").format(counted=self._counted(end.works))
+        value = _formatted(end.parameter, end.value)
+        inside = self.tr("there it read {counted}").format(counted=self._counted(end.works))
         if end.fails is None:
             beyond = self.tr("beyond it was not tried")
         else:
             beyond = self.tr("at {value} {counted}").format(
-                value=_written(end.parameter, end.fails.value), counted=self._counted(end.fails)
+                value=_formatted(end.parameter, end.fails.value), counted=self._counted(end.fails)
             )
-        sentence = f"{text.format(value=value)}: {ground}, {beyond}."
+        sentence = f"{text.format(value=value)}: {inside}, {beyond}."
         return AdviceLine(sentence, (end.parameter, end.value, value))
 
     def _counted(self, trial: Trial) -> str:
@@ -135,12 +135,12 @@ class AdviceWords(QObject):
             )
         return f"{text}."
 
-    def _how_sure(self, found: Limits) -> str:
+    def _confidence(self, found: Limits) -> str:
         return self.tr(
-            "Each value was tried with {images} images; the intervals hold the rate in 95 of 100 "
-            "cases if bits err independently of each other."
+            "Each value was tried with {images} images; the intervals contain the rate in 95 of "
+            "100 cases if bit errors are independent of each other."
         ).format(images=found.images)
 
 
-def _written(name: str, value: float) -> str:
+def _formatted(name: str, value: float) -> str:
     return quantity(name).format(value, _DIGITS)

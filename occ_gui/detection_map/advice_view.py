@@ -1,4 +1,4 @@
-"""How far the decoders reach, in sentences, each with the way there."""
+"""Page of advice: the limits of each decoder in sentences, with buttons that change the scene."""
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -11,7 +11,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.detection_map.advice_sentences import AdviceLine, AdviceWords
+from occ_gui.detection_map.advice_sentences import AdviceLine, AdviceSentences
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.advice import Advice
@@ -20,36 +20,36 @@ _LEAST = QSize(200, 60)
 
 
 class AdviceView(QWidget):
-    """Sentences on the highest frequency and the workable exposures of each decoder."""
+    """Sentences on the highest frequency and the working exposures of each decoder."""
 
     asked = Signal()
-    """Advice is wanted on the scene as it is."""
+    """The user asks for advice on the current scene."""
 
     cancelled = Signal()
-    """It is not wanted any more."""
+    """The user cancels the search."""
 
     back_asked = Signal()
-    """The map is wanted again."""
+    """The user returns to the map."""
 
     destination_chosen = Signal(str, float)
-    """The parameter to be changed, and its value in SI units."""
+    """The user goes to a limit: the parameter to change, and its value in SI units."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._words = AdviceWords(self)
+        self._sentences = AdviceSentences(self)
         self._lines: list[QWidget] = []
         self.destinations: list[QPushButton] = []
         self.back = self._button(self.tr("Back to the map"), self.tr("Show the map again."))
         self.back.clicked.connect(self.back_asked)
         self.again = self._button(
-            self.tr("Ask again"), self.tr("Search for the limits of the scene as it is now.")
+            self.tr("Ask again"), self.tr("Search for the limits of the current scene.")
         )
         self.again.clicked.connect(self.asked)
-        self.cancel = self._button(self.tr("Cancel"), self.tr("Search no more."))
+        self.cancel = self._button(self.tr("Cancel"), self.tr("Stop the search."))
         self.cancel.clicked.connect(self.cancelled)
         self.progress = QProgressBar()
-        self.progress.setAccessibleName(self.tr("How much of the search is done"))
-        self.progress.setToolTip(self.tr("How much of the search is done."))
+        self.progress.setAccessibleName(self.tr("Progress of the search"))
+        self.progress.setToolTip(self.tr("Progress of the search."))
         self.state = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.state.setAccessibleName(self.tr("State of the search"))
         self._lay_out()
@@ -83,7 +83,7 @@ class AdviceView(QWidget):
         self.state.setVisible(not running)
 
     def show_advice_begun(self) -> None:
-        """Tell that advice is on its way; what there was goes."""
+        """Remove the previous advice, and show that a search is running."""
         for line in self._lines:
             self._column.removeWidget(line)
             line.deleteLater()
@@ -92,26 +92,26 @@ class AdviceView(QWidget):
         self._show_running(True)
 
     def show_advice_progress(self, share: float) -> None:
-        """Tell how much of the search is done, from 0 to 1."""
+        """Show the fraction of the search that is done, from 0 to 1."""
         self.progress.setValue(round(100 * share))
 
     def show_advice(self, advice: Advice) -> None:
-        """Show how far one decoder reaches."""
-        for line in self._words.lines(advice):
+        """Add the advice on one decoder."""
+        for line in self._sentences.lines(advice):
             self._add(line)
 
     def show_advice_ended(self, sentence: str) -> None:
-        """Tell that no more comes, and why, unless all has come."""
+        """Show that the search has ended; a sentence says why if it is incomplete."""
         self.state.set_full_text(sentence)
         self._show_running(False)
 
     def show_advice_outdated(self) -> None:
-        """Tell that the scene is another one now."""
+        """Show that the scene has changed since the advice was given."""
         if self._lines:
-            self.state.set_full_text(self.tr("This is of the scene as it was."))
+            self.state.set_full_text(self.tr("This advice is on the scene before the change."))
 
     def sentences(self) -> list[str]:
-        """Give what is said, for those who do not see it."""
+        """Return all sentences that are shown."""
         return [label.text() for line in self._lines for label in line.findChildren(QLabel)]
 
     def _add(self, line: AdviceLine) -> None:
@@ -133,12 +133,12 @@ class AdviceView(QWidget):
         self._lines.append(row)
 
     def _destination(self, line: AdviceLine) -> QPushButton:
-        assert line.destination is not None  # noqa: S101 - such a line leads somewhere
-        name, value, where = line.destination
+        assert line.destination is not None  # noqa: S101 - the caller has checked it
+        name, value, text = line.destination
         button = self._button(
-            self.tr("Take me there"), self.tr("Change the scene to {where}.").format(where=where)
+            self.tr("Take me there"), self.tr("Change the scene to {value}.").format(value=text)
         )
-        button.setAccessibleName(self.tr("Take me there: {where}").format(where=where))
+        button.setAccessibleName(self.tr("Take me there: {value}").format(value=text))
         button.clicked.connect(lambda: self.destination_chosen.emit(name, value))
         self.destinations.append(button)
         return button

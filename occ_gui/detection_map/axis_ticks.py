@@ -1,4 +1,4 @@
-"""Where an axis over a slider's range is numbered."""
+"""Ticks and titles of an axis over a slider's range."""
 
 import math
 from dataclasses import dataclass
@@ -10,12 +10,12 @@ _STEPS = (1.0, 2.0, 5.0)
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One number at an axis.
+    """One labelled tick of an axis.
 
     Parameters
     ----------
     place
-        Along the slider, from 0 to 1.
+        Position along the slider, from 0 to 1.
     text
         The number, in the axis's unit.
     """
@@ -25,28 +25,28 @@ class Tick:
 
 
 def axis_unit(quantity: Quantity) -> tuple[str, float]:
-    """Choose the unit of an axis: its symbol and its worth in SI."""
+    """Choose the unit of an axis: its symbol and its factor in SI units."""
     low, high = quantity.slider
     middle = math.sqrt(low * high) if quantity.scale == "log" else max(abs(low), abs(high))
     return quantity.unit.display(middle)
 
 
 def axis_title(quantity: Quantity, short: bool = False) -> str:
-    """Name an axis, with its unit; where it must be short by its symbol, if it has one."""
+    """Return the title of an axis with its unit; a short one uses the quantity's symbol if any."""
     symbol = axis_unit(quantity)[0]
     name = quantity.symbol.replace("_", "") if short and quantity.symbol else quantity.label
     return f"{name} ({symbol})" if symbol else name
 
 
 def ticks(quantity: Quantity, most: int) -> list[Tick]:
-    """Give round values over the slider's range.
+    """Return ticks at round values over the slider's range.
 
     Parameters
     ----------
     quantity
-        The declaration.
+        The declaration of the parameter.
     most
-        How many numbers there is room for.
+        Largest number of ticks.
     """
     factor = axis_unit(quantity)[1]
     values = _log_values if quantity.scale == "log" else _linear_values
@@ -59,7 +59,7 @@ def _log_values(low: float, high: float, most: int) -> list[float]:
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     found: list[float] = []
     for steps in (_STEPS, (1.0, 3.0), (1.0,)):
-        # By way of the text: 2e-05 and not 2.0000000000000003e-05.
+        # Rounded as decimal text: 2e-05, not 2.0000000000000003e-05.
         values = [float(f"{step}e{power}") for power in powers for step in steps]
         found = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
         if len(found) <= most:

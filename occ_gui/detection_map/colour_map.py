@@ -1,4 +1,4 @@
-"""Colours of success rates: colour maps that colour-blind eyes can read, and the colour bar."""
+"""Colour maps of success rates, which colour-blind eyes can read too, and the colour bar."""
 
 from functools import cache
 
@@ -19,17 +19,17 @@ _STEPS = 256
 
 @cache
 def colour_table(name: str) -> ByteArray:
-    """Give the colours of a colour map from its lower end, shape (256, 3)."""
+    """Return the colours of a colour map from its lower end, shape (256, 3)."""
     return np.asarray(pg.colormap.get(name).getLookupTable(nPts=_STEPS, alpha=False))
 
 
-def painted(values: FloatArray, low: float, high: float, name: str) -> ByteArray:
-    """Give each value its colour.
+def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteArray:
+    """Map values to colours.
 
     Parameters
     ----------
     values : ndarray of float64, shape (points along x, points along y)
-        What is no number becomes transparent.
+        Not-a-number becomes transparent.
     low, high
         The values at both ends of the colour map.
     name
@@ -49,11 +49,11 @@ def painted(values: FloatArray, low: float, high: float, name: str) -> ByteArray
 
 
 def image_of(colours: ByteArray) -> QImage:
-    """Make a picture of colours, the first along y at the bottom."""
+    """Make an image of colours, shape (x, y, 4), with the first y at the bottom."""
     rows = np.ascontiguousarray(colours.transpose(1, 0, 2)[::-1])
     height, width = rows.shape[:2]
     image = QImage(rows.data, width, height, 4 * width, QImage.Format.Format_RGBA8888)
-    return image.copy()  # the array's memory goes with it
+    return image.copy()  # the array's memory is freed
 
 
 _BAR = 12
@@ -61,7 +61,7 @@ _GAP = 4
 
 
 class ColourBar(QWidget):
-    """An upright bar of colours with numbers beside it."""
+    """A vertical colour bar with numbers beside it."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -72,16 +72,16 @@ class ColourBar(QWidget):
     def show_colours(
         self, colours: QImage, numbers: tuple[tuple[float, str], ...], name: str
     ) -> None:
-        """Show colours.
+        """Show colours and numbers.
 
         Parameters
         ----------
         colours
             One pixel wide, the upper end first.
         numbers
-            Places from 0, below, to 1, and what stands there.
+            Positions from 0, at the bottom, to 1, and the text at each.
         name
-            What it shows, for those who do not see it and as a tooltip.
+            What it shows: its accessible name and tooltip.
         """
         self._colours, self._numbers = colours, numbers
         self.setAccessibleName(name)
@@ -90,13 +90,13 @@ class ColourBar(QWidget):
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """As wide as the bar and its widest number."""
+        """Return the width of the bar and its widest number."""
         metrics = self.fontMetrics()
         widest = max((metrics.horizontalAdvance(text) for _, text in self._numbers), default=0)
         return QSize(_BAR + 2 * _GAP + widest, 6 * metrics.height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Its height can shrink."""
+        """Return the same width at a smaller height."""
         return QSize(self.sizeHint().width(), 3 * self.fontMetrics().height())
 
     @guarded
@@ -109,8 +109,8 @@ class ColourBar(QWidget):
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.drawRect(bar)
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-        room = max(2, int(self.height() / (1.4 * line)))
-        step = 1 if len(self._numbers) <= room else len(self._numbers) - 1
+        most = max(2, int(self.height() / (1.4 * line)))
+        step = 1 if len(self._numbers) <= most else len(self._numbers) - 1
         for place, text in self._numbers[::step]:
             middle = bar.bottom() - place * bar.height()
             spot = QRectF(bar.right() + _GAP, middle - line / 2, self.width(), line)

@@ -1,4 +1,4 @@
-"""The limits that theory gives: what their lines look like, and which are shown."""
+"""Legend of the theoretical limits, with a button that shows or hides each line."""
 
 from collections.abc import Collection
 
@@ -17,7 +17,7 @@ class MapLegend(QWidget):
     """A button for each limit that shows and hides its line."""
 
     toggled = Signal(str, bool)
-    """A limit, and whether it is to be shown."""
+    """The name of a limit, and whether its line is shown."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -28,7 +28,7 @@ class MapLegend(QWidget):
             ),
             "null": (
                 self.tr("null, f = 2/t"),
-                self.tr("The exposure lasts two chips: chips on and off in turn leave no stripes."),
+                self.tr("The exposure lasts two chips: alternating chips leave no stripes."),
             ),
             "packets": (
                 self.tr("two packets"),
@@ -82,7 +82,7 @@ class MapLegend(QWidget):
         painter.end()
         return pixmap
 
-    def show_there(self, limits: Collection[str]) -> None:
-        """Offer the limits whose lines cross the map."""
+    def enable_limits(self, limits: Collection[str]) -> None:
+        """Enable the buttons of the limits whose lines cross the map."""
         for key, button in self.buttons.items():
             button.setEnabled(key in limits)

@@ -1,4 +1,4 @@
-"""One map or several, side by side, with the bar of their colours."""
+"""Maps of the decoders side by side, or of their difference, with the colour bar."""
 
 from collections.abc import Collection, Sequence
 
@@ -13,7 +13,7 @@ from occ_gui.detection_map.colour_map import (
     ColourBar,
     colour_table,
     image_of,
-    painted,
+    to_colours,
 )
 from occ_gui.detection_map.map_plot import MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
@@ -21,7 +21,7 @@ from occ_model.arrays import FloatArray
 from occ_model.scene.parameters import quantity
 
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
-"""What both ends of a colour map stand for, in percent."""
+"""Values at both ends of each colour map, in percent."""
 
 
 class MapPlots(QWidget):
@@ -36,10 +36,10 @@ class MapPlots(QWidget):
     """
 
     picked = Signal(object)
-    """The point that was clicked on, by its places along both axes."""
+    """The point that the user chose, by its indices along both axes."""
 
     pointed = Signal(object)
-    """The point under the mouse, None where there is none."""
+    """The point under the mouse, None if there is none."""
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -69,13 +69,15 @@ class MapPlots(QWidget):
     def _new_plot(self) -> MapPlot:
         plot = MapPlot()
         plot.labels = self._labels
-        plot.setToolTip(self.tr("Click to take the scene to a point; the arrow keys move, too."))
+        plot.setToolTip(
+            self.tr("Click a point to set the scene to it, or use the arrow keys and Enter.")
+        )
         plot.picked.connect(lambda x, y: self.picked.emit((x, y)))
         plot.pointed.connect(self.pointed)
         return plot
 
     def _names(self) -> tuple[str, ...]:
-        """Name the maps that are shown."""
+        """Return the names of the maps that are shown."""
         if self._what == "both":
             return self._decoders
         return (self._what,)
@@ -91,7 +93,7 @@ class MapPlots(QWidget):
 
     def _title(self, name: str) -> str:
         if name == "difference":
-            return self.tr("{one} less {other}").format(
+            return self.tr("{one} minus {other}").format(
                 one=self._decoders[1], other=self._decoders[0]
             )
         return name
@@ -111,24 +113,24 @@ class MapPlots(QWidget):
         self._show_lines()
 
     def limits(self) -> Collection[str]:
-        """Name the limits whose lines cross the map."""
+        """Return the limits whose lines cross the map."""
         return [key for key in LINES if self._lines.get(key)]
 
     def show_axes(self, x: str, y: str) -> None:
-        """Show which parameters the maps are over; nothing of the last ones stays."""
+        """Set the parameters of the axes, and remove the previous maps."""
         self._rates = self._theory = None
         self._lines = {}
         for plot in self.plots:
             plot.show_axes(quantity(x), quantity(y))
 
     def show_setting(self, place: Point) -> None:
-        """Mark the current setting, by its positions along both sliders."""
+        """Mark the current setting, given by its positions along both axes."""
         for plot in self.plots:
             plot.setting = place
             plot.update()
 
     def show_map(self, rates: RateMap) -> None:
-        """Show what is known by now."""
+        """Show the rates that are known so far."""
         self._rates = rates
         if rates.theory is not None and rates.theory is not self._theory:
             self._theory = rates.theory
@@ -148,7 +150,7 @@ class MapPlots(QWidget):
         refused = np.where(unknown, 0, rates.refused()[owners])
         for plot, name in zip(self.plots, self._names(), strict=False):
             values = np.where(unknown, np.nan, self._values(rates, name)[owners])
-            plot.show_picture(image_of(painted(values, low, high, scheme)), rates.shape, refused)
+            plot.show_picture(image_of(to_colours(values, low, high, scheme)), rates.shape, refused)
         self._show_lines()
 
     def _values(self, rates: RateMap, name: str) -> FloatArray:
@@ -171,9 +173,9 @@ class MapPlots(QWidget):
             (share, _signed(low + share * (high - low)) if low else f"{100 * share:.0f} %")
             for share in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
-        name = self.tr("Share of the bits that are read rightly, in percent")
+        name = self.tr("Share of the bits that are read correctly, in percent")
         if scheme == DIFFERENCES:
-            name = self.tr("Difference of the shares of bits that are read rightly, in percent")
+            name = self.tr("Difference of the shares of bits that are read correctly, in percent")
         self.bar.show_colours(image, numbers, name)
         self._bar_drawn = scheme
 

@@ -1,4 +1,4 @@
-"""Where decoding works: success rates over two parameters, and how far it reaches."""
+"""Pane of the detection map: success rates over two parameters, and the page of advice."""
 
 from collections.abc import Sequence
 
@@ -35,19 +35,19 @@ class MapView(QWidget):
     """
 
     visibility_changed = Signal(bool)
-    """Whether it can be seen from now on."""
+    """Whether the pane has become visible or hidden."""
 
     axes_chosen = Signal(str, str)
-    """The parameters that the map is to be over."""
+    """The parameters that the user chose for the axes, x and y."""
 
     image_effects_switched = Signal(bool)
-    """Whether whole images are to be made where the scene calls for them."""
+    """Whether whole images are simulated where the scene needs them."""
 
     picked = Signal(object)
-    """The point that was clicked on, by its places along both axes."""
+    """The point that the user chose, by its indices along both axes."""
 
     pointed = Signal(object)
-    """The point under the mouse, None where there is none."""
+    """The point under the mouse, None if there is none."""
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -58,7 +58,7 @@ class MapView(QWidget):
         self.plots, self.legend = MapPlots(decoders), MapLegend()
         self.image_effects = QCheckBox(self.tr("with image effects (slow)"))
         self.image_effects.setToolTip(
-            self.tr("Make whole images where the scene calls for them: 50 to 100 times slower.")
+            self.tr("Simulate whole images where the scene needs them: 50 to 100 times slower.")
         )
         self.image_effects.setAccessibleName(self.tr("With image effects"))
         self.advise = QPushButton(self.tr("How fast can I go?"))
@@ -69,7 +69,7 @@ class MapView(QWidget):
         self.status = ElidedLabel()
         self.status.setAccessibleName(self.tr("State of the map"))
         self.left_out = ElidedLabel()
-        self.left_out.setAccessibleName(self.tr("What the map leaves out"))
+        self.left_out.setAccessibleName(self.tr("Effects that the map leaves out"))
         self.left_out.hide()
         self.advice = AdviceView()
         self._lay_out()
@@ -79,14 +79,16 @@ class MapView(QWidget):
     def _make_choices(self, decoders: Sequence[str]) -> None:
         names = {name: quantity(name).label for name in MAP_PARAMETERS}
         self.across = WordChoice(
-            self.tr("Across"), self.tr("The parameter from left to right."), names
+            self.tr("Horizontal axis"), self.tr("The parameter of the horizontal axis."), names
         )
-        self.up = WordChoice(self.tr("Up"), self.tr("The parameter from below upwards."), names)
+        self.up = WordChoice(
+            self.tr("Vertical axis"), self.tr("The parameter of the vertical axis."), names
+        )
         words = {"both": self.tr("all decoders"), **{name: name for name in decoders}}
         if len(decoders) > 1:
             words["difference"] = self.tr("difference")
         self.what = WordChoice(
-            self.tr("Decoders"), self.tr("Whose success rates are shown."), words
+            self.tr("Decoders"), self.tr("The decoder whose success rates are shown."), words
         )
 
     def _lay_out(self) -> None:
@@ -134,11 +136,11 @@ class MapView(QWidget):
         self._pages.setCurrentIndex(0)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the view."""
+        """Report whether the pane is visible."""
         self.visibility_changed.emit(seen)
 
     def show_axes(self, x: str, y: str) -> None:
-        """Show which parameters the map is over, without telling of it."""
+        """Set the parameters of the axes without emitting a signal."""
         self._axes = (x, y)
         self.across.show_key(x)
         self.up.show_key(y)
@@ -146,10 +148,10 @@ class MapView(QWidget):
         self.show_facts(None)
 
     def show_map(self, rates: RateMap) -> None:
-        """Show what is known by now."""
+        """Show the rates that are known so far."""
         self._refusal = rates.refusal()
         self.plots.show_map(rates)
-        self.legend.show_there(self.plots.limits())
+        self.legend.enable_limits(self.plots.limits())
 
     def show_scene(self, scene: Scene) -> None:
         """Mark the current setting."""
@@ -157,7 +159,7 @@ class MapView(QWidget):
         self.plots.show_setting((x, y))
 
     def show_progress(self, known: int, total: int, images: int) -> None:
-        """Tell how many points are known, and that every one rests on so many images."""
+        """Show how many points are known, and the images at each."""
         if known < total:
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
@@ -165,37 +167,37 @@ class MapView(QWidget):
                 total=total, images=images
             )
         self._progress = text
-        self._say()
+        self._show_status()
 
     def show_failure(self, sentence: str) -> None:
-        """Tell why the map is not of the scene as it is, or what happened on the way."""
+        """Show why the map does not belong to the current scene, or a message of its workers."""
         self._failure = sentence
-        self._say()
+        self._show_status()
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
-        """Tell which of the scene's image effects the map leaves out."""
+        """Show which of the scene's image effects the map leaves out."""
         self.left_out.setVisible(bool(effects))
         self.left_out.set_full_text(
-            self.tr("The map leaves out what needs whole images: {effects}.").format(
+            self.tr("The map leaves out effects that need whole images: {effects}.").format(
                 effects=", ".join(effects)
             )
         )
 
     def show_facts(self, facts: PointFacts | None) -> None:
-        """Show what is known of the point under the mouse."""
+        """Show the results at the point under the mouse."""
         self._facts = facts
-        self._say()
+        self._show_status()
 
-    def _say(self) -> None:
+    def _show_status(self) -> None:
         facts = self._facts
         if facts is None:
             self.status.set_full_text(self._failure or self._refusal or self._progress)
         elif facts.note:
-            self.status.set_full_text(f"{self._where(facts)}: {facts.note}")
+            self.status.set_full_text(f"{self._position(facts)}: {facts.note}")
         else:
-            self.status.set_full_text(f"{self._where(facts)}: {self._counts(facts)}")
+            self.status.set_full_text(f"{self._position(facts)}: {self._counts(facts)}")
 
-    def _where(self, facts: PointFacts) -> str:
+    def _position(self, facts: PointFacts) -> str:
         x, y = (quantity(name) for name in self._axes)
         return f"{x.format(facts.x, 4)}, {y.format(facts.y, 4)}"
 

@@ -1,4 +1,4 @@
-"""Success rates over two parameters, as far as they are known."""
+"""Success rates on a lattice over two parameters, which is filled point by point."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,44 +16,44 @@ MAP_PARAMETERS = (
     "flicker_frequency", "read_noise", "quantum_efficiency", "pixel_pitch", "full_well",
     "gain_variation", "bright_fraction",
 )  # fmt: skip
-"""The parameters that a map can be over: those that have a slider, matter to a decoder, and leave
-all rows of the panel alike."""
+"""Parameters that an axis can have: those with a slider that affect decoding and leave all rows of
+the panel equal."""
 
 STRIDES = (6, 3, 1)
-"""Every how many points of the lattice are known, one after the other."""
+"""Spacing of the points that are measured, in steps of the lattice, from coarse to fine."""
 
 LINES = ("band", "null", "packets", "saturation")
-"""The limits that theory gives."""
+"""The theoretical limits."""
 
 
 def lattice(name: str, count: int) -> tuple[float, ...]:
-    """Spread values over a slider's range, evenly on its scale."""
+    """Return values spaced evenly over a slider's range, on its scale."""
     declared = quantity(name)
     return tuple(declared.at(place / (count - 1)) for place in range(count))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TheoryFields:
-    """On which side of each limit points lie.
+    """The side of each theoretical limit on which the points of a lattice lie.
 
     Parameters
     ----------
     places : pair of ndarray of float64
         The points' positions along both sliders, from 0 to 1.
     sides : mapping of str to ndarray of float64, shape (points along x, points along y)
-        For each of :data:`LINES` a number that is 0 on the limit and changes its sign there; not a
-        number where there is none.
+        For each of :data:`LINES` a number that is 0 on the limit and changes its sign there; NaN
+        where the limit does not exist.
     """
 
     places: tuple[FloatArray, FloatArray]
     sides: Mapping[str, FloatArray]
 
     def lines(self) -> dict[str, list[FloatArray]]:
-        """Give the lines of each limit, each of shape (points, 2): positions along x and y.
+        """Return the lines of each limit, each of shape (points, 2): positions along x and y.
 
-        Cells of the lattice with a corner at which there is no number have no line.
+        Cells of the lattice with a NaN at a corner have no line.
         """
-        # Only who draws a map pays for importing it.
+        # Imported with the first map, not at start-up.
         from contourpy import LineType, contour_generator
 
         found = {}
@@ -70,21 +70,21 @@ class TheoryFields:
 
 @dataclass(frozen=True, slots=True)
 class PointFacts:
-    """What is known of one point.
+    """Results at one point.
 
     Parameters
     ----------
     x, y
         The parameters' values, in SI units.
     counts
-        For each decoder its name, the bits read rightly, and both ends of the interval of the rate
-        behind them, percent.
+        For each decoder its name, the bits read correctly, and both ends of the confidence interval
+        of its rate, percent.
     sent
-        Bits sent; 0 where nothing is known.
+        Bits sent; 0 if nothing is known.
     images
-        Images that they were sent in.
+        Images in which they were sent.
     note
-        Why the model refuses the point, empty where it does not.
+        Why the model refuses the point, empty if it does not.
     """
 
     x: float
@@ -97,7 +97,7 @@ class PointFacts:
 
 @dataclass(eq=False, slots=True)
 class RateMap:
-    """Success rates on a lattice that fills up.
+    """Success rates on a lattice, as far as they are known.
 
     Parameters
     ----------
@@ -128,11 +128,11 @@ class RateMap:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """How many points there are along each axis."""
+        """Number of points along each axis."""
         return len(self.x_values), len(self.y_values)
 
     def enter(self, points: list[SweepPoint], images: int) -> None:
-        """Enter points that so many images were read at."""
+        """Enter points measured with this number of images."""
         for point in points:
             place = divmod(point.index, len(self.y_values))
             self.sent[place] = point.sent
@@ -143,21 +143,21 @@ class RateMap:
 
     @property
     def known(self) -> int:
-        """How many points are known."""
+        """Number of points that are known."""
         return int(np.count_nonzero(self.images))
 
     @property
     def least_images(self) -> int:
-        """How many images every point has been read at."""
+        """Smallest number of images at any point."""
         return int(self.images.min())
 
     def rates(self, decoder: str) -> FloatArray:
-        """Give a decoder's rate at every point, in percent.
+        """Return a decoder's rate at every point, in percent.
 
         Returns
         -------
         ndarray of float64, shape (points along x, points along y)
-            Not a number where the rate is not known, or the model refuses the point.
+            NaN where the rate is not known or the model refuses the point.
         """
         rates = np.full(self.shape, np.nan)
         right = 100.0 * self.right[..., self.decoders.index(decoder)]
@@ -165,22 +165,22 @@ class RateMap:
         return rates
 
     def refused(self) -> IndexArray:
-        """Say where the model refuses, 1 for such points, shape (points along x, along y)."""
+        """Return 1 for points that the model refuses, else 0; shape (points along x, along y)."""
         return np.where((self.images > 0) & (self.sent == 0), 1, 0)
 
     def refusal(self) -> str:
-        """Say why the model refuses, where it does so at every point that is known."""
+        """Return why the model refuses all points that are known; empty if it does not."""
         if np.any(self.sent > 0) or not self.notes:
             return ""
         return next(iter(self.notes.values()))
 
     def owners(self) -> tuple[IndexArray, IndexArray]:
-        """Give for every point the known one that it is drawn like: a coarse cell is a large one.
+        """Return for every point the known one whose rate it shows: coarse points fill large cells.
 
         Returns
         -------
         ndarray of int64, shape (points along x, points along y)
-            Twice: places along x and along y; -1 where nothing near is known.
+            Twice: indices along x and along y; -1 where no point nearby is known.
         """
         x, y = (np.full(self.shape, -1, dtype=np.int64) for _ in range(2))
         for stride in STRIDES:

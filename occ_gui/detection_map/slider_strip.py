@@ -5,7 +5,7 @@ from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QWidget
 
-from occ_gui.detection_map.colour_map import RATES, image_of, painted
+from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.scene.parameters import PARAMETERS
@@ -21,7 +21,7 @@ class SliderStrip(QWidget):
     slider
         The slider that it lies under.
     label
-        What the slider sets.
+        The name of the slider's parameter.
     parent
         The parent widget.
     """
@@ -38,8 +38,8 @@ class SliderStrip(QWidget):
     def _explain(self) -> None:
         known = [share for share in self.shares if share is not None]
         text = self.tr(
-            "Share of the bits that the decoder shown reads rightly along this slider, "
-            "all else as it is: blue none, yellow all, grey not known."
+            "Share of the bits that the decoder shown reads correctly along this slider, all "
+            "else being equal: blue none, yellow all, grey not known."
         )
         self.setToolTip(text)
         good = sum(share > 0.99 for share in known)
@@ -48,21 +48,21 @@ class SliderStrip(QWidget):
         )
 
     def show_shares(self, shares: tuple[float | None, ...]) -> None:
-        """Show the shares at evenly spaced positions of the slider, None: not known."""
+        """Show the shares at evenly spaced positions of the slider, None if not known."""
         self.shares = shares
         self._explain()
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """As long as there is room, and thin."""
+        """Return a small size; the strip expands along the slider."""
         return QSize(40, _HEIGHT)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Stay as thin."""
+        """Return the smallest size, as high as always."""
         return QSize(20, _HEIGHT)
 
     def span(self) -> tuple[float, float]:
-        """Give the pixels at which the handle's middle is at both ends of the slider."""
+        """Return the x of the handle's centre at both ends of the slider, in the strip's pixels."""
         ends = []
         for position in (self._slider.minimum(), self._slider.maximum()):
             option = QStyleOptionSlider()
@@ -89,7 +89,7 @@ class SliderStrip(QWidget):
         painter.fillRect(whole, self.palette().color(QPalette.ColorRole.Midlight))
         if self.shares:
             shares = np.array([[np.nan if share is None else share] for share in self.shares])
-            painter.drawImage(whole, image_of(painted(shares, 0.0, 1.0, RATES)))
+            painter.drawImage(whole, image_of(to_colours(shares, 0.0, 1.0, RATES)))
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -97,7 +97,7 @@ class SliderStrip(QWidget):
 
 
 class SliderStrips(QObject):
-    """A strip under each of some sliders.
+    """The strips under the main sliders.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ class SliderStrips(QObject):
     """
 
     seen = Signal(bool)
-    """Whether anybody can see them from now on."""
+    """Whether the strips have become visible or hidden."""
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -120,7 +120,7 @@ class SliderStrips(QObject):
         next(iter(self.strips.values())).installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Tell when the first strip comes into sight or goes."""
+        """Report when the first strip is shown or hidden."""
         if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
             self.seen.emit(event.type() == QEvent.Type.Show)
         return super().eventFilter(watched, event)
@@ -131,5 +131,5 @@ class SliderStrips(QObject):
             strip.setVisible(shown)
 
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
-        """Show the share of bits read rightly at positions along a slider, None: not known."""
+        """Show the share of bits read correctly at positions along a slider, None if not known."""
         self.strips[name].show_shares(shares)

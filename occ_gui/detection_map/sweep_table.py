@@ -1,4 +1,4 @@
-"""The detection map as the table of a sweep, which is what can be drawn and written."""
+"""Conversion of the detection map to the table of a sweep, which figures and files use."""
 
 import numpy as np
 
@@ -10,14 +10,14 @@ from occ_model.study.sweep.counts import rate_intervals
 
 
 def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:
-    """Write a map whose points are all known as a table; later points do not change it.
+    """Return a complete map as a table; later points do not change it.
 
     Parameters
     ----------
     rates
         The map.
     asked
-        What it was measured for.
+        The request that it was measured for.
     """
     request = map_request(
         asked.scene, asked.x, asked.y, asked.settings, rates.decoders,

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.detection_map import advice_controller as module
 from occ_gui.detection_map import wiring, worker
-from occ_gui.detection_map.advice_sentences import AdviceWords
+from occ_gui.detection_map.advice_sentences import AdviceSentences
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import sentences
 from occ_model.parallel.job import Job, JobResult
@@ -77,7 +77,7 @@ def advised(
 
 
 def test_the_sentences_hold_value_bits_interval_and_what_lies_beyond(small_scene: Scene) -> None:
-    lines = [line.text for line in AdviceWords().lines(advice_on(small_scene))]
+    lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
     assert lines[1] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 200 of 200 bits "
         "(98.1 to 100.0 %), at 14.73 kHz 0 of 200 bits (0.0 to 1.9 %)."
@@ -88,7 +88,7 @@ def test_the_sentences_hold_value_bits_interval_and_what_lies_beyond(small_scene
 
 
 def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
-    lines = [line.text for line in AdviceWords().lines(advice_on(small_scene))]
+    lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[2]
     assert "below 3.468 kHz no two packets" in lines[2]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[5]
@@ -102,7 +102,7 @@ def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scen
         for name, searched in (("switching_frequency", (500.0, 100e3)), ("exposure_time", (1, 3)))
     ]
     limits = Limits(small_scene, "threshold", 99.0, 20, 1, *ranges)
-    lines = AdviceWords().lines(advice_of(limits))
+    lines = AdviceSentences().lines(advice_of(limits))
     assert lines[1].text == (
         "It reads 99 % of the bits at no switching frequency from 500 Hz to 100 kHz; the most it "
         "reads is 120 of 200 bits, at 2 kHz."
@@ -114,7 +114,7 @@ def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scen
 def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
     shell = " ".join(sentences(advice))
-    for line in AdviceWords().lines(advice):
+    for line in AdviceSentences().lines(advice):
         if line.destination is not None:
             assert line.destination[2] in shell
             assert all(counted in shell for counted in re.findall(r"\d+ of \d+ bits", line.text))
@@ -136,13 +136,15 @@ def test_every_decoder_is_asked_and_each_edge_has_its_way(advised: Application) 
     ("place", "name", "value"),
     [(0, "switching_frequency", 14.7e3), (1, "exposure_time", 10e-6), (2, "exposure_time", 196e-6)],
 )
-def test_a_way_takes_the_scene_there_in_one_step(
+def test_a_destination_button_changes_the_scene_in_one_step(
     advised: Application, place: int, name: str, value: float
 ) -> None:
     before = advised.store.scene
     advised.detection.advice.destinations[place].click()
     assert advised.store.scene == before.replace(**{name: value})
-    assert advised.detection.advice.state.toolTip() == "This is of the scene as it was."
+    assert (
+        advised.detection.advice.state.toolTip() == "This advice is on the scene before the change."
+    )
     advised.store.undo_stack.undo()
     assert advised.store.scene == before
 

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
-from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, painted
+from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import (
     MAP_PARAMETERS,
@@ -128,7 +128,7 @@ def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
     for what, titles in (
         ("both", list(DECODERS)),
         ("matched", ["matched"]),
-        ("difference", ["matched less threshold"]),
+        ("difference", ["matched minus threshold"]),
     ):
         view.what.show_key(what)
         view.what.chosen.emit(what)
@@ -137,12 +137,12 @@ def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
 
 
 def test_rates_grow_lighter_evenly_and_differences_from_their_middle() -> None:
-    steps = painted(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
+    steps = to_colours(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
     light = steps.astype(float) @ np.array([0.2126, 0.7152, 0.0722])
     assert (np.diff(light) > 0).all()
-    middle = painted(np.zeros((1, 1)), -100.0, 100.0, DIFFERENCES)[0, 0, :3]
+    middle = to_colours(np.zeros((1, 1)), -100.0, 100.0, DIFFERENCES)[0, 0, :3]
     assert np.ptp(middle.astype(int)) < 12
-    assert painted(np.full((1, 1), np.nan), 0.0, 1.0, RATES)[0, 0, 3] == 0
+    assert to_colours(np.full((1, 1), np.nan), 0.0, 1.0, RATES)[0, 0, 3] == 0
 
 
 def test_a_line_runs_where_the_number_is_nothing() -> None:

@@ -14,7 +14,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
-from occ_gui.detection_map.colour_map import RATES, painted
+from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.files.preferences import Memory
@@ -181,7 +181,7 @@ def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
     strip = application.slider_strips.strips["iso"]
     strip.show_shares((0.0, 0.5, 1.0))
     picture, (first, last) = strip.grab().toImage(), strip.span()
-    wanted = painted(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3]
+    wanted = to_colours(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3]
     for share, colour in zip((0.1, 0.5, 0.9), wanted.tolist(), strict=True):
         place = round(first + share * (last - first))
         seen = picture.pixelColor(place, 3)

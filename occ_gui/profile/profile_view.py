@@ -43,10 +43,10 @@ _SHADE = 40
 
 
 class ProfileView(QWidget):
-    """Grey level over column: the simulation, the band model or why there is none, and the photo.
+    """Grey level over column: the simulation, the band model (or why it is undefined), the photo.
 
     The plot follows the panel's first packets, or the whole panel, until the user moves it. While
-    a photo is open, what is left of it without the simulation is drawn under both.
+    a photo is open, the residual of photo minus simulation is drawn below.
     """
 
     enhanced_chosen = Signal(bool)

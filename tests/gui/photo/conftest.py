@@ -1,0 +1,31 @@
+"""A photo's pane and a match to show on it."""
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.photo.photo_view import PhotoView
+from occ_model.results import Match, Region, Stripes
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> PhotoView:
+    view = PhotoView()
+    qtbot.addWidget(view)
+    view.resize(380, 500)
+    view.show()
+    view.show_scene(occ.Scene())
+    return view
+
+
+@pytest.fixture
+def match() -> Match:
+    profile = np.array([10.0, 20.0, 30.0])
+    stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
+    return Match(
+        scene=occ.Scene(), stripes=stripes, readout_time=14.5777e-6, switching_frequency=2e3,
+        exposure_time=62.5e-6, start_time=1e-4, gamma=2.22,
+        uncertainties={"readout_time": 2.7e-10, "exposure_time": 2.1e-7, "start_time": 3e-7},
+        pattern="1001", pattern_was_read=True, profile=profile + 2.0, correlation=0.99123,
+    )  # fmt: skip

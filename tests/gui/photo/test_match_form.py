@@ -1,0 +1,136 @@
+"""Form of a match: every choice of the model, known values, progress and cancelling."""
+
+from dataclasses import replace
+
+import pytest
+from gui.combo_box import choose
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.match_form import SQUARE_FREQUENCY
+from occ_gui.photo.photo_view import PhotoView
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
+
+
+def test_everything_that_the_model_can_be_asked_for_can_be_chosen(view: PhotoView) -> None:
+    sent = [view.form.sent.itemData(place) for place in range(view.form.sent.count())]
+    estimates = [view.form.estimate.itemData(p) for p in range(view.form.estimate.count())]
+    assert set(sent) == {*PATTERN_SOURCES, "square"}
+    assert estimates == list(ESTIMATES)
+
+
+def test_the_button_asks_for_a_match_as_it_is_chosen(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    asked: list[MatchChoice] = []
+    view.form.asked.connect(asked.append)
+    qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
+    choose(qtbot, view.form.sent, "square")
+    choose(qtbot, view.form.estimate, "switching_frequency")
+    view.form.gamma.click()
+    view.form.square.selectAll()
+    qtbot.keyClicks(view.form.square, "1.5 kHz")
+    qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
+    assert asked == [MatchChoice(), MatchChoice("square", 1500.0, "switching_frequency", True)]
+
+
+def test_a_frequency_is_asked_for_where_a_square_wave_was_sent_and_nowhere_else(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    for key in ("scene", "square", "read", "auto"):
+        choose(qtbot, view.form.sent, key)
+        assert view.form.square.isVisible() == (key == "square")
+
+
+def test_what_is_known_beside_the_estimate_is_told(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
+    frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
+    assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
+    assert view.form.hint.toolTip() == "chips: a blinking LED of 3.5 kHz"
+    choose(qtbot, view.form.sent, "square")
+    assert (frequency.text(), frequency.isEnabled()) == ("2 kHz", False)
+    assert view.form.hint.toolTip() == "chips: a blinking LED of 1 kHz"
+    choose(qtbot, view.form.estimate, "switching_frequency")
+    assert (readout.text(), frequency.isVisible(), view.form.hint.text()) == ("9 µs", False, "")
+
+
+def test_what_is_known_can_be_entered_where_it_is_asked_for(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(occ.Scene())
+    received: list[tuple[str, float]] = []
+    view.form.edited.connect(lambda name, value, _: received.append((name, value)))
+    for name, typed in (("switching_frequency", "2kHz"), ("readout_time", "9us")):
+        field = view.form.known[name]
+        field.selectAll()
+        qtbot.keyClicks(field, typed)
+        qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
+        choose(qtbot, view.form.estimate, "switching_frequency")
+    assert received == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
+
+
+def test_a_match_of_what_is_no_longer_known_is_told_from_one_that_is(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    scene = occ.Scene().replace(switching_frequency=2e3)
+    view.show_scene(scene)
+    view.show_match(match)
+    for frequency, stale in ((2e3, False), (1e3, True), (2e3, False)):
+        view.show_scene(scene.replace(switching_frequency=frequency, exposure_time=5e-5))
+        assert view.result.stale.isVisible() == stale
+    view.show_scene(scene.replace(switching_frequency=1e3))
+    assert view.result.stale.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
+    view.show_match(replace(match, switching_frequency=1e3))
+    assert not view.result.stale.isVisible()
+
+
+def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
+    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.activateWindow()
+    qtbot.waitActive(view)
+    view.form.start.setFocus()
+    view.show_match_begun()
+    assert view.form.cancel.hasFocus()
+    view.show_match(match)
+    assert view.form.start.hasFocus()
+
+
+def test_a_frequency_that_cannot_be_is_refused_and_the_last_one_stays(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    choose(qtbot, view.form.sent, "square")
+    view.form.square.selectAll()
+    qtbot.keyClicks(view.form.square, "fast")
+    with qtbot.waitSignal(view.form.refused):
+        qtbot.keyClick(view.form.square, Qt.Key.Key_Return)
+    assert view.form.choice().square_frequency == SQUARE_FREQUENCY.default
+
+
+def test_while_a_match_runs_its_progress_and_a_way_out_take_the_buttons_place(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    form = view.form
+    assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
+    view.show_match_begun()
+    assert (form.start.isVisible(), form.progress.isVisible()) == (False, True)
+    view.show_progress(0.25)
+    assert form.progress.value() == form.progress.maximum() / 4
+    with qtbot.waitSignal(form.cancelled):
+        qtbot.mouseClick(form.cancel, Qt.MouseButton.LeftButton)
+    view.show_match_cancelled()
+    assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)

@@ -1,0 +1,89 @@
+"""Result of a match: values with their uncertainties, and buttons that use them."""
+
+from dataclasses import replace
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
+from pytestqt.qtbot import QtBot
+
+from occ_gui.photo.match_result import with_uncertainty
+from occ_gui.photo.photo_view import PhotoView
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
+
+READOUT = PARAMETERS["readout_time"]
+
+
+def test_what_was_found_stands_with_its_uncertainty_in_the_units_of_the_screen(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(match)
+    texts = {name: label.text() for name, label in view.result.values.items()}
+    assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
+    assert texts["exposure_time"] == "62.50 ± 0.21 µs"
+    assert texts["switching_frequency"] == "2 kHz (given)"
+    assert texts["chip"] == f"{1 / (2e3 * 14.5777e-6):.3f} columns, 4 chips a period"
+    assert texts["correlation"] == "0.9912, RMSE 2.00 grey levels"
+    assert texts["saturated"].startswith("12.5 %")
+    assert view.result.values["pattern"].toolTip() == "1001 (read)"
+
+
+def test_a_blinking_led_is_told_by_its_cycles_too(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(replace(match, pattern="10"))
+    text = view.result.values["switching_frequency"].text()
+    assert text == "2 kHz (given): blinks at 1 kHz"
+
+
+def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, match: Match) -> None:
+    view.show_photo(photo)
+    for changes, there in (
+        ({}, False),
+        ({"uncertainties": {"gamma": 0.05}, "other_exposures": (1e-3, 2e-3)}, True),
+    ):
+        view.show_match(replace(match, **changes))
+        titles = [label.text() for label in view.result.findChildren(QLabel) if label.isVisible()]
+        assert ("Gamma" in titles) == there
+        assert ("1 ms or 2 ms" in titles) == there
+
+
+@pytest.mark.parametrize(
+    ("value", "spread", "text"),
+    [
+        (14.5777e-6, 2.7e-10, "14.57770 ± 0.00027 µs"),
+        (14.5777e-6, 3e-6, "14.6 ± 3.0 µs"),
+        (14.5777e-6, 40e-6, "15 ± 40 µs"),
+        (0.0, 1e-7, "0.00000010 s"),
+        (8e-6, None, "8 µs"),
+        (8e-6, float("nan"), "8 µs"),
+        (8e-6, float("inf"), "8 µs"),
+        (8e-6, 0.0, "8 µs"),
+        (8e-6, 1e-30, "8.000000000000 ± 0.000000000000 µs"),
+    ],
+)
+def test_a_value_is_written_as_far_as_its_uncertainty_leaves_it_sure(
+    value: float, spread: float | None, text: str
+) -> None:
+    assert isinstance(READOUT, Quantity)
+    assert text in with_uncertainty(READOUT, value, spread)
+
+
+def test_without_a_match_there_is_nothing_to_apply(
+    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_match(match)
+    for button, signal in (
+        (view.result.apply, view.result.apply_asked),
+        (view.result.save, view.result.save_asked),
+    ):
+        with qtbot.waitSignal(signal):
+            qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+    view.show_match(None)
+    assert not view.result.isVisible()

@@ -32,9 +32,9 @@ class ResidualPlot(QWidget):
         self.numbers = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.numbers.setAccessibleName(self.tr("Agreement of photo and simulation"))
         self.plot = new_plot(
-            self.tr("Photo minus simulation"),
+            self.tr("Residual, photo minus simulation"),
             self.tr("column"),
-            self.tr("residual"),
+            self.tr("levels"),  # the line above names the residual: a longer label is cut off here
             self.palette(),
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
@@ -83,5 +83,6 @@ class ResidualPlot(QWidget):
 
     def _in_words(self, comparison: Comparison) -> str:
         return self.tr(
-            "Photo minus simulation: correlation {correlation:.4f}, RMSE {rmse:.2f} grey levels"
+            "Residual, photo minus simulation: correlation {correlation:.4f}, "
+            "RMSE {rmse:.2f} grey levels"
         ).format(correlation=comparison.correlation, rmse=comparison.rmse)

@@ -1,1 +1,1 @@
-"""The desktop application: sliders on the model, the picture, and what was read from it."""
+"""Desktop application: sliders on the model, the simulated picture and its decoding."""

@@ -1,4 +1,4 @@
-"""``occ-gui`` and ``python -m occ_gui``."""
+"""Entry point of ``occ-gui`` and ``python -m occ_gui``."""
 
 from collections.abc import Callable
 
@@ -11,7 +11,7 @@ def main() -> int:
 
 
 def _command() -> Callable[[], int]:
-    # Only here, where Ctrl-C is answered: it imports much of the model.
+    # Imported here, where Ctrl-C is handled already: it imports much of the model.
     from occ_gui.app.command_line import read_command_line
 
     return read_command_line(None)

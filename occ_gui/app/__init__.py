@@ -1,1 +1,1 @@
-"""The start of the program, and what joins its parts."""
+"""Start of the program: command line, and the connection of all parts of the window."""

@@ -1,4 +1,4 @@
-"""The one place where parts are put together."""
+"""Application: creates stores, controllers, panes and window, and connects them."""
 
 from pathlib import Path
 
@@ -11,13 +11,13 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
-from occ_gui.app.wording import spoken
+from occ_gui.app.wording import with_labels
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.files.file_controller import FileController, sample_photos
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.wiring import PhotoWiring
@@ -37,7 +37,7 @@ from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
-# What a sentence in the status line can be shown until.
+# Events that end the display of a message in the status line.
 _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
 
 
@@ -47,24 +47,24 @@ class Application(QObject):
     Parameters
     ----------
     scene
-        The scene to begin with.
+        The first scene.
     settings
-        How it is simulated at first.
-    memory
-        What is remembered from one start to the next; by default nothing.
+        The first settings of its simulation.
+    preferences
+        The stored preferences; by default nothing is stored.
     """
 
     def __init__(
         self,
         scene: Scene,
         settings: SimulationSettings = FIRST_SETTINGS,
-        memory: QSettings | None = None,
+        preferences: QSettings | None = None,
     ) -> None:
         super().__init__()
         self.store, self.settings = SceneStore(scene), SettingsStore(settings)
         self.editor = SceneEditor(self.store)
-        self.memory = Memory(memory)
-        # The first picture is simulated while the panes that show it are made.
+        self.preferences = Preferences(preferences)
+        # Simulates the first picture while the panes are created.
         self.simulation = SimulationController(self.store, self.settings)
         effects = [name for effect in EFFECTS for name in effect.parameters]
         self.controls = ControlPanel([], effects)
@@ -79,11 +79,11 @@ class Application(QObject):
         self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
         self.photos = self.photo_wiring.photos
         self.presets = PresetController(self.window, self.store, self.photo_wiring.matching)
-        self.files = FileController(self.window, self.store, self.photos, self.memory)
+        self.files = FileController(self.window, self.store, self.photos, self.preferences)
         self.learning = LearningPanes(
             self.window, self.store, self.photos, self.image, self.profile
         )
-        # What was before, and the comparison, go before the profile, which is drawn with them.
+        # The profile is last: it is drawn with the earlier results and the comparison.
         first = (self.image, self.learning, self.photo_wiring.comparison)
         views = (*first, self.profile, self.decode, self.accuracy)
         self.simulation.picture_ready.connect(self.image.show_picture)
@@ -147,7 +147,7 @@ class Application(QObject):
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.photo_wiring.matching.matched.connect(self._on_match)
         self.photo_wiring.matching.failed.connect(self._say_match_failure)
-        self.memory.changed.connect(self._list_recent)
+        self.preferences.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
 
     def _connect_menus(self) -> None:
@@ -176,14 +176,14 @@ class Application(QObject):
     def _connect_slider_strips(self) -> None:
         shown = self.window.actions_by_name["slider_strips"]
         shown.toggled.connect(self.slider_strips.set_shown)
-        shown.triggered.connect(self.memory.keep_slider_strips)
-        self.slider_strips.set_shown(self.memory.slider_strips)
-        shown.setChecked(self.memory.slider_strips)
+        shown.triggered.connect(self.preferences.keep_slider_strips)
+        self.slider_strips.set_shown(self.preferences.slider_strips)
+        shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that was asked for is shown."""
+        """Whether all requested results are shown."""
         return self.simulation.runner.is_idle and self.photo_wiring.is_idle and self.desktop.is_idle
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
@@ -194,7 +194,7 @@ class Application(QObject):
         path
             The file.
         match
-            Whether to match it and to put what is found into the scene.
+            Whether to match it and to apply the result to the scene.
         front
             Whether to bring its pane to the front.
         """
@@ -202,7 +202,7 @@ class Application(QObject):
         self.photos.open(path)
 
     def show_mode(self, mode: str) -> None:
-        """Show the photo beside the simulated picture or on it."""
+        """Show the photo beside the simulated picture or over it, by one of MODES."""
         self.image.set_mode(mode)
         self.window.menus.show_choice(self.window.menus.modes, mode)
 
@@ -226,11 +226,11 @@ class Application(QObject):
         self.controls.show_preset(self.presets.name_of(self.store.scene))
 
     def _list_recent(self) -> None:
-        memory, menus = self.memory, self.window.menus
-        menus.show_recent(memory.files, self.files.open_recent, memory.clear)
+        preferences, menus = self.preferences, self.window.menus
+        menus.show_recent(preferences.files, self.files.open_recent, preferences.clear)
 
     def _edit_tolerance(self, tolerance: float) -> None:
-        self.window.happened(_CHANGE)  # also where the value that holds is entered again
+        self.window.happened(_CHANGE)  # even if the value is the current one
         self.settings.set_tolerance(tolerance)
 
     def _show_settings(self, settings: SimulationSettings) -> None:
@@ -242,7 +242,7 @@ class Application(QObject):
         self._say_refusal(sentence)
 
     def _refuse(self, sentence: str) -> None:
-        # The control that asked shows what was asked for: let it show again what holds.
+        # The control still shows the refused value.
         self.controls.show_scene(self.store.scene)
         self._say_refusal(sentence)
 
@@ -261,7 +261,7 @@ class Application(QObject):
         self.window.say(sentence, until=_MATCH)
 
     def _say_refusal(self, sentence: str) -> None:
-        self.window.say(spoken(sentence), until=_CHANGE)
+        self.window.say(with_labels(sentence), until=_CHANGE)
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.window.happened(_PICTURE)
@@ -292,12 +292,12 @@ class Application(QObject):
             self.tr("About"),
             self.tr(
                 "Optical Camera Communication {version}\n\nSimulates the pictures that a rolling-"
-                "shutter camera takes of a blinking LED panel, and reads the code from them."
+                "shutter camera takes of a blinking LED panel, and decodes the code in them."
             ).format(version=occ.__version__),
         )
 
     def stop(self) -> None:
-        """Let the work in the background end."""
+        """Stop all work in the background."""
         self.simulation.stop()
         self.study.stop()
         self.photo_wiring.stop()

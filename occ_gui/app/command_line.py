@@ -1,4 +1,4 @@
-"""``occ-gui``: read the command line and open the window."""
+"""Command line of ``occ-gui``: parse the options and open the window."""
 
 import argparse
 import gc
@@ -33,41 +33,41 @@ if TYPE_CHECKING:
     from occ_gui.app.application import Application
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
-"""Environment variables one of which says where a window can be drawn."""
+"""Environment variables, one of which names the display."""
 
 PANES = (
     "controls", "decode", "photo", "profile", "accuracy", "map",
     "equations", "compare", "explorations",
 )  # fmt: skip
-"""The docks, by their names in the window."""
+"""Names of the panes."""
 
 OVERLAYS = ("beside", "blend", "split", "difference")
-"""How a photo can be shown with the simulated picture."""
+"""Ways to show a photo with the simulated picture."""
 
 THEMES = ("system", "light", "dark")
-"""Whose colours the window takes."""
+"""Names of the colour themes."""
 
 _NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
 _TURN_MS = 200
 
 _TURN_S = 0.001
-"""How long a thread may keep the others waiting."""
+"""Time slice of a thread while others wait."""
 
 _LARGEST_SIDE = 16384
-"""Pixels of a window's side; a larger one could not be drawn."""
+"""Pixels of a side of the window; a larger window cannot be drawn."""
 
 _PATIENCE_MS = 60_000
-"""How long a screenshot waits for the picture before it gives up."""
+"""Longest time that a screenshot waits for the picture."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the application; return the process's exit code.
+    """Run the application and return its exit code.
 
     Parameters
     ----------
     arguments
-        The command line's words; by default those of this process, which is the window's then.
+        The words of the command line; by default those of this process.
     """
     is_process = arguments is None
     work = partial(read_command_line, arguments)
@@ -75,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
-    """Read a command line; give what opens the window that it asks for."""
+    """Parse a command line; return the function that opens the window."""
     return partial(_start_and_run, _parser().parse_args(arguments))
 
 
@@ -92,11 +92,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
     add_simulation_options(parser)
-    # Noise that keeps up with a slider, and a preset that wins over the last session if named.
+    # Noise that is fast enough for sliders; a preset that is named precedes the last session.
     parser.set_defaults(noise="reused", preset=DefaultOption(DEFAULT_PRESET))
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
-        "--match", action="store_true", help="match the photo, and let the scene follow it"
+        "--match", action="store_true", help="match the photo and apply the result to the scene"
     )
     parser.add_argument(
         "--overlay", choices=OVERLAYS, default=OVERLAYS[0],
@@ -129,7 +129,7 @@ def _size(text: str) -> tuple[int, int]:
 
 def _run(options: argparse.Namespace, begin: Start) -> int:
     _prepare(options)
-    qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.memory)
+    qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.preferences)
     begin.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.desktop.theme.choose(options.theme)
@@ -149,7 +149,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
 
 
 def _prepare(options: argparse.Namespace) -> None:
-    """Refuse what cannot be, before there is a window."""
+    """Check the options before a window is opened."""
     if options.match and not options.photo:
         raise occ.OccError("--match needs a photo; name one with --photo.")
     if options.screenshot:
@@ -157,7 +157,7 @@ def _prepare(options: argparse.Namespace) -> None:
             raise occ.OutputError(
                 f"{one_line(str(options.screenshot))}: a screenshot is a .png file; name one."
             )
-        # It imports all commands, which a window has no use for.
+        # Imported here because it imports all commands, which no window needs.
         from occ_model.commands.files import check_files
 
         check_files(options)
@@ -172,7 +172,7 @@ def _close_on_interrupt(application: "Application") -> None:
     from PySide6.QtCore import QTimer
 
     signal.signal(signal.SIGINT, lambda *_: application.window.close())
-    # Python sees to signals only when it gets a turn, which Qt gives it for this.
+    # Python handles signals only while it runs: this timer makes Qt call it.
     turns = QTimer(application)
     turns.timeout.connect(lambda: None)
     turns.start(_TURN_MS)
@@ -182,26 +182,26 @@ def start(
     scene: Scene,
     arguments: list[str],
     settings: SimulationSettings | None = None,
-    memory: "QSettings | None" = None,
+    preferences: "QSettings | None" = None,
 ) -> "tuple[QApplication, Application]":
-    """Put the application together, its window not yet shown.
+    """Create the application, with its window not shown yet.
 
     Parameters
     ----------
     scene
-        The scene to begin with.
+        The first scene.
     arguments
-        What Qt may read from the command line.
+        The command line for Qt.
     settings
-        How the scene is simulated at first, by default as suits a slider.
-    memory
-        What is remembered from one start to the next; by default nothing.
+        The first settings of the simulation; by default fast enough for sliders.
+    preferences
+        The stored preferences; by default nothing is stored.
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
-        # Qt would find out by itself, but say more about it than helps.
+        # Qt would print several lines about it.
         raise occ.OccError(_NO_DISPLAY)
-    gc.disable()  # from here on garbage is collected on this thread, when there is time for it
-    # Qt takes a quarter of a second to import: not for --help, nor for a mistyped preset.
+    gc.disable()  # from now on garbage is collected on this thread only
+    # Importing Qt takes a quarter of a second, which --help and a wrong preset do not need.
     from PySide6.QtCore import QLocale
     from PySide6.QtWidgets import QApplication
 
@@ -210,35 +210,35 @@ def start(
     from occ_gui.app.garbage_collection import GarbageCollector
     from occ_gui.scene.settings_store import FIRST_SETTINGS
 
-    # The threads that hand work to processes take turns with the window's: shorter ones suit both.
+    # Short time slices, because the threads that start processes delay that of the window.
     sys.setswitchinterval(_TURN_S)
     log_qt_messages(_end_without_display)
-    # Numbers are read and written in one way in the whole window, as in the files and sentences.
+    # Numbers have the same form in the whole window as in files and sentences.
     QLocale.setDefault(QLocale.c())
     qt = QApplication(arguments)
     log_qt_messages()
     garbage = GarbageCollector(qt)
-    application = Application(scene, settings or FIRST_SETTINGS, memory)
+    application = Application(scene, settings or FIRST_SETTINGS, preferences)
     garbage.spare()
     application.window.closing.connect(garbage.release)
     return qt, application
 
 
 def _end_without_display() -> NoReturn:
-    # A display that is named but does not answer: only Qt finds out, and it returns to nobody.
+    # The display is named but does not answer: Qt finds out, and would abort the process.
     say("occ-gui", _NO_DISPLAY)
     os._exit(EXIT_MISUSE)
 
 
 def wait_until_shown(application: "Application", measured: bool = False) -> None:
-    """Let the window work until all that was asked for is shown.
+    """Process events until all requested results are shown.
 
     Parameters
     ----------
     application
-        The window's.
+        The application.
     measured
-        Whether to wait for the detection map and the strips under the sliders, too.
+        Whether to wait also for the detection map and the strips under the sliders.
 
     Raises
     ------
@@ -253,16 +253,16 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     for controller in (application.simulation, application.photos, matching):
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
-    QTimer.singleShot(_PATIENCE_MS, application.window.update)  # wakes the loop in any case
-    QApplication.processEvents()  # what is about to begin is no rest
-    while not (rests := _is_idle(application, measured)) and not deadline.hasExpired():
-        # Waiting, not spinning: the worker needs the interpreter.
+    QTimer.singleShot(_PATIENCE_MS, application.window.update)  # ends the wait for events
+    QApplication.processEvents()  # work that is about to start makes the application busy
+    while not (is_done := _is_idle(application, measured)) and not deadline.hasExpired():
+        # Wait instead of polling: the worker needs the interpreter.
         QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
         if _is_idle(application, measured):
-            QApplication.processEvents()  # paints, and may set something going again
+            QApplication.processEvents()  # paints, which may start more work
     if failures:
         raise occ.OccError(failures[0])
-    if not rests:
+    if not is_done:
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 
 
@@ -272,7 +272,7 @@ def _is_idle(application: "Application", measured: bool) -> bool:
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:
-    """Write a picture of the window, once everything is shown."""
+    """Save a picture of the window once all results are shown."""
     from PySide6.QtCore import QBuffer, QIODevice
 
     try:

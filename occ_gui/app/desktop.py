@@ -1,4 +1,4 @@
-"""What makes the window a desktop program: export, session, theme, palette, shortcuts."""
+"""Desktop features of the window: export, session, layout, theme, command palette, shortcuts."""
 
 from pathlib import Path
 from typing import Protocol
@@ -15,7 +15,7 @@ from occ_gui.export.figures import Figures
 from occ_gui.files.autosave import Autosave
 from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
 from occ_gui.help.help_menu import HelpMenu
 from occ_gui.photo.wiring import PhotoWiring
@@ -29,8 +29,8 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.window.command_palette import CommandPalette, commands_of, shortcuts_of
 from occ_gui.window.current_pane import CurrentPane
-from occ_gui.window.cursor_readout import Pointer
-from occ_gui.window.dock_layout import Layout
+from occ_gui.window.cursor_readout import CursorReadout
+from occ_gui.window.dock_layout import DockLayout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_gui.window.theme import ThemeController
@@ -44,13 +44,13 @@ _HOLD, _YES = "edit/hold_brightness", "yes"
 
 
 class Parts(Protocol):
-    """What of the application is put to use."""
+    """The parts of the application that the desktop features use."""
 
     window: MainWindow
     store: SceneStore
     editor: SceneEditor
     settings: SettingsStore
-    memory: Memory
+    preferences: Preferences
     files: FileController
     photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
@@ -62,11 +62,11 @@ class Parts(Protocol):
     accuracy: AccuracyView
 
     def show_mode(self, mode: str) -> None:
-        """Show the photo beside the simulated picture or on it."""
+        """Show the photo beside the simulated picture or over it."""
 
 
 class Desktop(QObject):
-    """The controllers of a desktop program, connected with the menu.
+    """The controllers of the desktop features, connected with the menus.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ class Desktop(QObject):
         super().__init__(parts.window)
         self._parts = parts
         self._photo: Path | None = None
-        window, memory = parts.window, parts.memory
+        window, preferences = parts.window, parts.preferences
         comparison = parts.photo_wiring.comparison.comparison
         self.figures = Figures(
             parts.settings, comparison, parts.profile, parts.accuracy.plot, tuple(DECODERS)
@@ -86,16 +86,18 @@ class Desktop(QObject):
         self.figures.add_map(lambda: parts.detection_map.map.full)
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)
-        self.export = ExportController(window, self.figures, memory, pane, parts.decode.decoder)
+        self.export = ExportController(
+            window, self.figures, preferences, pane, parts.decode.decoder
+        )
         self.export.connect_actions(window.menus.figures)
         self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name)
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
-        self.layout = Layout(window, window.docks, memory)
+        self.layout = DockLayout(window, window.docks, preferences)
         self.autosave = Autosave(parts.store, parts.settings, self.document, lambda: self._photo)
         self.error_reports = ErrorReports()
-        self.pointer = Pointer(
+        self.pointer = CursorReadout(
             parts.profile,
             {
                 self.tr("Simulation"): parts.image.simulation,
@@ -133,7 +135,7 @@ class Desktop(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all figures that were asked for are written."""
+        """Whether all requested figures have been written."""
         return self.export.is_idle
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
@@ -150,13 +152,13 @@ class Desktop(QObject):
         fresh
             Whether the window is to look as at its first start.
         """
-        memory = self._parts.memory
+        preferences = self._parts.preferences
         if not fresh:
             self.layout.restore()
-            self.theme.choose(memory.recall(_THEME))
-            if (mode := memory.recall(_OVERLAY)) in MODES:
+            self.theme.choose(preferences.recall(_THEME))
+            if (mode := preferences.recall(_OVERLAY)) in MODES:
                 self._parts.show_mode(mode)
-            self.brightness.switch(memory.recall(_HOLD) == _YES)
+            self.brightness.switch(preferences.recall(_HOLD) == _YES)
         self.autosave.resume(file, session, scene_wins)
 
     def _on_photo(self, photo: Photo | None) -> None:
@@ -169,25 +171,25 @@ class Desktop(QObject):
         self.theme.choose(action.data())
 
     def _on_theme(self, theme: str) -> None:
-        self._parts.memory.keep(_THEME, theme)
+        self._parts.preferences.keep(_THEME, theme)
         menus = self._parts.window.menus
         menus.show_choice(menus.themes, theme)
 
     def _on_hold(self, on: bool) -> None:
-        self._parts.memory.keep(_HOLD, _YES if on else "")
+        self._parts.preferences.keep(_HOLD, _YES if on else "")
         self._parts.window.actions_by_name["hold_brightness"].setChecked(on)
 
     def _reset_scene(self) -> None:
         self._parts.store.put(load_preset(DEFAULT_PRESET), self.tr("reset of the scene"))
 
     def show_shortcuts(self) -> None:
-        """Show all keys on one sheet."""
+        """Show the table of keyboard shortcuts."""
         sheet = ShortcutSheet(shortcuts_of(self._parts.window.menuBar()), self._parts.window)
         sheet.exec()
         sheet.deleteLater()
 
     def show_palette(self) -> None:
-        """Let the user find a command or a parameter by a few letters, and do it."""
+        """Show the command palette, and carry out the chosen command."""
         window = self._parts.window
         found = commands_of(window.menuBar(), self._parts.controls, window.bring_to_front)
         palette = CommandPalette(found, window)
@@ -197,13 +199,13 @@ class Desktop(QObject):
             chosen.run()
 
     def end(self) -> None:
-        """Keep what is to be there at the next start."""
+        """Store layout, options and session for the next start."""
         if self.autosave.is_kept:
             self.layout.keep()
-            self._parts.memory.keep(_OVERLAY, self._parts.image.mode.key())
+            self._parts.preferences.keep(_OVERLAY, self._parts.image.mode.key())
         self.autosave.end()
 
     def stop(self) -> None:
-        """Let the work in the background end."""
+        """Stop all work in the background."""
         self.export.stop()
         self.error_reports.remove()

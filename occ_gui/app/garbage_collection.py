@@ -1,46 +1,47 @@
-"""Python's cyclic garbage, collected on the window's thread only.
+"""Cyclic garbage collection on the window's thread only.
 
-Python collects on whichever thread happens to allocate. A worker that so destroys a widget waits
-for Qt's lock, which the window's thread may hold while it waits for the interpreter: for ever.
+By default Python collects on the thread that happens to allocate. If a worker thread so destroys a
+widget, it waits for Qt's lock, while the window's thread, which may hold that lock, waits for the
+interpreter: a deadlock.
 """
 
 import gc
 
 from PySide6.QtCore import QObject, QTimer
 
-_TURN_MS = 250
+_INTERVAL_MS = 250
 
 
 class GarbageCollector(QObject):
-    """Collects by Python's own rules, but only here and from time to time.
+    """Collects by Python's own thresholds, on this thread and at regular intervals.
 
     Parameters
     ----------
     parent
-        Its owner, which lives as long as the window.
+        The owner, which exists as long as the window.
     """
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         gc.disable()
-        self._turns = QTimer(self)
-        self._turns.timeout.connect(self.collect)
-        self._turns.start(_TURN_MS)
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self.collect)
+        self._timer.start(_INTERVAL_MS)
 
     def spare(self) -> None:
-        """Leave out of every collection, until the window closes, what is there now.
+        """Exclude the present objects from all collections until the window closes.
 
-        Modules and widgets stay as long as the window does: looking through them takes 40 ms.
+        Modules and widgets exist as long as the window; traversing them takes 40 ms.
         """
         gc.freeze()
 
     @staticmethod
     def release() -> None:
-        """Collect again what was spared, now that the window is closing."""
+        """Include the excluded objects again, when the window closes."""
         gc.unfreeze()
 
     def collect(self) -> None:
-        """Collect the oldest generation whose turn it is, if any's is."""
+        """Collect the oldest generation whose threshold is exceeded, if there is one."""
         counts, limits = gc.get_count(), gc.get_threshold()
         due = [old for old in range(3) if counts[old] > limits[old] > 0]
         if due:

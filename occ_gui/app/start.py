@@ -37,7 +37,7 @@ class Start:
         The first scene and the settings of its simulation.
     scene_asked
         Whether the command line names a scene, which takes precedence over the last session's.
-    memory
+    preferences
         The stored preferences; None where nothing is stored.
     session
         The last session.
@@ -50,7 +50,7 @@ class Start:
     scene: Scene
     settings: SimulationSettings
     scene_asked: bool
-    memory: "QSettings | None"
+    preferences: "QSettings | None"
     session: "Session"
     session_file: "SessionFile | None"
     fresh: bool
@@ -83,14 +83,14 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
     if options.screenshot:  # it does not depend on the last session
         return Start(scene, settings, asked, None, Session(), None, fresh=True)
-    memory = kept_settings()
+    preferences = kept_settings()
     session_file = SessionFile(state_folder(), NAMES)
     session = Session() if options.fresh else session_file.last
     if session.scene is not None and not asked:
         scene = session.scene
     if session.settings is not None and own:
         settings = session.settings
-    return Start(scene, settings, asked, memory, session, session_file, options.fresh)
+    return Start(scene, settings, asked, preferences, session, session_file, options.fresh)
 
 
 def kept_settings() -> "QSettings":

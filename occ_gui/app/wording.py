@@ -1,4 +1,4 @@
-"""Sentences of the model in the words of the window."""
+"""Wording of the model's sentences: labels in place of parameter names."""
 
 import re
 
@@ -6,11 +6,11 @@ from occ_model.scene.parameters import PARAMETERS
 
 _FIRST = re.compile(r"^[a-z]\w*")
 _INNER = re.compile(r"\b[a-z]+(?:_[a-z0-9]+)+\b")
-"""Names that are no words of the language: the others are left as they are."""
+"""Names with an underscore; a name without one could be an ordinary word, and is kept."""
 
 
-def spoken(sentence: str) -> str:
-    """Put the labels of parameters, which stand beside their fields, in place of their names."""
+def with_labels(sentence: str) -> str:
+    """Replace the names of parameters by the labels of their fields."""
 
     def first(found: re.Match[str]) -> str:
         declared = PARAMETERS.get(found[0])

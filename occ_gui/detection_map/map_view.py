@@ -18,7 +18,7 @@ from occ_gui.detection_map.map_legend import MapLegend
 from occ_gui.detection_map.map_plots import MapPlots
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
@@ -78,16 +78,16 @@ class MapView(QWidget):
 
     def _make_choices(self, decoders: Sequence[str]) -> None:
         names = {name: quantity(name).label for name in MAP_PARAMETERS}
-        self.across = WordChoice(
+        self.across = KeyedComboBox(
             self.tr("Horizontal axis"), self.tr("The parameter of the horizontal axis."), names
         )
-        self.up = WordChoice(
+        self.up = KeyedComboBox(
             self.tr("Vertical axis"), self.tr("The parameter of the vertical axis."), names
         )
         words = {"both": self.tr("all decoders"), **{name: name for name in decoders}}
         if len(decoders) > 1:
             words["difference"] = self.tr("difference")
-        self.what = WordChoice(
+        self.what = KeyedComboBox(
             self.tr("Decoders"), self.tr("The decoder whose success rates are shown."), words
         )
 

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.export.figures import Figures, NothingToDraw
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.window.current_pane import PICTURE, CurrentPane
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
@@ -29,7 +29,7 @@ class ExportController(QObject):
         The parent of the dialogs.
     figures
         The sources of the figures.
-    memory
+    preferences
         Stores the folder of the last export.
     current_pane
         The pane whose figure is copied.
@@ -44,14 +44,14 @@ class ExportController(QObject):
         self,
         window: QWidget | None,
         figures: Figures,
-        memory: Memory,
+        preferences: Preferences,
         current_pane: CurrentPane,
         shown_decoder: Callable[[], str],
     ) -> None:
         super().__init__(window)
         self._window = window
         self._figures = figures
-        self._memory = memory
+        self._preferences = preferences
         self.current_pane = current_pane
         self._shown_decoder = shown_decoder
         self._waiting: deque[ExportJob] = deque()
@@ -85,7 +85,7 @@ class ExportController(QObject):
         }
         title = self.tr("Export: {figure}").format(figure=self._figures.titles[name])
         chosen, kind = QFileDialog.getSaveFileName(
-            self._window, title, str(Path(self._memory.folder, f"{name}.png")),
+            self._window, title, str(Path(self._preferences.folder, f"{name}.png")),
             ";;".join(kinds.values()),
         )  # fmt: skip
         if not chosen:
@@ -105,7 +105,7 @@ class ExportController(QObject):
     def ask_for_folder(self) -> None:
         """Let the user choose the folder that all figures are written to."""
         folder = QFileDialog.getExistingDirectory(
-            self._window, self.tr("Export all figures into a folder"), self._memory.folder
+            self._window, self.tr("Export all figures into a folder"), self._preferences.folder
         )
         if folder:
             self.export_all(Path(folder))
@@ -158,14 +158,14 @@ class ExportController(QObject):
     def _tell(self, done: Exported) -> None:
         job = done.job
         if job.folder is not None:
-            self._memory.visit(job.folder / "figure")
+            self._preferences.visit(job.folder / "figure")
             message = self.tr("Exported {count} files into {folder}.").format(
                 count=len(done.files), folder=one_line(job.folder.name)
             )
             left_out = self.tr("Left out: {what}").format(what=self._left_out)
             self.status_message.emit(f"{message} {left_out}" if self._left_out else message)
         elif job.path is not None:
-            self._memory.visit(job.path)
+            self._preferences.visit(job.path)
             self.status_message.emit(
                 self.tr("Exported {name}").format(name=one_line(job.path.name))
             )

@@ -6,7 +6,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
@@ -57,7 +57,7 @@ class FileController(QObject):
         The scene.
     photos
         Opens photos.
-    memory
+    preferences
         Remembers files and folders.
     """
 
@@ -71,13 +71,13 @@ class FileController(QObject):
     """The scene file that the scene has been saved to."""
 
     def __init__(
-        self, window: QWidget, store: SceneStore, photos: PhotoController, memory: Memory
+        self, window: QWidget, store: SceneStore, photos: PhotoController, preferences: Preferences
     ) -> None:
         super().__init__(window)
         self._window = window
         self._store = store
         self._photos = photos
-        self._memory = memory
+        self._preferences = preferences
         self._snapshot: Snapshot | None = None
         photos.opened.connect(self._remember)
 
@@ -89,7 +89,7 @@ class FileController(QObject):
         """Let the user choose a photo and open it."""
         kinds = self.tr("Photos ({patterns});;All files (*)").format(patterns=_PHOTOS)
         name, _ = QFileDialog.getOpenFileName(
-            self._window, self.tr("Open photo"), self._memory.folder, kinds
+            self._window, self.tr("Open photo"), self._preferences.folder, kinds
         )
         if name:
             self.open_file(Path(name))
@@ -100,7 +100,7 @@ class FileController(QObject):
             patterns=" ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
         )
         name, _ = QFileDialog.getOpenFileName(
-            self._window, self.tr("Open scene"), self._memory.folder, kinds
+            self._window, self.tr("Open scene"), self._preferences.folder, kinds
         )
         if name:
             self.open_scene(Path(name))
@@ -117,7 +117,7 @@ class FileController(QObject):
         if _is_file(path):
             self.open_file(path)
             return
-        self._memory.drop(path)
+        self._preferences.drop(path)
         self.status_message.emit(
             self.tr("{path} is no longer there.").format(path=one_line(str(path)))
         )
@@ -158,7 +158,7 @@ class FileController(QObject):
     def open_scene(self, path: Path) -> None:
         """Open a scene file; a bad one leaves the scene as it is."""
         if self._put_scene(path):
-            self._memory.add(path)
+            self._preferences.add(path)
             if path.suffix.lower() != SCENE_ENDING:
                 # The file stays what it is: it is not what the scene is saved to.
                 message = self.tr("Opened the scene inside {name}")
@@ -190,7 +190,7 @@ class FileController(QObject):
         """Write the scene to a file."""
         scene = self._store.scene
         if self._save(path, lambda: write_scene_file(path, scene)):
-            self._memory.add(path)
+            self._preferences.add(path)
             self.scene_saved.emit(path)
 
     def ask_to_save_picture(self) -> None:
@@ -216,14 +216,14 @@ class FileController(QObject):
         except OccError as error:
             self.status_message.emit(str(error))
             return False
-        self._memory.visit(path)
+        self._preferences.visit(path)
         self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
         return True
 
     def _in_folder(self, name: str) -> str:
-        folder = self._memory.folder
+        folder = self._preferences.folder
         return str(Path(folder, name)) if folder else name
 
     def _remember(self, photo: Photo | None) -> None:
         if photo is not None and photo.path not in sample_photos():
-            self._memory.add(photo.path)
+            self._preferences.add(photo.path)

@@ -17,7 +17,7 @@ _LONGEST_PATH = 4096
 """Characters of a path that is recalled: no system takes a longer one."""
 
 
-class Memory(QObject):
+class Preferences(QObject):
     """The files that were opened last, the folder that they were in, and what is shown.
 
     Parameters

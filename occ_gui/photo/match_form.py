@@ -17,7 +17,7 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -53,7 +53,7 @@ class MatchForm(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._scene: Scene | None = None
-        self.sent = WordChoice(
+        self.sent = KeyedComboBox(
             self.tr("What was sent"),
             self.tr(
                 "What the LED in the photo sent: what the scene sends, a square wave of so many "
@@ -70,7 +70,7 @@ class MatchForm(QWidget):
         self.square = QuantityEdit(SQUARE_FREQUENCY)
         self.square.setAccessibleName(SQUARE_FREQUENCY.label)
         self.square.setToolTip(f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}")
-        self.estimate = WordChoice(
+        self.estimate = KeyedComboBox(
             self.tr("What is estimated"),
             self.tr(
                 "Stripes determine only the product of readout time (in µs) and switching "

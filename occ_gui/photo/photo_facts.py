@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.photo.reading.load import Photo
@@ -40,7 +40,7 @@ class PhotoFacts(QWidget):
             )
         )
         self.use_settings.clicked.connect(self.settings_asked)
-        self.channel = WordChoice(
+        self.channel = KeyedComboBox(
             self.tr("Channel"),
             self.tr("The colour channel searched for stripes; a grey photo has only one."),
             {
@@ -52,7 +52,7 @@ class PhotoFacts(QWidget):
             },
         )
         self.channel.chosen.connect(self.channel_chosen)
-        self.scan_axis = WordChoice(
+        self.scan_axis = KeyedComboBox(
             self.tr("Scanned"),
             self.tr(
                 "The direction in which the shutter scanned: by columns or by lines of the file; "

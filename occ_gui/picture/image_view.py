@@ -16,7 +16,7 @@ from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.picture.placement import Placement
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.keyed_combo_box import WordChoice
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.arrays import ByteArray
 from occ_model.photo.reading.load import Photo
 
@@ -56,7 +56,7 @@ class ImageView(QWidget):
         self._arrange()
 
     def _make_controls(self) -> None:
-        self.mode = WordChoice(
+        self.mode = KeyedComboBox(
             self.tr("How photo and simulation are shown"), self._mode_meanings(), self._mode_words()
         )
         # Its words must not be cut off: some begin alike.
@@ -69,7 +69,7 @@ class ImageView(QWidget):
         self.opacity.setAccessibleName(self.tr("Opacity of the photo"))
         self.opacity.setToolTip(self.tr("Opacity of the photo over the simulation, in percent."))
         self.opacity.valueChanged.connect(lambda percent: self.overlay.set_opacity(percent / 100))
-        self.gain = WordChoice(
+        self.gain = KeyedComboBox(
             self.tr("Factor of the difference"),
             self.tr(
                 "The factor by which the difference in grey levels is multiplied, up to white."

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
 
-class WordChoice(QComboBox):
+class KeyedComboBox(QComboBox):
     """Shows one of some words and tells which the user chooses.
 
     Parameters

@@ -1,1 +1,1 @@
-"""The main window: menus, docks, theme, and its commands by name."""
+"""Main window: menus, docks, colour theme and command palette."""

@@ -1,4 +1,4 @@
-"""What lies under the mouse, in words for the status line."""
+"""Cursor readout: column, row and grey level at the mouse, as a text for the status line."""
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Signal
@@ -8,9 +8,9 @@ from occ_gui.profile.profile_view import ProfileView
 
 
 class _Follower(QObject):
-    """Tells what lies under the mouse in one view, and of nothing once the mouse has left it."""
+    """Emits a text for each position of the mouse in a view, an empty one when it leaves."""
 
-    told = Signal(str)
+    changed = Signal(str)
 
     def __init__(self, view: pg.GraphicsView) -> None:
         super().__init__(view)
@@ -18,40 +18,40 @@ class _Follower(QObject):
         view.viewport().installEventFilter(self)
 
     def _move(self, point: QPointF) -> None:
-        self.told.emit(self.words(point))
+        self.changed.emit(self.text_at(point))
 
-    def words(self, point: QPointF) -> str:
-        """Say what lies at a point of the scene."""
+    def text_at(self, point: QPointF) -> str:
+        """Return the text for a point of the graphics scene."""
         raise NotImplementedError
 
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() == QEvent.Type.Leave:
-            self.told.emit("")
+            self.changed.emit("")
         return False
 
 
-class _OverPicture(_Follower):
-    def __init__(self, word: str, pane: PicturePane) -> None:
+class _PictureFollower(_Follower):
+    def __init__(self, title: str, pane: PicturePane) -> None:
         super().__init__(pane.graphics)
-        self._word, self._pane = word, pane
+        self._title, self._pane = title, pane
 
-    def words(self, point: QPointF) -> str:
+    def text_at(self, point: QPointF) -> str:
         place = self._pane.box.mapSceneToView(point)
         column, row = round(place.x()), round(place.y())
         level = self._pane.level_at(column, row)
         if level is None:
             return ""
         return self.tr("{picture}: column {column}, row {row}, level {level}").format(
-            picture=self._word, column=column, row=row, level=level
+            picture=self._title, column=column, row=row, level=level
         )
 
 
-class _OverProfile(_Follower):
+class _ProfileFollower(_Follower):
     def __init__(self, pane: ProfileView) -> None:
         super().__init__(pane.plot)
         self._pane = pane
 
-    def words(self, point: QPointF) -> str:
+    def text_at(self, point: QPointF) -> str:
         box = self._pane.plot.getViewBox()
         if not box.sceneBoundingRect().contains(point):
             return ""
@@ -64,22 +64,22 @@ class _OverProfile(_Follower):
         )
 
 
-class Pointer(QObject):
-    """Tells the position and the grey level under the mouse.
+class CursorReadout(QObject):
+    """Reports position and grey level under the mouse.
 
     Parameters
     ----------
     profile
         The pane of the column profile.
     pictures
-        The panes of pictures, by what they show.
+        The panes of pictures, by their titles.
     """
 
     moved = Signal(str)
-    """Where the mouse is and what is there; empty where there is nothing to tell."""
+    """Position and grey level as a text; empty outside of the panes."""
 
     def __init__(self, profile: ProfileView, pictures: dict[str, PicturePane]) -> None:
         super().__init__(profile)
-        over = [_OverPicture(word, pane) for word, pane in pictures.items()]
-        for follower in (_OverProfile(profile), *over):
-            follower.told.connect(self.moved)
+        followers = [_PictureFollower(title, pane) for title, pane in pictures.items()]
+        for follower in (_ProfileFollower(profile), *followers):
+            follower.changed.connect(self.moved)

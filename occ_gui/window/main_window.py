@@ -1,4 +1,4 @@
-"""The window: panes in docks, and the menus."""
+"""Main window: panes in docks, menus and status bar."""
 
 from pathlib import Path
 
@@ -22,19 +22,19 @@ from occ_gui.window.menus import Menus
 from occ_model.errors import one_line
 
 _FIRST_SIZE = QSize(1280, 800)
-_ROOM_BELOW = 3
+_HEIGHT_RATIO = 3
 _LEAST_DECODING = QSize(320, 300)
 
 
 class MainWindow(QMainWindow):
-    """Docks and menus; what they do is connected in :mod:`occ_gui.app.application`.
+    """Docks, menus and status bar; :mod:`occ_gui.app.application` connects them.
 
     Parameters
     ----------
     controls, image, profile, decode, photo, accuracy, detection
         The panes.
     undo_stack
-        The steps that the edit menu undoes.
+        The steps that the edit menu undoes and redoes.
     """
 
     closing = Signal()
@@ -44,7 +44,7 @@ class MainWindow(QMainWindow):
     """The panes have been laid out for the first time."""
 
     dropped = Signal(list)
-    """The paths of what was dropped on the window; none where nothing of it is a file."""
+    """The paths of the files that were dropped on the window; empty if none is a file."""
 
     def __init__(  # noqa: PLR0913, PLR0917 - one a pane
         self,
@@ -61,7 +61,7 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.setWindowTitle(self.tr("Optical Camera Communication"))
         self.setDockNestingEnabled(True)
-        self.setAnimated(False)  # each picture of a movement would draw all the plots
+        self.setAnimated(False)  # each step of an animation would redraw all plots
         self.setCentralWidget(image)
         self.docks = self._make_docks(controls, decode, photo, profile, accuracy, detection)
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
@@ -76,7 +76,7 @@ class MainWindow(QMainWindow):
         self._above: dict[str, QDockWidget] = {}
         self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.pointed, self._timing = QLabel(), QLabel()
-        self.statusBar().addWidget(self._plan_change, 1)  # seen while there is no message
+        self.statusBar().addWidget(self._plan_change, 1)  # visible while there is no message
         self.reading = WorkBar(self.tr("How much of the photo has been read"))
         self.statusBar().addPermanentWidget(self.reading)
         self.statusBar().addPermanentWidget(self.pointed)
@@ -107,7 +107,7 @@ class MainWindow(QMainWindow):
         self.tabifyDockWidget(docks["profile"], docks["accuracy"])
         self.tabifyDockWidget(docks["accuracy"], docks["map"])
         docks["profile"].raise_()
-        docks["photo"].hide()  # so that until it has its place it needs no room
+        docks["photo"].hide()  # until it shares a place it would need space of its own
         self.resizeDocks([docks["profile"]], [308], Qt.Orientation.Vertical)
         self.resizeDocks(
             [docks["controls"], docks["decode"]], [340, 360], Qt.Orientation.Horizontal
@@ -126,55 +126,55 @@ class MainWindow(QMainWindow):
     def add_pane(
         self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
     ) -> QDockWidget:
-        """Add a pane before the window is shown, and an entry of the view menu for it.
+        """Add a pane, and its entry in the view menu, before the window is shown.
 
         Parameters
         ----------
         name, title
-            Its name in the program and on the screen.
+            Its name in the program and its title on the screen.
         content
-            What it shows.
+            Its widget.
         behind
             The pane whose place it shares.
         below
-            Or the pane under which it appears when it is asked for.
+            Alternatively the pane under which it appears on demand.
         """
         place = self.docks[behind or below]
         dock = self._dock(name, title, content, self.dockWidgetArea(place))
         self.docks[name] = dock
-        dock.hide()  # so that until it has its place it needs no room
+        dock.hide()  # until it shares a place it would need space of its own
         if behind:
             self._behind[name] = behind
         else:
             self.splitDockWidget(place, dock, Qt.Orientation.Vertical)
-            dock.toggleViewAction().triggered.connect(lambda: self._give_room(dock, place))
+            dock.toggleViewAction().triggered.connect(lambda: self._set_height_below(dock, place))
             self._above[name] = place
         leave_drops_to_window(dock)
         self.menus.add_dock(dock)
         return dock
 
-    def _give_room(self, dock: QDockWidget, above: QDockWidget) -> None:
-        """Let a pane that appears under another one take a third of the window's height."""
-        wanted = self.height() // _ROOM_BELOW
+    def _set_height_below(self, dock: QDockWidget, above: QDockWidget) -> None:
+        """Give a pane that appears under another one a third of the window's height."""
+        wanted = self.height() // _HEIGHT_RATIO
         if dock.isVisible() and dock.height() < wanted:
             remainder = above.height() + dock.height() - wanted
             self.resizeDocks([above, dock], [remainder, wanted], Qt.Orientation.Vertical)
 
     def bring_to_front(self, name: str) -> None:
-        """Show a pane before those that share its place."""
+        """Show a pane in front of those that share its place."""
         dock = self.docks[name]
         if dock.isHidden() and name in self._above:
-            QTimer.singleShot(0, dock, lambda: self._give_room(dock, self._above[name]))
+            QTimer.singleShot(0, dock, lambda: self._set_height_below(dock, self._above[name]))
         dock.show()
-        # A window that has just been shown lays its panes out once more, in an order of its own.
+        # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, dock.raise_)
 
     def show_photo_name(self, name: str | None) -> None:
-        """Tell which photo is open, if any."""
+        """Show in the menus whether a photo is open."""
         self.menus.show_photo_open(name is not None)
 
     def show_timing(self, simulation: float, reading: float) -> None:
-        """Tell how many seconds the last simulation took, and the reading of its picture."""
+        """Show the computing times in seconds of the last simulation and its decoding."""
         self._timing.setText(
             self.tr("simulated in {simulation:.1f} ms, read in {reading:.1f} ms").format(
                 simulation=1e3 * simulation, reading=1e3 * reading
@@ -182,31 +182,31 @@ class MainWindow(QMainWindow):
         )
 
     def show_plan_change(self, sentence: str) -> None:
-        """Tell which effects the plan has just switched, while there is nothing else to say."""
+        """Show which effects the plan has switched, while there is no message."""
         self._plan_change.set_full_text(sentence)
 
     def say(self, sentence: str, until: str = "") -> None:
-        """Show a sentence in the status line, until the next one or until ``until`` has happened.
+        """Show a sentence in the status line.
 
         Parameters
         ----------
         sentence
             The sentence.
         until
-            What :meth:`happened` will be told of.
+            The event that removes it, which :meth:`happened` reports; by default the next sentence.
         """
         self._message_until = until
         self.statusBar().showMessage(one_line(sentence, LONGEST))
 
     def happened(self, what: str) -> None:
-        """Clear the sentence that was to be shown until this happened."""
+        """Remove the sentence that is shown until this event."""
         if self._message_until == what:
             self.statusBar().clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Put panes behind those that they share a place with, once these have been laid out."""
+        """Put panes behind those whose place they share, as soon as these have been arranged."""
         super().showEvent(event)
-        # Earlier, beside the other group, Qt would leave a bar of tabs behind that belongs to none.
+        # Done earlier, beside the other group, Qt would leave an unused tab bar behind.
         if not self._is_arranged:
             self._is_arranged = True
             for name, front in self._behind.items():
@@ -217,17 +217,17 @@ class MainWindow(QMainWindow):
             self.arranged.emit()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
-        """Take what may be files."""
+        """Accept what may be files."""
         if event.mimeData().hasUrls():
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
-        """Tell which files were dropped."""
+        """Emit the paths of the dropped files."""
         event.acceptProposedAction()
         urls = [url for url in event.mimeData().urls() if url.isLocalFile()]
         self.dropped.emit([Path(url.toLocalFile()) for url in urls])
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
-        """Tell before closing."""
+        """Emit a signal before the window closes."""
         self.closing.emit()
         super().closeEvent(event)

@@ -1,4 +1,4 @@
-"""All keys on one sheet."""
+"""Shortcut sheet: a table of all keyboard shortcuts."""
 
 from collections.abc import Iterable
 
@@ -18,12 +18,12 @@ _WIDTH, _HEIGHT = 560, 560
 
 
 class ShortcutSheet(QDialog):
-    """A table of keys and what they do.
+    """A dialog with the keyboard shortcuts and their commands.
 
     Parameters
     ----------
     rows
-        Menu, what is done, and the keys, line by line.
+        Menu, command and keys of each line.
     parent
         The window.
     """

@@ -227,7 +227,7 @@ def test_what_was_opened_is_listed_at_the_next_start(
     scene.write_text(small_scene.to_toml(), encoding="utf-8")
     listed = []
     for _ in range(2):
-        application = Application(small_scene, memory=settings)
+        application = Application(small_scene, preferences=settings)
         qtbot.addWidget(application.window)
         listed.append(entries(application.window.menus.recent)[:1])
         application.files.open_scene(scene)
@@ -243,7 +243,7 @@ def test_a_recent_file_that_has_gone_is_told_and_dropped(
     photo_file.unlink()
     application.window.menus.recent.actions()[0].trigger()
     assert user.message == f"{photo_file} is no longer there."
-    assert application.memory.files == ()
+    assert application.preferences.files == ()
 
 
 def test_a_photo_that_could_not_be_read_is_not_remembered(
@@ -251,7 +251,7 @@ def test_a_photo_that_could_not_be_read_is_not_remembered(
 ) -> None:
     application.open_photo(tmp_path / "missing.png")
     user.wait_until_idle()
-    assert application.memory.files == ()
+    assert application.preferences.files == ()
 
 
 def test_a_dropped_photo_and_scene_are_opened(
@@ -313,7 +313,7 @@ def test_a_sample_is_opened_with_its_scene_and_not_remembered(
     user.wait_until_idle()
     assert application.store.scene == camera_scene
     assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
-    assert application.memory.files == ()
+    assert application.preferences.files == ()
 
 
 def test_without_samples_none_are_offered(

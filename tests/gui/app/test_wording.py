@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_gui.app.wording import spoken
+from occ_gui.app.wording import with_labels
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import PARAMETERS, quantity
 
@@ -12,7 +12,7 @@ def test_a_value_out_of_range_is_told_by_its_label(name: str) -> None:
     declared = quantity(name)
     with pytest.raises(ParameterError) as caught:
         declared.check(1e30)
-    sentence = spoken(str(caught.value))
+    sentence = with_labels(str(caught.value))
     assert sentence.startswith(declared.label)
     assert declared.name not in sentence.replace(declared.label, "")
 
@@ -28,9 +28,9 @@ def test_a_value_out_of_range_is_told_by_its_label(name: str) -> None:
     ],
 )
 def test_only_names_of_parameters_are_replaced(sentence: str, messages: str) -> None:
-    assert spoken(sentence) == messages
+    assert with_labels(sentence) == messages
 
 
 def test_no_label_is_a_name_itself() -> None:
     for declared in PARAMETERS.values():
-        assert spoken(declared.label) == declared.label
+        assert with_labels(declared.label) == declared.label

@@ -17,7 +17,7 @@ from occ_gui.detection_map import slider_strip_controller as module
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -162,7 +162,7 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
         return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
 
     kept = settings()
-    application = Application(small_scene, memory=kept)
+    application = Application(small_scene, preferences=kept)
     application.window.show()
     strips = application.slider_strips.strips.values()
     assert all(strip.isVisible() for strip in strips)
@@ -173,8 +173,8 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     application.window.close()
     application.window.deleteLater()
     kept.sync()
-    assert not Memory(settings()).slider_strips
-    assert Memory(None).slider_strips
+    assert not Preferences(settings()).slider_strips
+    assert Preferences(None).slider_strips
 
 
 def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:

@@ -17,7 +17,7 @@ from occ_gui.app.application import Application
 from occ_gui.explorations.exploration_controller import ExplorationController
 from occ_gui.explorations.exploration_view import ExplorationView
 from occ_gui.files.kept_file import LARGEST
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
@@ -146,9 +146,9 @@ def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
     kept = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
     kept.setValue("files/folder", folder)
     kept.setValue("files/recent", [folder, folder])
-    memory = Memory(kept)
-    assert memory.folder == ""
-    for path in (*memory.files, Path(folder)):
+    preferences = Preferences(kept)
+    assert preferences.folder == ""
+    for path in (*preferences.files, Path(folder)):
         application.files.open_recent(path)
         assert "no longer there" in application.window.statusBar().currentMessage()
         application.files.open_dropped([path])
@@ -162,8 +162,8 @@ def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path,
     keys = ("files/folder", "files/recent", "view/margins")
     sections = (f"[{key.split('/')[0]}]\n{key.split('/')[1]}={value}\n" for key in keys)
     path.write_text("".join(sections), "ascii")
-    memory = Memory(QSettings(str(path), QSettings.Format.IniFormat))
-    assert (memory.folder, memory.files, memory.slider_strips) == ("", (), True)
+    preferences = Preferences(QSettings(str(path), QSettings.Format.IniFormat))
+    assert (preferences.folder, preferences.files, preferences.slider_strips) == ("", (), True)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.files.file_controller import FileController
-from occ_gui.files.preferences import Memory
+from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
@@ -24,8 +24,8 @@ class Bench:
     def __init__(self, scene: Scene) -> None:
         self.store = SceneStore(scene)
         self.photos = PhotoController([])
-        self.memory = Memory()
-        self.files = FileController(None, self.store, self.photos, self.memory)  # type: ignore[arg-type]
+        self.preferences = Preferences()
+        self.files = FileController(None, self.store, self.photos, self.preferences)  # type: ignore[arg-type]
         self.status_message: list[str] = []
         self.files.status_message.connect(self.status_message.append)
 
@@ -233,9 +233,9 @@ def test_only_what_was_opened_or_saved_is_a_recent_file(
 ) -> None:
     bench.files.open_scene(tmp_path / "missing.toml")
     bench.files.save_scene(tmp_path / "missing" / "a.toml")
-    assert bench.memory.files == ()
+    assert bench.preferences.files == ()
     bench.files.save_scene(tmp_path / "a.toml")
-    assert bench.memory.files == (tmp_path / "a.toml",)
-    bench.memory.clear()
+    assert bench.preferences.files == (tmp_path / "a.toml",)
+    bench.preferences.clear()
     bench.files.open_scene(tmp_path / "a.toml")
-    assert bench.memory.files == (tmp_path / "a.toml",)
+    assert bench.preferences.files == (tmp_path / "a.toml",)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QSettings
 
-from occ_gui.files.preferences import MOST_RECENT, Memory
+from occ_gui.files.preferences import MOST_RECENT, Preferences
 
 
 @pytest.fixture
@@ -19,9 +19,9 @@ def settings(file: Path) -> QSettings:
 
 def remember(file: Path, *paths: Path) -> None:
     kept = settings(file)
-    memory = Memory(kept)
+    preferences = Preferences(kept)
     for path in paths:
-        memory.add(path)
+        preferences.add(path)
     kept.sync()
 
 
@@ -31,45 +31,45 @@ def test_what_was_opened_is_remembered_at_the_next_start_the_latest_first(
 ) -> None:
     paths = [tmp_path / f"{place}, ä.png" for place in range(count)]
     remember(file, *paths)
-    assert Memory(settings(file)).files == tuple(reversed(paths))
+    assert Preferences(settings(file)).files == tuple(reversed(paths))
 
 
 def test_a_file_that_is_opened_again_moves_to_the_front(tmp_path: Path) -> None:
-    memory = Memory()
+    preferences = Preferences()
     a, b = tmp_path / "a", tmp_path / "b"
     for path in (a, b, a):
-        memory.add(path)
-    assert memory.files == (a, b)
+        preferences.add(path)
+    assert preferences.files == (a, b)
 
 
 def test_only_so_many_are_remembered(tmp_path: Path) -> None:
-    memory = Memory()
+    preferences = Preferences()
     for place in range(MOST_RECENT + 3):
-        memory.add(tmp_path / str(place))
-    assert len(memory.files) == MOST_RECENT
-    assert memory.files[0].name == str(MOST_RECENT + 2)
+        preferences.add(tmp_path / str(place))
+    assert len(preferences.files) == MOST_RECENT
+    assert preferences.files[0].name == str(MOST_RECENT + 2)
 
 
 def test_every_change_is_told_and_nothing_else(tmp_path: Path) -> None:
-    memory, told = Memory(), []
-    memory.changed.connect(lambda: told.append(memory.files))
-    memory.add(tmp_path / "a")
-    memory.add(tmp_path / "a")
-    memory.drop(tmp_path / "b")
-    memory.visit(tmp_path / "c")
+    preferences, told = Preferences(), []
+    preferences.changed.connect(lambda: told.append(preferences.files))
+    preferences.add(tmp_path / "a")
+    preferences.add(tmp_path / "a")
+    preferences.drop(tmp_path / "b")
+    preferences.visit(tmp_path / "c")
     assert told == [(tmp_path / "a",)]
-    memory.drop(tmp_path / "a")
-    memory.clear()
+    preferences.drop(tmp_path / "a")
+    preferences.clear()
     assert told == [(tmp_path / "a",), ()]
 
 
 def test_a_dialog_begins_in_the_folder_of_the_last_file(file: Path, tmp_path: Path) -> None:
-    assert Memory(settings(file)).folder == ""
+    assert Preferences(settings(file)).folder == ""
     remember(file, tmp_path / "a.png")
-    memory = Memory(settings(file))
-    assert memory.folder == str(tmp_path)
-    memory.visit(tmp_path / "gone" / "a.png")
-    assert memory.folder == ""
+    preferences = Preferences(settings(file))
+    assert preferences.folder == str(tmp_path)
+    preferences.visit(tmp_path / "gone" / "a.png")
+    assert preferences.folder == ""
 
 
 @pytest.mark.parametrize(
@@ -80,19 +80,19 @@ def test_rubbish_is_ignored(file: Path, rubbish: object) -> None:
     kept.setValue("files/recent", rubbish)
     kept.setValue("files/folder", rubbish)
     kept.sync()
-    memory = Memory(settings(file))
-    assert memory.files == ()
-    assert memory.folder == ""
+    preferences = Preferences(settings(file))
+    assert preferences.files == ()
+    assert preferences.folder == ""
 
 
 def test_a_file_that_holds_no_settings_is_as_good_as_none(file: Path, tmp_path: Path) -> None:
     file.write_bytes(b"\x00\xff[[[=\n%%%")
-    memory = Memory(settings(file))
-    assert memory.files == ()
-    memory.add(tmp_path / "a")
-    assert memory.files == (tmp_path / "a",)
+    preferences = Preferences(settings(file))
+    assert preferences.files == ()
+    preferences.add(tmp_path / "a")
+    assert preferences.files == (tmp_path / "a",)
 
 
 def test_without_settings_nothing_is_kept(tmp_path: Path) -> None:
-    Memory().add(tmp_path / "a")
-    assert Memory().files == ()
+    Preferences().add(tmp_path / "a")
+    assert Preferences().files == ()

@@ -162,7 +162,7 @@ class Application(QObject):
             "save_match": self.presets.ask_to_save_match,
             "use_settings": self.photo_wiring.matching.use_notes,
             "fit": self.image.fit,
-            "about": self._tell_about,
+            "about": self._show_about,
         }.items():
             self.window.actions_by_name[name].triggered.connect(slot)
         menus = self.window.menus
@@ -286,7 +286,7 @@ class Application(QObject):
             self._match_next = False
             self.photo_wiring.matching.apply()
 
-    def _tell_about(self) -> None:
+    def _show_about(self) -> None:
         QMessageBox.about(
             self.window,
             self.tr("About"),

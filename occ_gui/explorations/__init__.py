@@ -1,1 +1,1 @@
-"""The guided explorations."""
+"""Guided explorations: scenes with questions, step by step."""

@@ -1,4 +1,4 @@
-"""Lead through the explorations: every step sets its scene and shows where to look."""
+"""Exploration controller: each step sets its scene, opens its photo and shows its pane."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -23,19 +23,19 @@ class ExplorationPane(Protocol):
     def list_explorations(
         self, found: Sequence[Exploration], reached: Mapping[str, int], failure: str
     ) -> None:
-        """Offer these, with the steps that were reached, or say why there are none."""
+        """List explorations with the steps reached, or the reason why there are none."""
 
     def show_step(self, exploration: Exploration, place: int) -> None:
         """Show a step of an exploration."""
 
 
 class ExplorationController(QObject):
-    """Goes from step to step and remembers, while the window is open, how far the user came.
+    """Goes from step to step, and keeps the steps reached while the window is open.
 
     Parameters
     ----------
     scenes
-        Takes the scene of a step.
+        The store of the scene.
     photos
         Opens the photo of a step.
     pane
@@ -43,10 +43,10 @@ class ExplorationController(QObject):
     """
 
     status_message = Signal(str)
-    """Why a step is not as it should be."""
+    """The reason why a step is incomplete."""
 
     pane_wanted = Signal(str)
-    """The name of the pane that a step is best seen in."""
+    """The name of the pane that a step refers to."""
 
     def __init__(self, scenes: SceneStore, photos: PhotoController, pane: ExplorationPane) -> None:
         super().__init__()
@@ -61,14 +61,14 @@ class ExplorationController(QObject):
         photos.opened.connect(self._note_photo)
 
     def set_seen(self, seen: bool) -> None:
-        """Read the explorations as soon as somebody wants to see them."""
+        """Read the explorations when their pane is first shown."""
         if seen and not self._all:
             failure = ""
             try:
                 self._all = explorations()
             except OccError as error:
                 failure = one_line(str(error), LONGEST)
-            except Exception as error:  # noqa: BLE001 - whatever is in them, the window works on
+            except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
                 failure = self.tr("The explorations cannot be read: {reason}.").format(
                     reason=reason
@@ -76,14 +76,14 @@ class ExplorationController(QObject):
             self._pane.list_explorations(self._all, {}, failure)
 
     def choose(self, name: str) -> None:
-        """Go on with an exploration where it was left."""
+        """Continue an exploration at the step reached."""
         for exploration in self._all:
             if exploration.name == name:
                 self._current = exploration
                 self._go(self._places.get(name, 0))
 
     def go(self, steps: int) -> None:
-        """Go on, or back, by some steps; beyond the last one to the list."""
+        """Go forward or back by some steps; after the last one return to the list."""
         if self._current is None:
             return
         name, count = self._current.name, len(self._current.steps)
@@ -96,12 +96,12 @@ class ExplorationController(QObject):
         self.leave()
 
     def leave(self) -> None:
-        """Go back to the list; the step stays where it is."""
+        """Return to the list; the step reached is kept."""
         self._current = None
         self._pane.list_explorations(self._all, self._places | self._done, "")
 
     def set_again(self) -> None:
-        """Set the scene of the step again, whatever has been changed in it."""
+        """Set the scene of the step again, undoing all changes to it."""
         if self._current is not None:
             self._set(self._current, self._places[self._current.name])
 
@@ -134,7 +134,7 @@ class ExplorationController(QObject):
         elif wanted is not None and wanted != self._open:
             self._photos.open(wanted)
         elif not step.photo and self._open in samples.values():
-            self._photos.close()  # a photo of the user's own stays
+            self._photos.close()  # but not a photo of the user's
 
     def _note_photo(self, photo: Photo | None) -> None:
         self._open = None if photo is None else photo.path

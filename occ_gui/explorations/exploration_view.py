@@ -1,4 +1,4 @@
-"""Guided explorations: a list of them, and one step with its question and answer."""
+"""Exploration pane: the list of explorations, or one step with its question and answer."""
 
 import html
 import re
@@ -26,17 +26,17 @@ _LEFT = "text-align: left; padding: 4px 8px;"
 _WANTED_HEIGHT = 320
 
 _LEAST = QSize(200, 160)
-"""Pixels: the list of explorations, and a question with its text, in view as far as they can be."""
+"""Smallest size in pixels: then the list, or a question with its text, scrolls."""
 
 
 class ExplorationView(QWidget):
-    """The explorations that there are, or the step that is being worked on."""
+    """The list of explorations, or the current step of one."""
 
     chosen = Signal(str)
-    """The name of an exploration to go on with."""
+    """The name of the exploration to continue."""
 
     moved = Signal(int)
-    """By how many steps to go on; a negative number goes back."""
+    """The number of steps to go forward; negative to go back."""
 
     list_asked = Signal()
     again_asked = Signal()
@@ -118,7 +118,7 @@ class ExplorationView(QWidget):
     def list_explorations(
         self, found: Sequence[Exploration], reached: Mapping[str, int], failure: str
     ) -> None:
-        """Offer these, with the steps that were reached, or say why there are none."""
+        """List explorations with the steps reached, or the reason why there are none."""
         self._invitation.setText(
             _set(failure)
             or self.tr(
@@ -151,7 +151,7 @@ class ExplorationView(QWidget):
         return button
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme: a button with a style of its own keeps the colours it began with."""
+        """Follow the theme: a button with a style sheet keeps its first colours."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             for button in self.choices:
@@ -181,19 +181,19 @@ class ExplorationView(QWidget):
         self._scroll.ensureWidgetVisible(self.answer, 0, 4)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Ask for room for the list, or for a step with its question."""
+        """Return a size that fits the list, or a step with its question."""
         return QSize(super().sizeHint().width(), _WANTED_HEIGHT)
 
     def _show_answer(self, shown: bool) -> None:
         self.answer.setVisible(shown)
         self.reveal.setText(self.tr("Hide the answer") if shown else self.tr("Show the answer"))
         if shown:
-            # Once the page has made room for it.
+            # After the layout has changed.
             QTimer.singleShot(0, self._scroll, self._show_end)
 
 
 def _set(text: str) -> str:
-    """Set indices, such as that of t_r, as indices."""
+    """Typeset indices such as that of t_r."""
     return _INDEX.sub(r"<i>\1</i><sub>\2</sub>", html.escape(text, quote=False))
 
 

@@ -58,7 +58,7 @@ class ExportController(QObject):
         self._left_out = ""
         # A function that looks export up at each call: tests replace it.
         self.runner: LatestWins[ExportJob, Exported] = LatestWins(lambda job: export(job), "export")
-        self.runner.finished.connect(self._tell)
+        self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
         self.runner.idle.connect(self._go_on)
 
@@ -155,7 +155,7 @@ class ExportController(QObject):
         if self._waiting and self.runner.is_idle:
             self.runner.submit(self._waiting.popleft())
 
-    def _tell(self, done: Exported) -> None:
+    def _report(self, done: Exported) -> None:
         job = done.job
         if job.folder is not None:
             self._preferences.visit(job.folder / "figure")

@@ -1,4 +1,4 @@
-"""Where files stand before all of them take their places; what a crash left there is removed."""
+"""Temporary folder of an export: its files are moved into place once all of them are written."""
 
 import re
 import shutil
@@ -17,16 +17,16 @@ _NAME = re.compile(re.escape(_PREFIX) + r"[a-z0-9_]{8}")
 
 @contextmanager
 def folder_aside(folder: Path) -> Iterator[Path]:
-    """Make a folder in a folder, locked beside it as long as it is there.
+    """Create a temporary folder in a folder, with a lock file beside it while it exists.
 
     Raises
     ------
     OSError
-        It cannot be made.
+        It cannot be created.
     """
     aside = folder / f"{_PREFIX}{token_hex(4)}"
     lock = _lock_of(aside)
-    is_locked = lock.tryLock(0)  # before there is anything that another process could remove
+    is_locked = lock.tryLock(0)  # before the folder exists, which another process could remove
     aside.mkdir()
     try:
         if not is_locked:
@@ -38,14 +38,14 @@ def folder_aside(folder: Path) -> Iterator[Path]:
 
 
 def remove_left_behind(folder: Path) -> None:
-    """Remove what processes have left in a folder that did not come to their end."""
+    """Remove the temporary folders of processes that crashed."""
     names = {path.name.removesuffix(".lock") for path in folder.glob(f"{_PREFIX}*")}
     for name in filter(_NAME.fullmatch, names):
         aside = folder / name
         if is_something_else(Path(f"{aside}.lock")):
             continue
         lock = _lock_of(aside)
-        if not lock.tryLock(0):  # of a process that is at work, here or on another computer
+        if not lock.tryLock(0):  # its process is running, here or on another computer
             continue
         if _holds_only_files(aside):
             shutil.rmtree(aside, ignore_errors=True)
@@ -54,12 +54,12 @@ def remove_left_behind(folder: Path) -> None:
 
 def _lock_of(aside: Path) -> QLockFile:
     lock = QLockFile(f"{aside}.lock")
-    lock.setStaleLockTime(0)  # only that of a process that is gone is broken
+    lock.setStaleLockTime(0)  # never stale by age, only if its process has ended
     return lock
 
 
 def _holds_only_files(path: Path) -> bool:
-    """Say whether it is a folder as an export makes it, and nothing of anybody else's."""
+    """Return whether a path is a folder of regular files only, as an export creates it."""
     try:
         is_folder = path.is_dir() and not path.is_symlink()
         return is_folder and all(

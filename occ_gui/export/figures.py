@@ -1,4 +1,4 @@
-"""What of the window can be drawn for print, as it is at the moment."""
+"""Figures: the panes that can be exported, with the data that they show at the moment."""
 
 from collections.abc import Callable, Mapping
 from datetime import datetime
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
 
 
-class NothingToDraw(OccError):  # noqa: N818 - no error: it is only too early
-    """There is nothing yet that a figure could show."""
+class NothingToDraw(OccError):  # noqa: N818 - not an error: the data are not complete yet
+    """There are no data yet for a figure."""
 
 
 class ProfilePane(Protocol):
     """The pane of the column profile."""
 
     def columns_in_view(self) -> tuple[int, int]:
-        """Give the first column that is seen, and the one behind the last."""
+        """Return the first visible column and the one after the last."""
 
 
 class AccuracyPane(Protocol):
@@ -38,24 +38,24 @@ class AccuracyPane(Protocol):
 
     @property
     def measured(self) -> tuple[AccuracyPoint, ...]:
-        """All points of the scene as it is; none while they are not complete."""
+        """All points of the current scene; empty while they are not complete."""
 
 
 Source = Callable[[], FigureRequest]
-"""Gives what a figure is drawn from, or raises NothingToDraw."""
+"""Returns the request for a figure, or raises NothingToDraw."""
 
 
 class Figures(QObject):
-    """Knows what each figure is drawn from.
+    """The sources of all figures, by the figures' names.
 
     Parameters
     ----------
     settings
-        How the window simulates.
+        The store of the settings of the simulation.
     comparison
-        Gives the photo's profile beside the simulated one, if there is any.
+        Returns the comparison of the photo's profile with the simulated one, if there is one.
     profile, accuracy
-        The panes whose figures show what they show.
+        The panes that determine the content of their figures.
     decoders
         Names of the decoders.
     """
@@ -86,7 +86,7 @@ class Figures(QObject):
         self.add("accuracy", self.tr("Accuracy and time"), self._of_accuracy)
 
     def add_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> None:
-        """Let the detection map be drawn, too, which is given once all its points are known."""
+        """Add the figure of the detection map, which is available once all its points are known."""
         self.add("map", self.tr("Detection map"), partial(self._of_map, full))
 
     def _of_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> FigureRequest:
@@ -105,17 +105,17 @@ class Figures(QObject):
         return self.request(self._shown().frame.scene, draw)
 
     def add(self, name: str, title: str, source: Source) -> None:
-        """Let one more figure be drawn."""
+        """Add a figure."""
         self._sources[name] = source
         self.titles[name] = title
 
     @property
     def sources(self) -> Mapping[str, Source]:
-        """What gives the sketch of each figure, by the figures' names."""
+        """The sources of the figures, by their names."""
         return self._sources
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Draw these results from now on."""
+        """Use these results from now on."""
         self._snapshot = snapshot
 
     def show_photo(self, photo: Photo | None) -> None:
@@ -123,7 +123,7 @@ class Figures(QObject):
         self._photo = photo
 
     def request(self, scene: Scene, draw: "Callable[[], Drawing]") -> FigureRequest:
-        """Note what a figure shows, and when it was asked for."""
+        """Create the request for a figure, with the settings and the time of now."""
         now = datetime.now().astimezone().isoformat(timespec="seconds")
         return FigureRequest(scene, self._settings.settings, now, draw)
 

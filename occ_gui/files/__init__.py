@@ -1,1 +1,1 @@
-"""Scenes, presets and the session in files."""
+"""Files: scenes, presets, preferences and the session."""

@@ -1,4 +1,4 @@
-"""The scene as a file: saved again by one key, its name and a mark of changes in the title."""
+"""Document: the file of the scene, with its name and a mark for changes in the window's title."""
 
 from pathlib import Path
 
@@ -12,16 +12,16 @@ from occ_model.scene.scene import Scene
 
 
 class Document(QObject):
-    """Knows which file the scene is saved to, and whether it has changed since.
+    """The file that the scene is saved to, and whether the scene has changed since.
 
     Parameters
     ----------
     window
-        Whose title tells of it.
+        The window whose title shows it.
     store
-        The scene.
+        The store of the scene.
     files
-        Opens and saves it.
+        Opens and saves the scene.
     """
 
     def __init__(self, window: QWidget, store: SceneStore, files: FileController) -> None:
@@ -38,19 +38,27 @@ class Document(QObject):
         self._show_title()
 
     def save(self) -> None:
-        """Save the scene to its file; without one the user chooses."""
+        """Save the scene to its file; if it has none, let the user choose one."""
         if self.path is None:
             self._files.ask_to_save_scene()
         else:
             self._files.save_scene(self.path)
 
     def resume(self, path: Path, saved: Scene | None) -> None:
-        """Go on with a scene file as it was when it was saved last, None where it is no more."""
+        """Continue with the scene file of the last session.
+
+        Parameters
+        ----------
+        path
+            The file.
+        saved
+            The scene in it; None where it cannot be read.
+        """
         self.path, self._saved = path, saved
         self._show_title()
 
     def show_photo(self, name: str | None) -> None:
-        """Tell in the title which photo is open, too, if any."""
+        """Show the name of the open photo in the title, if any."""
         self._photo = name
         self._show_title()
 
@@ -60,7 +68,7 @@ class Document(QObject):
 
     def _show_title(self) -> None:
         title = self.tr("Optical Camera Communication")
-        # Work that has no name yet is kept without being saved: no mark asks for it.
+        # A scene without a file is stored by the autosave: no mark asks for saving it.
         scene = "" if self.path is None else f"{in_title(self.path.name)}[*]"
         names = [name for name in (in_title(self._photo or ""), scene) if name]
         self._window.setWindowTitle(" – ".join((*names, title)))  # noqa: RUF001 - a dash

@@ -1,4 +1,4 @@
-"""The file menu: dialogs, and reading and writing scenes, photos and pictures."""
+"""File controller: dialogs of the file menu; opens and saves scenes, photos and pictures."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -22,9 +22,9 @@ _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2"
 
 
 def _has_scene(path: Path) -> bool:
-    """Say whether a file is a scene, or a figure or table that carries one."""
+    """Return whether a file is a scene, or a figure or table that contains one."""
     ending = path.suffix.lower()
-    if ending != ".png":  # a photo can be one, none of the others
+    if ending != ".png":  # which can also be a photo
         return ending == SCENE_ENDING or ending in ENDINGS
     try:
         scene_inside(path)
@@ -34,7 +34,7 @@ def _has_scene(path: Path) -> bool:
 
 
 def _is_file(path: Path) -> bool:
-    """Say whether a path is a regular file; one that can be no path is none."""
+    """Return whether a path is a regular file; False for an invalid path."""
     try:
         return path.is_file()
     except (OSError, ValueError):
@@ -42,33 +42,33 @@ def _is_file(path: Path) -> bool:
 
 
 def sample_photos() -> list[Path]:
-    """List the photos that come with the program, by name."""
+    """List the sample photos of the program, sorted by name."""
     return sorted(resource_path("photos").glob("*.jpg"))
 
 
 class FileController(QObject):
-    """Does what the file menu says, and opens what is dropped on the window.
+    """Carries out the commands of the file menu, and opens files dropped on the window.
 
     Parameters
     ----------
     window
-        The window that dialogs belong to.
+        The parent of the dialogs.
     store
-        The scene.
+        The store of the scene.
     photos
         Opens photos.
     preferences
-        Remembers files and folders.
+        Stores the recent files and the folder.
     """
 
     status_message = Signal(str)
-    """What was done, or why it was not."""
+    """The outcome of a command."""
 
     scene_opened = Signal(Path)
-    """The scene file whose scene is the scene now."""
+    """The scene file that has been opened."""
 
     scene_saved = Signal(Path)
-    """The scene file that the scene has been saved to."""
+    """The file that the scene has been saved to."""
 
     def __init__(
         self, window: QWidget, store: SceneStore, photos: PhotoController, preferences: Preferences
@@ -82,7 +82,7 @@ class FileController(QObject):
         photos.opened.connect(self._remember)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Keep the picture that is on the screen, which is the one to save."""
+        """Keep the results that are shown, whose picture can be saved."""
         self._snapshot = snapshot
 
     def ask_for_photo(self) -> None:
@@ -106,14 +106,14 @@ class FileController(QObject):
             self.open_scene(Path(name))
 
     def open_file(self, path: Path) -> None:
-        """Open a scene file, an exported figure or a photo, whichever it is."""
+        """Open a scene file, an exported figure or a photo."""
         if _has_scene(path):
             self.open_scene(path)
         else:
             self._photos.open(path)
 
     def open_recent(self, path: Path) -> None:
-        """Open a file that was opened before; one that has gone is forgotten."""
+        """Open a recent file; remove it from the list if it no longer exists."""
         if _is_file(path):
             self.open_file(path)
             return
@@ -123,14 +123,14 @@ class FileController(QObject):
         )
 
     def open_sample(self, path: Path) -> None:
-        """Open a photo that comes with the program, with the scene that belongs to it."""
+        """Open a sample photo with its scene."""
         scene = path.with_suffix(SCENE_ENDING)
         if scene.is_file():
             self._put_scene(scene)
         self._photos.open(path)
 
     def open_dropped(self, paths: Sequence[Path]) -> None:
-        """Open the first scene and the first photo of what was dropped on the window."""
+        """Open the first scene and the first photo of the dropped files."""
         files = [path for path in paths if _is_file(path)]
         scenes = [path for path in files if _has_scene(path)]
         photos = [path for path in files if path not in scenes]
@@ -156,11 +156,11 @@ class FileController(QObject):
             )
 
     def open_scene(self, path: Path) -> None:
-        """Open a scene file; a bad one leaves the scene as it is."""
+        """Open a scene file; an invalid one leaves the scene unchanged."""
         if self._put_scene(path):
             self._preferences.add(path)
             if path.suffix.lower() != SCENE_ENDING:
-                # The file stays what it is: it is not what the scene is saved to.
+                # The scene is not saved to a figure or table.
                 message = self.tr("Opened the scene inside {name}")
             else:
                 message = self.tr("Opened {name}")
@@ -203,7 +203,7 @@ class FileController(QObject):
             self.save_picture(Path(name))
 
     def save_picture(self, path: Path) -> None:
-        """Write the picture on the screen to a file, at its full size."""
+        """Save the simulated picture at its full size."""
         if self._snapshot is None:
             self.status_message.emit(self.tr("There is no picture yet."))
             return

@@ -1,33 +1,33 @@
-"""What the window remembers from one start to the next."""
+"""Preferences: recent files, last folder and options, stored for the next start."""
 
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QSettings, Signal
 
 MOST_RECENT = 8
-"""Files that are remembered."""
+"""Most recent files in the list."""
 
 _FILES, _FOLDER = "files/recent", "files/folder"
 _MARGINS, _NO = "view/margins", "no"
 
 _LONGEST = 1_000_000
-"""Characters of a text that is recalled."""
+"""Most characters of a stored text."""
 
 _LONGEST_PATH = 4096
-"""Characters of a path that is recalled: no system takes a longer one."""
+"""Most characters of a stored path; no system allows longer ones."""
 
 
 class Preferences(QObject):
-    """The files that were opened last, the folder that they were in, and what is shown.
+    """The recent files, their last folder, and texts by their keys.
 
     Parameters
     ----------
     settings
-        Where it is kept; None to keep it only while the window is open.
+        Where they are stored; None to keep them only while the window is open.
     """
 
     changed = Signal()
-    """Other files are the recent ones now."""
+    """The list of recent files has changed."""
 
     def __init__(self, settings: QSettings | None = None) -> None:
         super().__init__()
@@ -38,12 +38,12 @@ class Preferences(QObject):
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The files that were opened last, the latest first."""
+        """The recent files, the latest first."""
         return self._files
 
     @property
     def folder(self) -> str:
-        """The folder that a dialog begins in, empty for the system's own choice."""
+        """The first folder of a dialog; empty for that of the system."""
         try:
             is_there = self._folder is not None and self._folder.is_dir()
         except OSError:  # such as a name that is too long for the file system
@@ -52,30 +52,30 @@ class Preferences(QObject):
 
     @property
     def slider_strips(self) -> bool:
-        """Whether strips under the sliders show how well a decoder would read."""
+        """Whether the strips under the sliders are shown."""
         return self._value(_MARGINS) != _NO
 
     def keep_slider_strips(self, shown: bool) -> None:
-        """Remember whether the strips are shown."""
+        """Store whether the strips are shown."""
         self._write(_MARGINS, "yes" if shown else _NO)
 
     def add(self, path: Path) -> None:
-        """Remember a file that was opened, and its folder."""
+        """Add an opened file to the recent files, and store its folder."""
         path = path.absolute()
         self.visit(path)
         others = (other for other in self._files if other != path)
         self._keep((path, *others)[:MOST_RECENT])
 
     def drop(self, path: Path) -> None:
-        """Forget a file."""
+        """Remove a file from the recent files."""
         self._keep(tuple(other for other in self._files if other != path))
 
     def clear(self) -> None:
-        """Forget all files."""
+        """Empty the list of recent files."""
         self._keep(())
 
     def visit(self, path: Path) -> None:
-        """Remember a file's folder only."""
+        """Store the folder of a file."""
         self._folder = path.absolute().parent
         self._write(_FOLDER, text_of(self._folder))
 
@@ -86,18 +86,18 @@ class Preferences(QObject):
             self.changed.emit()
 
     def recall(self, key: str) -> str:
-        """Give the text that was kept under a key; empty where there is none."""
+        """Return the text stored under a key; empty where there is none."""
         value = self._value(key)
         return value if isinstance(value, str) and len(value) <= _LONGEST else ""
 
     def keep(self, key: str, text: str) -> None:
-        """Remember a text."""
+        """Store a text under a key."""
         self._write(key, text)
 
     def _value(self, key: str) -> object:
         try:
             return None if self._settings is None else self._settings.value(key)
-        except RuntimeError:  # of a kind that is none of Python's
+        except RuntimeError:  # a type of Qt that Python cannot represent
             return None
 
     def _write(self, key: str, value: str | list[str]) -> None:
@@ -106,7 +106,7 @@ class Preferences(QObject):
 
 
 def text_of(path: Path) -> str:
-    """Write a path as it is remembered; empty where its name is no text, which Qt would change."""
+    """Return a path as a stored text; empty where it is not valid text, which Qt would change."""
     text = str(path)
     return text if text == text.encode("utf-8", "replace").decode("utf-8") else ""
 
@@ -116,7 +116,7 @@ def _can_be_path(text: str) -> bool:
 
 
 def _paths(value: object) -> tuple[Path, ...]:
-    """Read what was remembered, leaving out what is no path of a file."""
+    """Read stored paths; invalid ones are left out."""
     texts = value if isinstance(value, list) else [value]
     paths = [Path(text) for text in texts if isinstance(text, str) and _can_be_path(text)]
     absolute = [path for path in paths if path.is_absolute()]

@@ -1,4 +1,4 @@
-"""Presets: those of the program and the user's own, loaded, saved and deleted."""
+"""Preset controller: load, save and delete presets of the program and of the user."""
 
 import re
 
@@ -22,23 +22,23 @@ from occ_model.scene.scene import Scene
 
 
 class PresetController(QObject):
-    """Keeps the list of presets, and does what the user wants with them.
+    """Keeps the list of presets and carries out the commands for them.
 
     Parameters
     ----------
     window
-        The window that dialogs belong to.
+        The parent of the dialogs.
     store
-        Takes a preset's scene.
+        The store of the scene.
     matching
-        Gives what is to be saved.
+        Provides the result of a match that is to be saved.
     """
 
     status_message = Signal(str)
-    """What was done, or why it was not."""
+    """The outcome of a command."""
 
     changed = Signal()
-    """There are other presets now."""
+    """The list of presets has changed."""
 
     def __init__(self, window: QWidget, store: SceneStore, matching: MatchController) -> None:
         super().__init__(window)
@@ -48,34 +48,34 @@ class PresetController(QObject):
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
         self._read()
-        matching.saved.connect(self._tell_saved)
+        matching.saved.connect(self._report_saved)
 
     @property
     def titles(self) -> list[tuple[str, str]]:
-        """Names and titles of the presets: the program's first, then the user's own."""
+        """Names and titles of the presets: first those of the program, then those of the user."""
         return [(preset.name, preset.title) for preset in self._presets]
 
     @property
     def unreadable(self) -> list[tuple[str, str]]:
-        """Names of the user's own preset files that cannot be read, and why."""
+        """Names of the user's preset files that cannot be read, with the reasons."""
         return list(self._unreadable.items())
 
     def name_of(self, scene: Scene) -> str | None:
-        """Give the name of the preset that a scene is, None if it is none."""
+        """Return the name of the preset that equals a scene, None if there is none."""
         return next((p.name for p in self._presets if p.scene == scene), None)
 
     def load(self, name: str) -> None:
-        """Put a preset's scene in place of the scene, as one step."""
+        """Load the scene of a preset, as one step that can be undone."""
         try:
             scene = preset_named(name).scene
-        except OccError as error:  # its file may have become anything meanwhile
+        except OccError as error:  # its file may have changed meanwhile
             self.status_message.emit(one_line(str(error), LONGEST))
             self._update()
             return
         self._store.put(scene, self.tr("preset {name}").format(name=name), new_gesture())
 
     def ask_to_save_match(self) -> None:
-        """Let the user name a preset, and save what the match found as it."""
+        """Let the user name a preset, and save the result of the match as it."""
         photo = self._matching.photo
         if photo is None or self._matching.match is None:
             self.status_message.emit(self.tr("There is no match yet that could be saved."))
@@ -92,7 +92,7 @@ class PresetController(QObject):
             self._matching.save(name, title)
 
     def ask_to_delete(self) -> None:
-        """Let the user choose one of the own presets, and delete it."""
+        """Let the user choose one of the saved presets, and delete it."""
         own = [*user_presets(), *self._unreadable]
         if not own:
             self.status_message.emit(self.tr("There is no preset of your own."))
@@ -120,7 +120,7 @@ class PresetController(QObject):
         )
         return answer == QMessageBox.StandardButton.Yes
 
-    def _tell_saved(self, name: str) -> None:
+    def _report_saved(self, name: str) -> None:
         self._update()
         self.status_message.emit(self.tr("Saved the preset {name}").format(name=name))
 

@@ -1,1 +1,1 @@
-"""The scene that is shown, and the controls that change it."""
+"""Scene: the store of the current scene, and the controls that edit it."""

@@ -1,11 +1,11 @@
-"""Numbers for the user's gestures: what belongs to one gesture is undone as one step."""
+"""Gestures: changes of a control that belong together and are undone as one step."""
 
 from itertools import count
 
 from PySide6.QtCore import QElapsedTimer
 
 NO_GESTURE = -1
-"""A change that belongs to no gesture and is a step of its own."""
+"""The number of a change that is a step of its own."""
 
 _PAUSE_MS = 700
 """A longer pause between two changes of a control ends a gesture."""
@@ -14,14 +14,14 @@ _numbers = count()
 
 
 def new_gesture() -> int:
-    """Return a number that no gesture has had."""
+    """Return the number of a new gesture."""
     return next(_numbers)
 
 
 class Gestures:
-    """Tells which gesture each change of one control belongs to.
+    """Assigns the changes of one control to gestures.
 
-    Changes that follow each other quickly, as by keys, by arrows or by the wheel, are one gesture.
+    Changes in quick succession, as by keys, arrows or the wheel, are one gesture.
     """
 
     def __init__(self) -> None:
@@ -29,11 +29,11 @@ class Gestures:
         self._since_change = QElapsedTimer()
 
     def end(self) -> None:
-        """Let the next change begin a gesture, however soon it comes, as what is typed does."""
+        """Let the next change begin a new gesture, however soon it follows."""
         self._since_change.invalidate()
 
     def of_change(self, held: bool = False) -> int:
-        """Return the gesture of a change made now; no pause parts those made while held."""
+        """Return the gesture of a change made now; while held, a pause does not end a gesture."""
         goes_on = self._since_change.isValid() and (
             held or not self._since_change.hasExpired(_PAUSE_MS)
         )

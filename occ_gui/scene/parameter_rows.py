@@ -192,7 +192,7 @@ def row_for(declared: Parameter) -> ParameterRow:
 
 
 def explain(declared: Parameter) -> str:
-    """Write a declaration's meaning, symbol and range as a tooltip."""
+    """Return a tooltip with the label, symbol, meaning and range of a parameter."""
     symbol = f" ({declared.symbol})" if declared.symbol else ""
     return f"{declared.label}{symbol}\n{declared.meaning}\nAllowed: {declared.allowed}"
 

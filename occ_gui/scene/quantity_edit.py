@@ -1,4 +1,4 @@
-"""A field for a number with its unit, read as people write it."""
+"""Quantity field: a number with its unit, in the forms in which people write it."""
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
@@ -9,16 +9,16 @@ from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
 
 _STEP = 0.01
-"""Share of the slider's way that one step of the arrows goes."""
+"""Step of the arrows, as a fraction of the slider's range."""
 
 _WIDEST = "888.888 cd/m²"
 
 
 class QuantityEdit(QAbstractSpinBox):
-    """Shows a quantity with its unit; takes ``10 kHz``, ``68us``, ``1/8000 s`` or a plain number.
+    """Shows a quantity with its unit; accepts ``10 kHz``, ``68us``, ``1/8000 s`` or a number.
 
-    A plain number is taken in the unit that is shown. The value itself keeps every digit; only
-    what is shown is rounded.
+    A number without a unit is read in the unit shown. The value keeps all digits; only the text is
+    rounded.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class QuantityEdit(QAbstractSpinBox):
     """The value that the user entered, in SI units."""
 
     refused = Signal(str)
-    """Why what was entered is not taken; the field shows the last value again."""
+    """The reason why an input is not valid; the field shows the last value again."""
 
     def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -63,8 +63,8 @@ class QuantityEdit(QAbstractSpinBox):
         self._typed = True
 
     def take_typed(self) -> None:
-        """Take what has been typed so far, as leaving the field does."""
-        if not self._typed:  # leaving the field must not round the value to what is shown
+        """Accept the typed text, as leaving the field does."""
+        if not self._typed:  # leaving the field must not round the value
             return
         plain = self._quantity.unit.display(self._value)[1]
         try:
@@ -77,14 +77,14 @@ class QuantityEdit(QAbstractSpinBox):
         self.edited.emit(value)
 
     def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
-        """Move along the slider's scale, which is logarithmic where the slider is."""
-        self.take_typed()  # what has been typed so far counts
+        """Step along the slider's scale, linear or logarithmic."""
+        self.take_typed()  # the step starts from the typed value
         fraction = self._quantity.fraction(self._value) + steps * _STEP
         self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
         self.edited.emit(self._value)
 
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:  # noqa: N802 - Qt's name
-        """Allow steps as far as the slider goes."""
+        """Allow steps within the slider's range."""
         enabled = QAbstractSpinBox.StepEnabledFlag.StepNone
         low, high = self._quantity.slider
         if self._value > low:
@@ -94,14 +94,14 @@ class QuantityEdit(QAbstractSpinBox):
         return enabled
 
     def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
-        """Let everything be typed: what cannot be read is refused with a sentence, not a beep."""
+        """Allow any text to be typed; invalid text is refused with a sentence at the end."""
         return QValidator.State.Acceptable, text, position
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Make room for the widest value."""
+        """Return a size that fits the widest value."""
         width = self.fontMetrics().horizontalAdvance(_WIDEST) + 28
         return QSize(width, super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Never be so narrow that a value is cut off."""
+        """Return the same size, so that no value is cut off."""
         return self.sizeHint()

@@ -1,4 +1,4 @@
-"""How the window simulates its scene: one frozen value, changed in one place."""
+"""Settings store: the current settings of the simulation, an immutable value."""
 
 from dataclasses import replace
 
@@ -13,23 +13,23 @@ from occ_model.scene.simulation_settings import (
 )
 
 FIRST_SETTINGS = SimulationSettings(noise="reused")
-"""What the window begins with: noise that keeps up with a slider."""
+"""The first settings of the window, with noise that is fast enough for sliders."""
 
 
 class SettingsStore(QObject):
-    """Holds the simulation's settings and tells when they change.
+    """Stores the settings of the simulation and emits a signal when they change.
 
     Parameters
     ----------
     settings
-        The settings to begin with.
+        The first settings.
     """
 
     changed = Signal(object)
     """The new settings."""
 
     refused = Signal(str)
-    """Why a change was not made; the settings are as they were."""
+    """The reason why a change was not made; the settings are unchanged."""
 
     def __init__(self, settings: SimulationSettings = FIRST_SETTINGS) -> None:
         super().__init__()
@@ -37,26 +37,26 @@ class SettingsStore(QObject):
 
     @property
     def settings(self) -> SimulationSettings:
-        """The settings as they are now."""
+        """The current settings."""
         return self._settings
 
     def set_tolerance(self, tolerance: float) -> None:
-        """Change the tolerance; one that cannot be is refused with a sentence."""
+        """Change the tolerance; an invalid one is refused with a sentence."""
         try:
             self._put(replace(self._settings, tolerance=TOLERANCE.check(tolerance)))
         except OccError as error:
             self.refused.emit(str(error))
 
     def set_observable(self, observable: Observable) -> None:
-        """Say what the tolerance is of."""
+        """Change the observable whose error the tolerance limits."""
         self._put(replace(self._settings, observable=observable))
 
     def set_noise(self, noise: NoiseSource) -> None:
-        """Say where noise comes from."""
+        """Change the source of the noise."""
         self._put(replace(self._settings, noise=noise))
 
     def force(self, effect: str, included: bool | None) -> None:
-        """Switch an effect on or off by hand, or leave it to the plan (None)."""
+        """Switch an effect on or off, or leave it to the plan (None)."""
         others = {name: on for name, on in self._settings.force.items() if name != effect}
         by_hand = {} if included is None else {effect: included}
         self._put(replace(self._settings, force={**others, **by_hand}))

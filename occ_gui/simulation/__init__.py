@@ -1,1 +1,1 @@
-"""The scene simulated and decoded off the window's thread."""
+"""Simulation and decoding of the scene on a background thread."""

@@ -1,1 +1,1 @@
-"""Controls and small displays, made from parameter declarations."""
+"""Widgets and plot elements that several panes use."""

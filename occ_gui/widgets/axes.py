@@ -1,4 +1,4 @@
-"""Axes: one whose drawing cannot fail, and one over logarithms with numbers at powers of ten."""
+"""Plot axes: a linear one and a logarithmic one, whose drawing cannot raise an exception."""
 
 import math
 
@@ -8,18 +8,18 @@ from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
 
-_ROOM = {"left": 18.0, "bottom": 36.0}
-"""Pixels that a number needs along the axis."""
+_NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}
+"""Pixels that a number occupies along the axis."""
 
-_APART = 3.0
-"""Pixels between two ticks without a number, at least, where they stand at powers of ten."""
+_LEAST_SPACING = 3.0
+"""Least distance in pixels of ticks without numbers, where they stand at powers of ten."""
 
 _LARGEST_POWER = 300
-"""A larger power of ten is not written out, nor is a smaller one than one over it."""
+"""Powers of ten with a larger exponent, of either sign, are written as 1e+N."""
 
 
 class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
-    """An axis that stays empty where its range cannot be numbered."""
+    """A linear axis that stays empty where its range cannot be numbered."""
 
     @guarded
     def paint(
@@ -30,48 +30,48 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
 
 
 class LogAxis(Axis):
-    """An axis of decimal logarithms that shows what they are the logarithms of.
+    """An axis for decimal logarithms, labelled with the values themselves.
 
     Parameters
     ----------
     side
-        Where it stands, ``"left"`` or ``"bottom"``.
+        The side of the plot, ``"left"`` or ``"bottom"``.
     least
-        The power of ten at which all that is smaller is shown, too, if there is any.
+        The exponent at which all smaller values are drawn, too; it is labelled with ≤.
     """
 
     def __init__(self, side: str, least: int | None = None) -> None:
         super().__init__(side)
-        self._room = _ROOM[side]
+        self._number_length = _NUMBER_LENGTH[side]
         self._least = least
 
     def tickValues(  # noqa: N802 - pyqtgraph's name
         self, low: float, high: float, size: float
     ) -> list[tuple[float, list[float]]]:
-        """Give powers of ten whose numbers are not cut off nor too close, and what lies between."""
+        """Return the powers of ten whose numbers fit, and the ticks between them."""
         decades_a_pixel = (high - low) / max(size, 1.0)
-        step = max(1, math.ceil(self._room * decades_a_pixel))
-        edge = 0.4 * self._room * decades_a_pixel
+        step = max(1, math.ceil(self._number_length * decades_a_pixel))
+        edge = 0.4 * self._number_length * decades_a_pixel
         numbered = [
             float(power) for power in self._powers(low, high, step)
             if low + edge <= power <= high - edge
         ]  # fmt: skip
-        # As many as there are pixels for: a view can be zoomed to any number of decades.
-        powers = self._powers(low, high, max(1, math.ceil(_APART * decades_a_pixel)))
+        # Limited by the pixels: a view can be zoomed to any number of decades.
+        powers = self._powers(low, high, max(1, math.ceil(_LEAST_SPACING * decades_a_pixel)))
         digits = range(1, 10) if step == 1 else (1,)
         ticks = [power + math.log10(digit) for power in powers for digit in digits]
         between = [tick for tick in ticks if low <= tick <= high and tick not in numbered]
         return [(1.0, numbered), (0.1, between)]
 
     def _powers(self, low: float, high: float, step: int) -> range:
-        """Give every so many powers of ten round an interval, counted from the least one."""
+        """Return each ``step``-th exponent in an interval, counted from the least one."""
         first = math.floor(low)
         return range(first + ((self._least or 0) - first) % step, math.ceil(high) + 1, step)
 
     def tickStrings(  # noqa: N802 - pyqtgraph's name
         self, values: list[float], _scale: float, spacing: float
     ) -> list[str]:
-        """Write the powers of ten out."""
+        """Return the numbers of the ticks."""
         if spacing < 1.0:
             return [""] * len(values)
         signs = ["≤ " if value == self._least else "" for value in values]

@@ -1,16 +1,16 @@
-"""Colours that can be told from any background they are drawn on."""
+"""Contrast: colours that can be distinguished from their background, by WCAG 2.1."""
 
 from PySide6.QtGui import QColor, QPalette, QPen
 
 _CONTRAST = 4.5
-"""Of text to its background, as WCAG 2.1 asks for (success criterion 1.4.3)."""
+"""Least contrast of text to its background by WCAG 2.1 (success criterion 1.4.3)."""
 
 _LIGHTER = 108
-"""One step lighter, in percent."""
+"""Step of the lightness, in percent."""
 
 
 def luminance(colour: QColor) -> float:
-    """Give a colour's relative luminance, 0 to 1, by WCAG 2.1."""
+    """Return a colour's relative luminance, 0 to 1, by WCAG 2.1."""
     parts = (colour.redF(), colour.greenF(), colour.blueF())
     red, green, blue = (
         part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts
@@ -19,17 +19,17 @@ def luminance(colour: QColor) -> float:
 
 
 def contrast(one: QColor, other: QColor) -> float:
-    """Give the ratio of two colours' luminances, 1 to 21, by WCAG 2.1."""
+    """Return the contrast ratio of two colours, 1 to 21, by WCAG 2.1."""
     dark, light = sorted((luminance(one), luminance(other)))
     return (light + 0.05) / (dark + 0.05)
 
 
 def seen_on(palette: QPalette, colour: QColor) -> QColor:
-    """Lighten a colour until it can be read on a dark background; a light one takes it as it is."""
+    """Lighten a colour on a dark background to the least contrast; keep it on a light one."""
     paper = palette.color(QPalette.ColorRole.Base)
     ink = QColor(colour)
     while luminance(paper) < luminance(ink) < 1.0 and contrast(ink, paper) < _CONTRAST:
-        # Towards white, not along the scale of brightness, where blue comes to an end.
+        # By the lightness of HSL, towards white; the value of HSV ends at pure blue.
         ink = QColor.fromHslF(
             ink.hslHueF(), ink.hslSaturationF(), min(1.0, ink.lightnessF() * _LIGHTER / 100)
         )
@@ -37,7 +37,7 @@ def seen_on(palette: QPalette, colour: QColor) -> QColor:
 
 
 def pen_on(palette: QPalette, pen: QPen) -> QPen:
-    """Give a pen with a colour that can be seen on the palette's background."""
+    """Return a pen with a colour of sufficient contrast to the palette's background."""
     seen = QPen(pen)
     seen.setColor(seen_on(palette, pen.color()))
     return seen

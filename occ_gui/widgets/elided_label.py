@@ -1,4 +1,4 @@
-"""A label that ends a text too long for it in dots."""
+"""Elided label: a text that is too long is shortened by dots."""
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
@@ -9,14 +9,14 @@ from occ_model.errors import one_line
 
 
 class ElidedLabel(QLabel):
-    """Shows as much of a text as fits, all of it in the tooltip.
+    """Shows as much of a text as fits, and the whole text in the tooltip.
 
     Parameters
     ----------
     text
         The text.
     how
-        Where the dots stand.
+        The position of the dots.
     parent
         The parent widget.
     """
@@ -33,7 +33,7 @@ class ElidedLabel(QLabel):
         self.set_full_text(text)
 
     def set_full_text(self, text: str) -> None:
-        """Show a text, in one line."""
+        """Show a text in one line."""
         self._full = one_line(text, LONGEST)
         self.setToolTip(in_tool_tip(self._full))
         self._fit()
@@ -42,10 +42,10 @@ class ElidedLabel(QLabel):
         self.setText(self.fontMetrics().elidedText(self._full, self._how, self.width()))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show as much as fits now."""
+        """Fit the text to the new size."""
         super().resizeEvent(event)
         self._fit()
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Let the label become narrower than its text."""
+        """Return a width of zero: the label can be narrower than its text."""
         return QSize(0, super().minimumSizeHint().height())

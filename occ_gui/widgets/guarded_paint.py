@@ -1,4 +1,4 @@
-"""Drawing that fails leaves its place empty: an exception in it would end the program."""
+"""Guarded paint methods: an exception while painting is reported and does not end the program."""
 
 import sys
 from collections.abc import Callable
@@ -10,21 +10,21 @@ Paint = TypeVar("Paint", bound=Callable[..., None])
 
 
 def guarded(paint: Paint) -> Paint:
-    """Hand an exception of a drawing over as one that nobody has handled, and draw on.
+    """Report an exception of a paint method as an unhandled one, and continue.
 
     Parameters
     ----------
     paint
-        A method that Qt calls to draw, such as ``paint`` or ``paintEvent``.
+        A method that Qt calls, such as ``paint`` or ``paintEvent``.
     """
 
     @wraps(paint)
     def draw(*arguments: Any) -> None:
         try:
             paint(*arguments)
-        except Exception as error:  # noqa: BLE001 - what comes after Qt called is lost
+        except Exception as error:  # noqa: BLE001 - Qt cannot handle any
             sys.excepthook(type(error), error, error.__traceback__)
-            # A painter that is still at work when Qt goes on would end the program after all.
+            # A painter that is still active when Qt continues would end the program.
             clear_frames(error.__traceback__)
 
     return draw  # type: ignore[return-value]

@@ -1,4 +1,4 @@
-"""A choice among a few words, each standing for a key."""
+"""Keyed combo box: a choice among a few words, each with a key."""
 
 from collections.abc import Mapping
 
@@ -9,16 +9,16 @@ from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
 
 class KeyedComboBox(QComboBox):
-    """Shows one of some words and tells which the user chooses.
+    """A combo box that emits the key of the chosen word.
 
     Parameters
     ----------
     name
-        What is chosen, for those who do not see it.
+        The accessible name.
     meaning
-        What it means, as a tooltip.
+        The tooltip.
     words
-        The words, by the keys that they stand for.
+        The words by their keys.
     parent
         The parent widget.
     """
@@ -40,9 +40,9 @@ class KeyedComboBox(QComboBox):
         self.activated.connect(lambda: self.chosen.emit(self.key()))
 
     def key(self) -> str:
-        """Give the key of the word that is shown."""
+        """Return the key of the word shown."""
         return str(self.currentData())
 
     def show_key(self, key: str) -> None:
-        """Show the word that stands for a key, without telling of it."""
+        """Show the word of a key without emitting a signal."""
         self.setCurrentIndex(self.findData(key))

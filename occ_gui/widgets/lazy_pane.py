@@ -1,4 +1,4 @@
-"""A pane that is made when it is first seen."""
+"""Lazy pane: a pane whose content is created when it is first shown."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -8,16 +8,16 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from occ_gui.widgets.event_filters import leave_drops_to_window
 
 PaneContent: TypeAlias = tuple[QWidget, Callable[[bool], None]]
-"""What a pane shows, and whom to tell whether it can be seen."""
+"""The widget of a pane, and a function that receives whether the pane is visible."""
 
 
 class LazyPane(QWidget):
-    """Holds a pane's place until somebody looks there: the window opens so much sooner.
+    """An empty widget until it is first shown, which makes the window open faster.
 
     Parameters
     ----------
     make
-        Makes what the pane shows.
+        Creates the content.
     parent
         The parent widget.
     """
@@ -25,15 +25,15 @@ class LazyPane(QWidget):
     def __init__(self, make: Callable[[], PaneContent], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._make = make
-        self._tell: Callable[[bool], None] | None = None
+        self._set_visible: Callable[[bool], None] | None = None
         self._place = QVBoxLayout(self)
         self._place.setContentsMargins(0, 0, 0, 0)
 
     def set_seen(self, seen: bool) -> None:
-        """Say whether anybody can see the pane."""
-        if seen and self._tell is None:
-            content, self._tell = self._make()
+        """Set whether the pane is visible."""
+        if seen and self._set_visible is None:
+            content, self._set_visible = self._make()
             self._place.addWidget(content)
             leave_drops_to_window(self)
-        if self._tell is not None:
-            self._tell(seen)
+        if self._set_visible is not None:
+            self._set_visible(seen)

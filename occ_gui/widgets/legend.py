@@ -1,4 +1,4 @@
-"""A legend outside the plot, where no curve runs through it."""
+"""Legend beside a plot, where it does not cover any curve."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -13,7 +13,7 @@ from occ_gui.widgets.guarded_paint import guarded
 _LINE = QSize(24, 12)
 
 Drawing: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
-"""Draws a sample into a rectangle, in colours that suit a palette."""
+"""Draws a sample into a rectangle in the colours of a palette."""
 
 
 class LineLegend(QWidget):
@@ -41,7 +41,7 @@ class LineLegend(QWidget):
     def add_sample(
         self, key: str, draw: Drawing, size: QSize, text: str, meaning: str = ""
     ) -> None:
-        """Add an entry with a sample of its own; what it means is its tooltip."""
+        """Add an entry with a sample of its own; the meaning is its tooltip."""
         entry = QWidget()
         entry.setToolTip(meaning)
         layout = QHBoxLayout(entry)
@@ -57,7 +57,7 @@ class LineLegend(QWidget):
 
 
 class Sample(QWidget):
-    """What stands for a line or a point; drawn anew for every palette and scale of the screen."""
+    """The sample of a line or a point, which follows the palette and the scale of the screen."""
 
     def __init__(self, draw: Drawing, size: QSize, parent: QWidget | None = None) -> None:
         super().__init__(parent)

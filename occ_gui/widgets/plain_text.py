@@ -1,27 +1,27 @@
-"""Text from files is shown letter by letter, wherever Qt would read some of it as its own marks."""
+"""Plain text: text from files is shown literally, without markup or marks of Qt."""
 
 import html
 
-from PySide6.QtGui import Qt  # the part of it that knows rich text
+from PySide6.QtGui import Qt  # only this one has mightBeRichText
 
 from occ_model.errors import one_line
 
 LONGEST = 4000
-"""Characters of a text that are shown."""
+"""Most characters of a text that is shown."""
 
 
 def in_tool_tip(text: str) -> str:
-    """Write a text so that a tooltip or a message shows it as it is, never as rich text."""
+    """Escape a text for a tooltip or a message box, so that it is not read as rich text."""
     if not Qt.mightBeRichText(text):
         return text
     return f'<p style="white-space: pre">{html.escape(text)}</p>'
 
 
 def in_menu(text: str) -> str:
-    """Write a text so that a menu or a button shows it as it is: ``&`` marks no key."""
+    """Escape a text for a menu or a button, where ``&`` marks a shortcut."""
     return one_line(text).replace("&", "&&")
 
 
 def in_title(text: str) -> str:
-    """Write a text so that a window's title shows it as it is: ``[*]`` marks no change."""
+    """Escape a text for the title of a window, where ``[*]`` marks a change."""
     return one_line(text).replace("[*]", "[*][*]")

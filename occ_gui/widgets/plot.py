@@ -1,4 +1,4 @@
-"""How plots look: one place for their axes, pens and colours, and for how much is in view."""
+"""Plot widget: axes, pens, colours and limits of zooming that all plots share."""
 
 from collections.abc import Callable
 
@@ -20,30 +20,30 @@ THRESHOLD = QColor(colours.THRESHOLD)
 REGION = QColor(colours.REGION)
 NOISE = QColor(colours.NOISE)
 BEFORE = QColor("#8A8A8A")
-"""What was there before the latest change: grey, and so nothing else's colour."""
+"""Colour of the results before the last change: grey, which nothing else uses."""
 
 PACKETS_IN_VIEW = 2
-"""Packets that a plot over columns shows at first; the rest can be panned to."""
+"""Packets in the first view of a plot over columns."""
 
 _FARTHEST = 2e6
-"""Columns, levels or runs from zero that can be brought into view: twice the most columns."""
+"""Largest distance from zero in view, in columns, levels or runs: twice the most columns."""
 
 _LEAST_SPAN = 0.01
-"""Columns, levels or runs across which a plot can be zoomed in."""
+"""Smallest range in view, in columns, levels or runs."""
 
 _LEAST_HEIGHT = 86
 _NAMED_FROM = 76
-"""Pixels of height from which a plot has room for the name of its lower axis."""
+"""Least height in pixels of a plot that shows the name of its lower axis."""
 
 
 class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
-    """A plot that names its lower axis where it is high enough, and where that is wanted."""
+    """A plot whose lower axis has a name if the plot is high enough."""
 
     _is_named = False
     _dressed: tuple[Callable[[QPalette], None], ...] = ()
 
     def dress(self, palette: QPalette) -> None:
-        """Take the colours of a palette."""
+        """Apply the colours of a palette."""
         self.setBackground(palette.color(QPalette.ColorRole.Base))
         for side in ("bottom", "left"):
             axis = self.getAxis(side)
@@ -53,27 +53,27 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
             dress(palette)
 
     def dress_with(self, dress: Callable[[QPalette], None]) -> None:
-        """Give what is drawn in it the palette's colours, now and whenever they change."""
+        """Call a function with the palette, now and whenever it changes."""
         self._dressed = (*self._dressed, dress)
         dress(self.palette())
 
     def add_curve(self, pen: QPen) -> pg.PlotDataItem:
-        """Add a curve without points yet, in a colour that can be seen on any background."""
+        """Add an empty curve, in a colour with sufficient contrast to the background."""
         curve = self.plot(pen=pen)
         self.dress_with(lambda palette: curve.setPen(pen_on(palette, pen)))
         return curve
 
     def limit(self, side: str, farthest: float, least_span: float) -> None:
-        """Set how far a view goes, so that no turn of the wheel asks for what cannot be drawn.
+        """Limit panning and zooming to what can be drawn.
 
         Parameters
         ----------
         side
             The axis, ``"left"`` or ``"bottom"``.
         farthest
-            The distance from zero that can be brought into view, in the axis's unit.
+            The largest distance from zero in view, in the axis's unit.
         least_span
-            What the axis shows at least, in its unit.
+            The smallest range in view, in the axis's unit.
         """
         axis = "X" if side == "bottom" else "Y"
         ends = {f"{axis.lower()}Min": -farthest, f"{axis.lower()}Max": farthest}
@@ -86,14 +86,14 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
             self.dress(self.palette())
 
     def name_bottom(self, wanted: bool) -> None:
-        """Say whether the lower axis is to be named."""
+        """Set whether the lower axis has a name."""
         self._is_named = wanted
         self._show_name()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Name the axis if there is room for its name now."""
+        """Show the name of the lower axis if the plot is high enough."""
         super().resizeEvent(event)
-        if self._is_named and self.plotItem is not None:  # there is none once it is closed
+        if self._is_named and self.plotItem is not None:  # None once the plot is closed
             self._show_name()
 
     def _show_name(self) -> None:
@@ -101,15 +101,15 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
 
 
 def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
-    """Make a pen of width one: wider ones cost hundreds of milliseconds on a noisy curve."""
+    """Return a pen of width one: wider ones take hundreds of milliseconds on a noisy curve."""
     return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
 def marker(symbol: str, size: float, fill: QColor | None) -> Drawing:
-    """Draw a point as a plot does, for a legend: filled, or a ring in the colour of text."""
+    """Return the drawing of a plot's point for a legend: filled, or a ring in the text colour."""
 
     def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
-        ring = QPen(palette.color(QPalette.ColorRole.Text), 1.5 / size)  # scaled with the point
+        ring = QPen(palette.color(QPalette.ColorRole.Text), 1.5 / size)  # scaled below
         painter.setPen(ring if fill is None else pg.mkPen(None))
         painter.setBrush(pg.mkBrush(None if fill is None else seen_on(palette, fill)))
         painter.translate(place.center())
@@ -127,18 +127,18 @@ def new_plot(
     left: pg.AxisItem | None = None,
     bottom: pg.AxisItem | None = None,
 ) -> Plot:
-    """Make an empty plot that ranges itself only when told to.
+    """Create an empty plot without automatic ranging.
 
     Parameters
     ----------
     name
-        What it shows, for those who do not see it.
+        The accessible name.
     x, y
-        What the axes show.
+        The names of the axes.
     palette
-        Whose colours it takes.
+        The palette of its colours.
     left, bottom
-        The axes, where plain ones do not suit.
+        The axes; by default linear ones.
     """
     axes = {"left": left or Axis("left"), "bottom": bottom or Axis("bottom")}
     plot = Plot(axisItems=axes, enableMenu=False)
@@ -148,7 +148,7 @@ def new_plot(
     plot.dress(palette)
     plot.name_bottom(True)
     plot.setMinimumHeight(_LEAST_HEIGHT)
-    # As high as there is room for; what a plot would like by itself is out of all proportion.
+    # As high as its pane; the size hint of pyqtgraph is far too large.
     plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
     plot.hideButtons()
     for side in ("left", "bottom"):

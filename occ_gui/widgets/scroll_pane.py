@@ -1,4 +1,4 @@
-"""A pane that scrolls up and down where it is lower than what it shows."""
+"""Scroll pane: scrolls vertically where its content is higher."""
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
@@ -10,9 +10,9 @@ class ScrollPane(QScrollArea):
     Parameters
     ----------
     content
-        What is shown.
+        The content.
     least
-        The least size in pixels that the pane asks for.
+        The least size in pixels.
     parent
         The parent widget.
     """
@@ -26,7 +26,7 @@ class ScrollPane(QScrollArea):
         self.setWidget(content)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Give the least size that was asked for, or what the content needs of it."""
+        """Return the least size, or the smaller height of the content."""
         content = self.widget()
         least = self._least if content is None else content.minimumSizeHint()
         return QSize(self._least.width(), min(self._least.height(), least.height()))

@@ -1,4 +1,4 @@
-"""How far some work is, and a way out of it."""
+"""Work bar: the progress of some work, and a button that cancels it."""
 
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
@@ -7,16 +7,16 @@ _STEPS = 1000
 """Steps of the progress bar."""
 
 _PATIENCE_MS = 300
-"""Work that is done sooner is not told of: a bar that flashes up tells nothing."""
+"""Work that takes less time is not shown: the bar would only flash."""
 
 
 class WorkBar(QWidget):
-    """A progress bar and a button that cancels, hidden while there is no work.
+    """A progress bar and a cancel button, hidden while there is no work.
 
     Parameters
     ----------
     what
-        What the bar shows, for those who hear it.
+        The accessible name of the bar.
     parent
         The parent widget.
     """
@@ -43,16 +43,16 @@ class WorkBar(QWidget):
         self.hide()
 
     def begin(self) -> None:
-        """Show, unless it is done at once, that work has begun."""
+        """Show the bar, unless the work ends at once."""
         self.progress.setValue(0)
         if self.isHidden():
             self._patience.start()
 
     def show_progress(self, share: float) -> None:
-        """Show which share of the work is done, from 0 to 1."""
+        """Show the finished share of the work, from 0 to 1."""
         self.progress.setValue(round(_STEPS * share))
 
     def end(self) -> None:
-        """Show that there is no work any more."""
+        """Hide the bar."""
         self._patience.stop()
         self.hide()

@@ -33,7 +33,7 @@ class DockLayout(QObject):
         self._wanted = QByteArray()
 
     def restore(self) -> None:
-        """Put the window where it was last, and lay its docks out so once it is shown."""
+        """Restore the window's position and size, and the docks as soon as it is shown."""
         geometry, self._wanted = (
             _bytes(self._preferences.recall(key)) for key in (_GEOMETRY, _STATE)
         )

@@ -11,7 +11,7 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
-from occ_gui.app.wording import with_labels
+from occ_gui.app.status_messages import StatusMessages
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
@@ -36,9 +36,6 @@ from occ_model.receiver.decoders import DECODERS
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-
-# Events that end the display of a message in the status line.
-_CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
 
 
 class Application(QObject):
@@ -76,6 +73,7 @@ class Application(QObject):
             self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
         )  # fmt: skip
+        self.messages = StatusMessages(self.window)
         self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
         self.photos = self.photo_wiring.photos
         self.presets = PresetController(self.window, self.store, self.photo_wiring.matching)
@@ -110,43 +108,44 @@ class Application(QObject):
 
     def _connect_scene(self) -> None:
         self.controls.connect_editor(self.editor)
-        self.editor.edit_started.connect(self._on_edit)
-        self.editor.input_refused.connect(self._say_refusal)
+        self.editor.edit_started.connect(self.messages.end_refusal)
+        self.editor.input_refused.connect(self.messages.show_refusal)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
         self.presets.status_message.connect(self.window.say)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
-        self.simulation.failed.connect(self._say_failure)
+        self.simulation.failed.connect(self.messages.show_failure)
         self.files.status_message.connect(self.window.say)
-        self.learning.status_message.connect(self._say_refusal)
+        self.learning.status_message.connect(self.messages.show_refusal)
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
-        self.accuracy.tolerance_edited.connect(self._edit_tolerance)
+        self.accuracy.tolerance_edited.connect(self.messages.end_refusal)
+        self.accuracy.tolerance_edited.connect(self.settings.set_tolerance)
         self.accuracy.observable_chosen.connect(self.settings.set_observable)
         self.accuracy.noise_chosen.connect(self.settings.set_noise)
         self.accuracy.effect_switched.connect(self.settings.force)
-        self.accuracy.refused.connect(self._say_refusal)
+        self.accuracy.refused.connect(self.messages.show_refusal)
         self.accuracy.visibility_changed.connect(self.study.set_seen)
         self.accuracy.plan_changed.connect(self.window.show_plan_change)
         self.settings.changed.connect(self._show_settings)
         self.settings.refused.connect(self._refuse_setting)
 
     def _connect_photo(self) -> None:
-        self.photos.failed.connect(self._say_photo_failure)
+        self.photos.failed.connect(self._on_photo_failure)
         self.photos.opened.connect(self._on_photo)
         self.photos.begun.connect(self.window.reading.begin)
         self.photos.progressed.connect(self.window.reading.show_progress)
         self.photos.ended.connect(self.window.reading.end)
         self.window.reading.cancelled.connect(self._cancel_photo)
         self.photo.open_asked.connect(self.files.ask_for_photo)
-        self.photo.form.refused.connect(self._say_refusal)
+        self.photo.form.refused.connect(self.messages.show_refusal)
         self.photo.form.edited.connect(self.editor.edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.photo_wiring.matching.matched.connect(self._on_match)
-        self.photo_wiring.matching.failed.connect(self._say_match_failure)
+        self.photo_wiring.matching.failed.connect(self.messages.show_match_failure)
         self.preferences.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
 
@@ -213,11 +212,8 @@ class Application(QObject):
         self.window.bring_to_front("photo")
         self.photo_wiring.match()
 
-    def _on_edit(self) -> None:
-        self.window.happened(_CHANGE)
-
     def _show_scene(self, scene: Scene) -> None:
-        self.window.happened(_CHANGE)
+        self.messages.end_refusal()
         self.controls.show_scene(scene)
         self.controls.show_preset(self.presets.name_of(scene))
 
@@ -229,47 +225,33 @@ class Application(QObject):
         preferences, menus = self.preferences, self.window.menus
         menus.show_recent(preferences.files, self.files.open_recent, preferences.clear)
 
-    def _edit_tolerance(self, tolerance: float) -> None:
-        self.window.happened(_CHANGE)  # even if the value is the current one
-        self.settings.set_tolerance(tolerance)
-
     def _show_settings(self, settings: SimulationSettings) -> None:
-        self.window.happened(_CHANGE)
+        self.messages.end_refusal()
         self.accuracy.show_settings(settings)
 
     def _refuse_setting(self, sentence: str) -> None:
         self.accuracy.show_settings(self.settings.settings)
-        self._say_refusal(sentence)
+        self.messages.show_refusal(sentence)
 
     def _refuse(self, sentence: str) -> None:
         # The control still shows the refused value.
         self.controls.show_scene(self.store.scene)
-        self._say_refusal(sentence)
-
-    def _say_failure(self, sentence: str) -> None:
-        self.window.say(sentence, until=_PICTURE)
+        self.messages.show_refusal(sentence)
 
     def _cancel_photo(self) -> None:
         self._match_next = False
         self.photos.cancel()
 
-    def _say_photo_failure(self, sentence: str) -> None:
+    def _on_photo_failure(self, sentence: str) -> None:
         self._match_next = False
-        self.window.say(sentence, until=_PHOTO)
-
-    def _say_match_failure(self, sentence: str) -> None:
-        self.window.say(sentence, until=_MATCH)
-
-    def _say_refusal(self, sentence: str) -> None:
-        self.window.say(with_labels(sentence), until=_CHANGE)
+        self.messages.show_photo_failure(sentence)
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
-        self.window.happened(_PICTURE)
+        self.messages.end_failure()
         self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
 
     def _on_photo(self, photo: Photo | None) -> None:
-        self.window.happened(_PHOTO)
-        self.window.happened(_MATCH)
+        self.messages.end_photo_failure()
         self.window.show_photo_name(None if photo is None else photo.path.name)
         self.window.menus.show_match_found(False)
         path = None if photo is None else photo.path
@@ -280,7 +262,7 @@ class Application(QObject):
             self.photo_wiring.match()
 
     def _on_match(self, _match: Match) -> None:
-        self.window.happened(_MATCH)
+        self.messages.end_match_failure()
         self.window.menus.show_match_found(True)
         if self._match_next:
             self._match_next = False

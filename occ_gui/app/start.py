@@ -22,7 +22,7 @@ _NAMES = ("occ-explorer", "occ-gui")
 
 
 class DefaultOption(str):
-    """The default of an option, which can be told from the same value given by the user."""
+    """The default of an option, distinguishable from the same value given by the user."""
 
     __slots__ = ()
 

@@ -100,6 +100,9 @@ class Application(QObject):
         self._connect_photo()
         self._connect_menus()
         self._connect_slider_strips()
+        self._show_first(scene, settings)
+
+    def _show_first(self, scene: Scene, settings: SimulationSettings) -> None:
         self._list_presets()
         self._list_recent()
         self.window.menus.show_samples(sample_photos(), self.files.open_sample)

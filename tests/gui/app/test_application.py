@@ -1,4 +1,4 @@
-"""What the user does with the real widgets arrives in the scene, the picture and every view."""
+"""Input in the real widgets changes the scene, the picture and every pane."""
 
 import gc
 import math

@@ -1,4 +1,4 @@
-"""Photos and pictures, from the menu to the views and back to a file."""
+"""Photos, pictures and scenes: opened by the menu, shown in the panes, saved to files."""
 
 from pathlib import Path
 

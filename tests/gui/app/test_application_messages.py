@@ -1,4 +1,4 @@
-"""Mistakes are answered by a sentence in the status line, which goes when it no longer holds."""
+"""Invalid input is answered in the status line until the sentence no longer applies."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A photo from opening it to the scene that explains it, with the real widgets."""
+"""A photo in the window: opened, matched, applied to the scene, and placed by hand."""
 
 import threading
 from collections.abc import Callable
@@ -9,18 +9,16 @@ import numpy as np
 import pytest
 from gui.user import User
 from PIL import Image
-from PySide6.QtCore import QSettings
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.files import file_controller as files_room
 from occ_gui.picture.placement import Placement
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
-"""What the simulated photo was taken with."""
+"""Parameters of the simulated photo."""
 
 
 @pytest.fixture
@@ -189,139 +187,6 @@ def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
     user.wait_until_idle()
     readout = application.store.scene.camera.readout_time
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
-
-
-def entries(menu: QMenu) -> list[str]:
-    return [action.text() for action in menu.actions() if not action.isSeparator()]
-
-
-def test_files_that_were_opened_are_listed_and_opened_again(
-    application: Application, user: User, taken: Path, photo_file: Path, tmp_path: Path
-) -> None:
-    recent = application.window.menus.recent
-    assert not recent.isEnabled()
-    scene = tmp_path / "a&b.toml"
-    scene.write_text(Scene().to_toml(), encoding="utf-8")
-    for path in (taken, photo_file):
-        application.open_photo(path)
-        user.wait_until_idle()
-    application.files.open_scene(scene)
-    user.wait_until_idle()
-    assert entries(recent) == ["a&&b.toml", "stripes.png", "taken.png", "&Clear this list"]
-    application.store.change(iso=321.0)
-    for place, text in ((0, "a&&b.toml"), (2, "taken.png")):
-        assert entries(recent)[place] == text
-        recent.actions()[place].trigger()
-        user.wait_until_idle()
-    assert application.store.scene == Scene()
-    assert application.window.windowTitle().startswith("taken.png")
-    user.choose("&Clear this list")
-    assert not recent.isEnabled()
-
-
-def test_what_was_opened_is_listed_at_the_next_start(
-    qtbot: QtBot, small_scene: Scene, tmp_path: Path
-) -> None:
-    settings = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
-    scene = tmp_path / "mine.toml"
-    scene.write_text(small_scene.to_toml(), encoding="utf-8")
-    listed = []
-    for _ in range(2):
-        application = Application(small_scene, preferences=settings)
-        qtbot.addWidget(application.window)
-        listed.append(entries(application.window.menus.recent)[:1])
-        application.files.open_scene(scene)
-        application.window.close()
-    assert listed == [[], ["mine.toml"]]
-
-
-def test_a_recent_file_that_has_gone_is_told_and_dropped(
-    application: Application, user: User, photo_file: Path
-) -> None:
-    application.open_photo(photo_file)
-    user.wait_until_idle()
-    photo_file.unlink()
-    application.window.menus.recent.actions()[0].trigger()
-    assert user.message == f"{photo_file} is no longer there."
-    assert application.preferences.files == ()
-
-
-def test_a_photo_that_could_not_be_read_is_not_remembered(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    application.open_photo(tmp_path / "missing.png")
-    user.wait_until_idle()
-    assert application.preferences.files == ()
-
-
-def test_a_dropped_photo_and_scene_are_opened(
-    application: Application, user: User, photo_file: Path, tmp_path: Path
-) -> None:
-    scene = tmp_path / "mine.toml"
-    scene.write_text(Scene().to_toml(), encoding="utf-8")
-    application.window.dropped.emit([photo_file, scene])
-    user.wait_until_idle()
-    assert application.store.scene == Scene()
-    assert application.window.windowTitle().startswith("stripes.png")
-
-
-def test_what_was_dropped_but_is_not_shown_is_told(
-    application: Application, user: User, photo_file: Path, taken: Path
-) -> None:
-    application.window.dropped.emit([photo_file, taken])
-    assert "only stripes.png" in user.message
-    user.wait_until_idle()
-
-
-@pytest.mark.parametrize("what", ["nothing", "folder"])
-def test_what_is_nothing_usable_is_answered_by_a_sentence(
-    application: Application, user: User, tmp_path: Path, what: str
-) -> None:
-    application.window.dropped.emit([] if what == "nothing" else [tmp_path])
-    assert user.message.endswith("; drop a photo or a scene (.toml).")
-    assert ("computer" in user.message) == (what == "nothing")
-
-
-def test_a_dropped_file_that_is_no_photo_is_answered_by_a_sentence(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    path = tmp_path / "letter.txt"
-    path.write_text("no photo")
-    application.window.dropped.emit([path])
-    user.wait_until_idle()
-    assert "letter.txt" in user.message
-    assert user.message.endswith(".")
-
-
-@pytest.fixture
-def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
-    """Put a sample photo with its scene where the program's are looked for."""
-    folder = tmp_path / "resources" / "photos"
-    folder.mkdir(parents=True)
-    Image.fromarray(occ.render(camera_scene).image).save(folder / "led-1khz-panel.jpg")
-    (folder / "led-1khz-panel.toml").write_text(camera_scene.to_toml(), encoding="utf-8")
-    monkeypatch.setattr(files_room, "resource_path", tmp_path.joinpath("resources").joinpath)
-    return folder
-
-
-def test_a_sample_is_opened_with_its_scene_and_not_remembered(
-    samples: Path, user: User, application: Application, camera_scene: Scene
-) -> None:
-    menu = application.window.menus.samples
-    assert entries(menu) == ["LED 1 kHz panel (simulated)"]
-    menu.actions()[0].trigger()
-    user.wait_until_idle()
-    assert application.store.scene == camera_scene
-    assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
-    assert application.preferences.files == ()
-
-
-def test_without_samples_none_are_offered(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, application: Application
-) -> None:
-    monkeypatch.setattr(files_room, "resource_path", tmp_path.joinpath)
-    application.window.menus.show_samples(files_room.sample_photos(), application.open_photo)
-    assert not application.window.menus.samples.isEnabled()
 
 
 @pytest.mark.photos

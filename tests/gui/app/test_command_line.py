@@ -1,4 +1,4 @@
-"""``occ-gui`` from the command line: pictures of the window, and mistakes answered in sentences."""
+"""``occ-gui`` from the command line: screenshots, and wrong options answered in sentences."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""What Qt has to say goes into Python's logging, at its own level."""
+"""Qt's messages go to Python's logging, each at its own level."""
 
 import logging
 from collections.abc import Iterator

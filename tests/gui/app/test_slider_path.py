@@ -1,4 +1,4 @@
-"""The path of a value from a slider to the painted pixel is short, and has no detour."""
+"""The path of a value from a slider to the painted pixel, counted in functions."""
 
 import sys
 from collections.abc import Callable

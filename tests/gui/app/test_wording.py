@@ -1,4 +1,4 @@
-"""What the model refuses is said with the names that stand in the window."""
+"""Sentences of the model name parameters by the labels in the window."""
 
 import pytest
 

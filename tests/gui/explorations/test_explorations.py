@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.explorations import exploration_controller as explorations_room
+from occ_gui.explorations import exploration_controller
 from occ_gui.explorations.exploration_view import ExplorationView
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
@@ -171,7 +171,7 @@ def test_explorations_that_cannot_be_read_are_answered_in_a_sentence(
     def fail() -> None:
         raise SceneFileError("1.toml is no exploration: it is a <song>.")
 
-    monkeypatch.setattr(explorations_room, "explorations", fail)
+    monkeypatch.setattr(exploration_controller, "explorations", fail)
     user.choose("&Explorations")
     guide = application.learning.explorations_pane
     qtbot.waitUntil(lambda: "&lt;song&gt;" in guide._invitation.text())
@@ -184,7 +184,7 @@ def test_a_photo_that_is_missing_is_told(
     user: User,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(explorations_room, "sample_photos", list)
+    monkeypatch.setattr(exploration_controller, "sample_photos", list)
     guide.choices[4].click()
     assert user.message == "The photo led-1khz is missing."
     user.wait_until_idle()

@@ -1,4 +1,4 @@
-"""What an export that was killed has left behind is removed by the next, and nothing else."""
+"""The next export removes the temporary files of one that was killed, and nothing else."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""The session on the disk at all times: each window its own, and a full disk told of once."""
+"""The session is on the disk at all times, a file for each window; a full disk is reported."""
 
 import itertools
 import json

@@ -1,4 +1,4 @@
-"""Whatever stands in the files that the window reads at its start, it starts."""
+"""The window starts whatever the files contain that it reads at its start."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Files that were opened are remembered over a start; rubbish among them is not."""
+"""Recent files are stored for the next start; invalid paths among them are left out."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Presets of the user's own in the window: kept, listed, replaced and deleted."""
+"""The user's presets in the window: saved, listed, replaced and deleted."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Work is there again at the next start: after an end, after a crash, and whatever was kept."""
+"""The session is restored at the next start: after a normal end, a crash or damage."""
 
 import json
 import os

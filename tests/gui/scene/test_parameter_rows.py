@@ -1,4 +1,4 @@
-"""The controls of one parameter: they show what is declared and tell what the user enters."""
+"""The controls of one parameter show its value and emit what the user enters."""
 
 import pytest
 from PySide6.QtCore import Qt

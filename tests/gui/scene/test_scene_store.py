@@ -1,4 +1,4 @@
-"""The scene is changed in one place, refuses what cannot be, and is undone gesture by gesture."""
+"""The scene changes in one place, refuses invalid values, and is undone gesture by gesture."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""The settings change in one place, and tell of it only when they do."""
+"""The settings change in one place, and emit a signal only when they do."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Whatever the scene becomes, the views end with its results; what has none leaves the last."""
+"""The panes end with the results of the latest scene; one without a picture keeps the last."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What is drawn can be told from its background, in the light and in the dark."""
+"""Drawn colours have sufficient contrast to their background, light or dark."""
 
 import pytest
 from PySide6.QtCore import Qt

@@ -1,4 +1,4 @@
-"""A text too long for its place ends in dots, and is told whole by the tooltip."""
+"""A text that is too long is shortened by dots, and whole in the tooltip."""
 
 import pytest
 from pytestqt.qtbot import QtBot

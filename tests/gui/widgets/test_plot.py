@@ -1,4 +1,4 @@
-"""A plot names its lower axis where there is room for the name, and where that is wanted."""
+"""A plot shows the name of its lower axis only if it is high enough."""
 
 import pytest
 from PySide6.QtGui import QPalette

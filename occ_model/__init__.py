@@ -9,103 +9,68 @@ Everything here works without a window. A scene is a value; the functions take i
     result = occ.decode(frame.image, scene)
 """
 
-from occ_model.version import __version__
+from occ_model.version import __version__ as __version__
 
-TYPE_CHECKING = False  # as typing has it, which is slow to import
-if TYPE_CHECKING:
-    from occ_model.camera.exposure import on_time
-    from occ_model.camera.photometry import column_profile
-    from occ_model.camera.projection import panel_corners
-    from occ_model.effects.plan import plan
+TYPE_CHECKING = False  # that of typing, which is slow to import
+# isort: off
+if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES holds
+    from occ_model.camera.exposure import on_time as on_time
+    from occ_model.camera.photometry import column_profile as column_profile
+    from occ_model.camera.projection import panel_corners as panel_corners
+    from occ_model.effects.plan import plan as plan
     from occ_model.errors import (
-        BandModelUndefined,
-        DecodeInputError,
-        MatchError,
-        OccError,
-        OutputError,
-        ParameterError,
-        PhotoError,
-        PresetError,
-        ProjectionError,
-        SceneFileError,
+        BandModelUndefined as BandModelUndefined,
+        DecodeInputError as DecodeInputError,
+        MatchError as MatchError,
+        OccError as OccError,
+        OutputError as OutputError,
+        ParameterError as ParameterError,
+        PhotoError as PhotoError,
+        PresetError as PresetError,
+        ProjectionError as ProjectionError,
+        SceneFileError as SceneFileError,
     )
-    from occ_model.photo.comparison import compare
-    from occ_model.photo.match import match_photo
-    from occ_model.photo.reading.load import Photo, load_photo
-    from occ_model.photo.stripes.find import find_stripes
-    from occ_model.receiver.decode import decode
+    from occ_model.photo.comparison import compare as compare
+    from occ_model.photo.match import match_photo as match_photo
+    from occ_model.photo.reading.load import (
+        Photo as Photo,
+        load_photo as load_photo,
+    )
+    from occ_model.photo.stripes.find import find_stripes as find_stripes
+    from occ_model.receiver.decode import decode as decode
     from occ_model.results import (
-        Comparison,
-        Decision,
-        DecodeResult,
-        Frame,
-        Limits,
-        Match,
-        Plan,
-        Region,
-        Stripes,
-        SweepTable,
+        Comparison as Comparison,
+        Decision as Decision,
+        DecodeResult as DecodeResult,
+        Frame as Frame,
+        Limits as Limits,
+        Match as Match,
+        Plan as Plan,
+        Region as Region,
+        Stripes as Stripes,
+        SweepTable as SweepTable,
     )
-    from occ_model.scene.presets import delete_preset, load_preset, presets, save_preset
-    from occ_model.scene.scene import Scene
-    from occ_model.scene.simulation_settings import SimulationSettings
-    from occ_model.simulation.band_model import band_lengths, band_profile
-    from occ_model.simulation.render import render
-    from occ_model.study.accuracy import accuracy
-    from occ_model.study.confidence import wilson_interval
-    from occ_model.study.limits import limits
-    from occ_model.study.success_rate import success_rate
-    from occ_model.study.sweep.sweep import sweep
-    from occ_model.transmitter.packet import packet
+    from occ_model.scene.presets import (
+        delete_preset as delete_preset,
+        load_preset as load_preset,
+        presets as presets,
+        save_preset as save_preset,
+    )
+    from occ_model.scene.scene import Scene as Scene
+    from occ_model.scene.simulation_settings import SimulationSettings as SimulationSettings
+    from occ_model.simulation.band_model import (
+        band_lengths as band_lengths,
+        band_profile as band_profile,
+    )
+    from occ_model.simulation.render import render as render
+    from occ_model.study.accuracy import accuracy as accuracy
+    from occ_model.study.confidence import wilson_interval as wilson_interval
+    from occ_model.study.limits import limits as limits
+    from occ_model.study.success_rate import success_rate as success_rate
+    from occ_model.study.sweep.sweep import sweep as sweep
+    from occ_model.transmitter.packet import packet as packet
 
-__all__ = [
-    "BandModelUndefined",
-    "Comparison",
-    "Decision",
-    "DecodeInputError",
-    "DecodeResult",
-    "Frame",
-    "Limits",
-    "Match",
-    "MatchError",
-    "OccError",
-    "OutputError",
-    "ParameterError",
-    "Photo",
-    "PhotoError",
-    "Plan",
-    "PresetError",
-    "ProjectionError",
-    "Region",
-    "Scene",
-    "SceneFileError",
-    "SimulationSettings",
-    "Stripes",
-    "SweepTable",
-    "__version__",
-    "accuracy",
-    "band_lengths",
-    "band_profile",
-    "column_profile",
-    "compare",
-    "decode",
-    "delete_preset",
-    "find_stripes",
-    "limits",
-    "load_photo",
-    "load_preset",
-    "match_photo",
-    "on_time",
-    "packet",
-    "panel_corners",
-    "plan",
-    "presets",
-    "render",
-    "save_preset",
-    "success_rate",
-    "sweep",
-    "wilson_interval",
-]
+# isort: on
 
 _MODULES = {
     "BandModelUndefined": "errors",
@@ -154,8 +119,12 @@ _MODULES = {
     "sweep": "study.sweep.sweep",
     "wilson_interval": "study.confidence",
 }
-"""Where each name is: it is imported when it is first asked for, so that a program can answer
-Ctrl-C, ``--help`` and its workers before numpy is there."""
+"""The module of each public name, imported when the name is first used.
+
+Ctrl-C, ``--help`` and worker processes are thus answered before numpy is imported.
+"""
+
+__all__ = sorted(["__version__", *_MODULES])
 
 
 def __getattr__(name: str) -> object:

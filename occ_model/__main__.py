@@ -1,4 +1,4 @@
-"""``python -m occ_model``."""
+"""Entry point of ``python -m occ_model``."""
 
 from occ_model.cli import main
 

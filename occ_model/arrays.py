@@ -1,4 +1,4 @@
-"""Names for the kinds of array that cross a room's door."""
+"""Types of arrays: floating point, indices, bytes, pixels."""
 
 import numpy as np
 from numpy.typing import NDArray

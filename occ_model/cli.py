@@ -1,4 +1,4 @@
-"""``occ-model``: the model from the command line."""
+"""Command line ``occ-model``: its entry point."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -7,19 +7,19 @@ from occ_model.program import run_program
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return the process's exit code.
+    """Run the command line; return its exit code.
 
     Parameters
     ----------
     arguments
-        The command line's words; by default those of this process, which is the program's then.
+        The command line's words; by default those of this process.
     """
     is_process = arguments is None
     return run_program("occ-model", partial(_command, arguments), is_process=is_process)
 
 
 def _command(arguments: Sequence[str] | None) -> Callable[[], int]:
-    """Read the command line; give the command that it asks for."""
+    """Read the command line; return the command to run."""
     # Only here, where Ctrl-C is answered: the commands import all of the model.
     from occ_model.commands import read_command_line, run_command
 

@@ -1,4 +1,4 @@
-"""The colours of curves, on screen and in print: told apart by any eye (Okabe and Ito)."""
+"""Colours of curves, on screen and in print, distinct with any colour vision (Okabe and Ito)."""
 
 SIMULATION = "#0072B2"
 BAND = "#D55E00"

@@ -1,4 +1,4 @@
-"""Errors whose message is a whole sentence for the person at the screen; values quoted in them."""
+"""Exceptions whose message is a sentence for the user, and how values are quoted in them."""
 
 import reprlib
 
@@ -18,7 +18,7 @@ class ParameterError(OccError, ValueError):
 
 
 class SceneFileError(OccError, ValueError):
-    """A scene file or preset cannot be read as one."""
+    """A file cannot be read as a scene, a preset or text."""
 
 
 class PresetError(OccError, KeyError):
@@ -34,11 +34,11 @@ class ProjectionError(OccError, ValueError):
 
 
 class BandModelUndefined(OccError, ValueError):  # noqa: N818 - the name is public and older
-    """The band model says nothing about this scene."""
+    """The band model is undefined for this scene."""
 
 
 class DecodeInputError(OccError, ValueError):
-    """What was given to a decoder is not an image or a profile."""
+    """The input of a decoder is no image or profile."""
 
 
 class PhotoError(OccError):
@@ -50,11 +50,11 @@ class MatchError(OccError):
 
 
 class OutputError(OccError):
-    """A result cannot be written where it was asked for."""
+    """A result cannot be written to the file named."""
 
 
 class _ShortRepr(reprlib.Repr):
-    """A ``repr`` that is short and never fails, whatever a file or a caller holds."""
+    """A ``repr`` that is short and never fails."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,7 +62,7 @@ class _ShortRepr(reprlib.Repr):
         self.maxstring = self.maxother = self.maxlong = _LONGEST_VALUE
 
     def repr_int(self, value: int, level: int) -> str:
-        """Write a whole number, also one of more digits than Python agrees to write out."""
+        """Write a whole number, also one with more digits than Python writes."""
         try:
             return super().repr_int(value, level)
         except ValueError:
@@ -72,7 +72,7 @@ class _ShortRepr(reprlib.Repr):
 def shown(value: object) -> str:
     """Write any value as part of a sentence, as ``repr`` would but short.
 
-    Long texts, long numbers, deep nesting, line breaks and control characters do no harm.
+    Long texts, long numbers and deep nesting are cut, control characters escaped.
     """
     text = _ShortRepr().repr(value)
     half = _LONGEST_VALUE // 2
@@ -80,7 +80,7 @@ def shown(value: object) -> str:
 
 
 def one_line(text: str, longest: int = _LONGEST_NAME) -> str:
-    """Write a name or title from elsewhere in one line: control characters are shown escaped."""
+    """Write a name, title or path in one line, control characters escaped."""
     start = text[: longest + 1]
     if len(start) > longest:
         start = f"{start[: longest - 1]}…"

@@ -1,6 +1,6 @@
-"""A program from its first line to its exit code, whatever happens to it on the way.
+"""Run a program: standard streams, Ctrl-C, errors as sentences, exit codes.
 
-Nothing slow is imported here: from the first moment on Ctrl-C is to be answered with a sentence.
+Nothing slow is imported here, so that Ctrl-C is answered with a sentence from the first moment.
 """
 
 import os
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     from typing import NoReturn, TextIO
 
 EXIT_FAILURE = 1
-"""Nothing was wrong with the command, but no code could be read, or it could not be finished."""
+"""The command is valid, but no code could be read, or it could not be finished."""
 
 EXIT_MISUSE = 2
-"""The command asked for something that cannot be."""
+"""The command is not valid."""
 
 EXIT_INTERRUPTED = 130
-"""Ctrl-C ended it: 128 and the signal's number, as shells have it."""
+"""Ctrl-C ended the program: 128 plus the signal's number, as in shells."""
 
 INTERRUPTED = "interrupted."
-"""What is said of a program that Ctrl-C ended, where there is no more to say."""
+"""The message of a program that Ctrl-C ended."""
 
 _LONGEST_SENTENCE = 4000
 """Characters of a sentence on the terminal."""
 
 _IMPORT = "<frozen importlib"
-"""Where Python's own code for imports says that it comes from."""
+"""Start of the file name of Python's own import code."""
 
 
 def run_program(
@@ -45,16 +45,16 @@ def run_program(
 ) -> int:
     """Run a program; return its exit code.
 
-    All that goes wrong is said in one line on standard error.
+    An error is reported in one line on standard error.
 
     Parameters
     ----------
     name
         The program's name.
     prepare
-        Imports what is needed, reads the command line and gives the work that it asks for.
+        Imports what is needed, reads the command line and returns the work to do.
     is_process
-        Whether this process is the program's alone; only then its signals and streams are changed.
+        Whether the process is this program's alone; only then its signals and streams are changed.
     is_window
         Whether the program has a window: it may have no standard output, and Ctrl-C ends it at
         once until it answers that itself.
@@ -62,26 +62,10 @@ def run_program(
     Raises
     ------
     SystemExit
-        The command line was answered or refused by its parser.
+        The parser of the command line printed its help or refused the command.
     """
     try:
-        try:
-            if is_process:
-                _open_streams(needs_output=not is_window)
-                interrupts = Interrupts(name, always_at_once=is_window)
-            _show_any_letter()
-            _check_output(needed=not is_window)
-            work = prepare()
-            if is_process:
-                interrupts.end_preparation()
-            code = work()
-            _flush_output()
-        except SystemExit:
-            _flush_output()
-            raise
-        finally:
-            if is_process:
-                ignore_interrupts()
+        return _prepare_and_run(name, prepare, is_process=is_process, is_window=is_window)
     except KeyboardInterrupt:
         if is_process:
             ignore_interrupts()
@@ -92,11 +76,33 @@ def run_program(
         return EXIT_MISUSE
     except Exception as error:  # noqa: BLE001 - a traceback would tell a user nothing
         return _say_failure(name, error)
+
+
+def _prepare_and_run(
+    name: str, prepare: Callable[[], Callable[[], int]], *, is_process: bool, is_window: bool
+) -> int:
+    try:
+        if is_process:
+            _open_streams(needs_output=not is_window)
+            interrupts = Interrupts(name, always_at_once=is_window)
+        _show_any_letter()
+        _check_output(needed=not is_window)
+        work = prepare()
+        if is_process:
+            interrupts.end_preparation()
+        code = work()
+        _flush_output()
+    except SystemExit:
+        _flush_output()
+        raise
+    finally:
+        if is_process:
+            ignore_interrupts()
     return code
 
 
 def say(name: str, sentence: str) -> None:
-    """Print a sentence on standard error, in one line, if it takes one."""
+    """Print a sentence on standard error, in one line, where it is open."""
     try:
         print(f"{name}: {one_line(sentence, _LONGEST_SENTENCE)}", file=sys.stderr, flush=True)  # noqa: T201 - what this is for
     except (OSError, ValueError):
@@ -104,25 +110,24 @@ def say(name: str, sentence: str) -> None:
 
 
 def ignore_interrupts() -> None:
-    """Let Ctrl-C do nothing from now on: what is left are a few milliseconds."""
+    """Ignore Ctrl-C from now on: only a few milliseconds are left."""
     with suppress(ValueError):  # outside the main thread
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class Interrupts:
-    """What Ctrl-C does in a process of ours.
+    """The answer of a process to Ctrl-C.
 
-    While it is prepared, and during any import, it ends the process at once: nothing has been begun
-    then, and modules that are torn out of their import print what they like. Later it raises
-    ``KeyboardInterrupt`` as always. Where whoever started the process lets it ignore Ctrl-C, it
-    goes on doing so.
+    During preparation, and during any import, Ctrl-C ends the process at once: no work has begun
+    then, and a module that is interrupted while it is imported may print anything. Later it raises
+    ``KeyboardInterrupt`` as usual. A process that was started to ignore Ctrl-C goes on to do so.
 
     Parameters
     ----------
     name
         The program's name.
     always_at_once
-        Whether it ends the process at once always.
+        Whether Ctrl-C ends the process at once during its work too.
     """
 
     def __init__(self, name: str, always_at_once: bool) -> None:
@@ -144,7 +149,7 @@ class Interrupts:
         raise KeyboardInterrupt
 
     def _hear_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
-        """End the process where Ctrl-C came while an object was deleted, which keeps it."""
+        """End the process where Ctrl-C came in an object's deletion, which swallows exceptions."""
         if issubclass(what.exc_type, KeyboardInterrupt):
             self._leave()
         self._report(what)
@@ -165,7 +170,7 @@ def _is_importing(frame: FrameType | None) -> bool:
 
 
 def _open_streams(needs_output: bool) -> None:
-    """Put the null device in the place of standard streams that are closed.
+    """Open the null device in place of standard streams that are closed.
 
     Otherwise the next file that is opened would be taken for one of them.
     """
@@ -185,7 +190,7 @@ def _null() -> "TextIO":
 
 
 def _show_any_letter() -> None:
-    """Let standard output replace letters that its encoding lacks, as standard error does."""
+    """Replace letters that standard output's encoding lacks, as standard error does."""
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")
 
@@ -201,15 +206,15 @@ def _flush_output() -> None:
 
 
 def _discard(stream: "TextIO | None") -> None:
-    """Send what a stream still holds nowhere: Python would write it at its end, and fail again."""
+    """Discard what a stream still holds: Python would write it at exit, and fail again."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # type: ignore[union-attr]
 
 
 def _say_failure(name: str, error: Exception) -> int:
-    """Say what no other part of the program has made a sentence of."""
+    """Report an error that no other part of the program has reported; return the exit code."""
     _discard_unwritten_output()
-    if isinstance(error, BrokenPipeError):  # whoever read our output has stopped; they know
+    if isinstance(error, BrokenPipeError):  # the reader of our output has closed it on purpose
         return EXIT_FAILURE
     if isinstance(error, MemoryError):
         say(name, "There is too little memory for this.")

@@ -1,3 +1,3 @@
-"""The version of both packages."""
+"""Version of both packages."""
 
 __version__ = "0.1.0"

@@ -1,1 +1,1 @@
-"""Files: written complete or not at all, and read only if they are what they should be."""
+"""Files: read within bounds, written complete or not at all, and those of the package."""

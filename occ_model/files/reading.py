@@ -1,4 +1,4 @@
-"""Files of the user's: read whole, of a bounded size, and only where they are regular files."""
+"""Read the user's files: whole, of a bounded size, and only regular files."""
 
 import errno
 import os
@@ -8,14 +8,14 @@ from pathlib import Path
 from occ_model.errors import SceneFileError, one_line
 
 LARGEST_TEXT = 1_000_000
-"""Bytes of a scene, preset or exploration; those that are written here have a few thousand."""
+"""Bytes allowed in a scene, preset or exploration; ours have a few thousand."""
 
 _CHUNK = 1 << 20
-"""Bytes that are asked for at a time: a file may give more, or less, than its size says."""
+"""Bytes read at a time: a file may hold more, or less, than its size says."""
 
 _NO_FILE = "it is a device, pipe or socket"
 
-# What a system does not know of these, it does not need: Windows has no pipes among its files.
+# Flags that a system lacks it does not need: Windows has no pipes among its files.
 _FLAGS = (
     os.O_RDONLY
     | getattr(os, "O_NONBLOCK", 0)
@@ -27,8 +27,8 @@ _FLAGS = (
 def read_bytes(path: Path, largest: int) -> bytes:
     """Read a regular file of at most so many bytes.
 
-    A pipe is not waited for, and a device is not read: both are opened without blocking, and what
-    has been opened, not what has the name by then, is asked for its kind.
+    A pipe is not waited for and a device is not read: the file is opened without blocking, and the
+    kind checked is that of the open file, not of whatever has the name by then.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The files that come with the package, wherever it is imported from."""
+"""Find the files that come with the package, wherever it is imported from."""
 
 import atexit
 from functools import lru_cache
@@ -10,7 +10,7 @@ if TYPE_CHECKING:  # slow to import, and only needed where the package is in an 
 
 
 def resource_names(folder: str, ending: str) -> tuple[str, ...]:
-    """List the files of a folder with an ending, without it, by name."""
+    """List the names of a folder's files with an ending, without it, sorted."""
     names = (entry.name for entry in _resource(folder).iterdir())
     return tuple(sorted(name.removesuffix(ending) for name in names if name.endswith(ending)))
 
@@ -29,14 +29,14 @@ def resource_text(*parts: str) -> str:
 def resource_path(*parts: str) -> Path:
     """Give the path of a file or folder that comes with the package.
 
-    Of a package in an archive a copy is made, which is there until the program ends.
+    For a package in an archive a copy is made, which is removed when the program ends.
     """
     resource = _resource(*parts)
     return resource if isinstance(resource, Path) else _copy_of(parts)
 
 
 def _resource(*parts: str) -> "Path | Traversable":
-    """Find a file: an installed package has it inside, a checkout beside the packages."""
+    """Find a file: inside an installed package, beside the packages in a checkout."""
     package = Path(__file__).parents[1]
     for root in (package / "resources", package.parent / "resources"):
         if root.is_dir():
@@ -69,6 +69,6 @@ def _copy(resource: "Path | Traversable", target: Path) -> None:
         target.mkdir(parents=True, exist_ok=True)
         for entry in resource.iterdir():
             _copy(entry, target / entry.name)
-    elif resource.is_file():  # what is not there has no copy, as a missing file has none
+    elif resource.is_file():  # a missing file has no copy
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(resource.read_bytes())

@@ -1,4 +1,4 @@
-"""Results to files: complete or not at all."""
+"""Write files, complete or not at all, and images in the format of their ending."""
 
 import os
 import stat
@@ -18,25 +18,25 @@ _FORMATS = {
     ".webp": "WEBP",
     ".bmp": "BMP",
 }
-"""The image formats that are written, by the file's ending: those that hold any grey picture."""
+"""The image formats that can hold any grey picture, by the file's ending."""
 
 PICTURE_ENDINGS = tuple(_FORMATS)
-"""The endings of the files that pictures are written to."""
+"""Endings of the files that pictures can be written to."""
 
 LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
-"""Pixels that a format's encoder takes a side; libjpeg's limit is below the format's own."""
+"""Largest side in pixels that a format's encoder takes; libjpeg's is below the format's own."""
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write a file so that it is there complete or not at all.
+    """Write a file, complete or not at all.
 
     A symbolic link is followed, and a file that is there keeps its permissions.
 
     Raises
     ------
     OutputError
-        It cannot be written, is write-protected, or is no regular file; what was there before is
-        untouched.
+        It cannot be written, is write-protected, or is no regular file; an older file is
+        unchanged.
     """
     permissions = check_replaceable(path)
     try:
@@ -81,7 +81,7 @@ def check_replaceable(path: Path) -> int | None:
         raise OutputError(f"{name} is a folder; name a file to write to.")
     if not stat.S_ISREG(mode):
         raise OutputError(f"{name} is a device, pipe or socket; name a regular file to write to.")
-    # The administrator may write to any file; a protection is meant all the same.
+    # The administrator may write to any file, but its protection counts all the same.
     if not mode & _ANY_WRITE or not os.access(path, os.W_OK):
         raise OutputError(f"{name} is write-protected; name another file, or allow writing to it.")
     return stat.S_IMODE(mode)
@@ -96,9 +96,9 @@ def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
 
 
 def _replace(path: Path, content: bytes, permissions: int | None) -> None:
-    """Put a file in the place of another in one step."""
+    """Replace a file by a new one in one step."""
     temporary = path.with_name(f".{path.name}.{token_hex(4)}")
-    # In the place of a file that is there nobody else may read a byte before its mode is set.
+    # A file that replaces another must be readable by nobody else before its mode is set.
     mode = 0o666 if permissions is None else 0o600
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode))
     try:
@@ -106,7 +106,7 @@ def _replace(path: Path, content: bytes, permissions: int | None) -> None:
             temporary.chmod(permissions)
         temporary.write_bytes(content)
         temporary.replace(path)
-    except BaseException:  # whatever happens, nothing half-written stays
+    except BaseException:  # leave no half-written file, whatever happens
         temporary.unlink(missing_ok=True)
         raise
 
@@ -139,7 +139,7 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
 
 
 def make_folder(folder: Path) -> None:
-    """Make the folder that figures are written to, where there is none.
+    """Make a folder, and those above it, where there is none.
 
     Raises
     ------

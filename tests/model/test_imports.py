@@ -1,7 +1,9 @@
 """The model stands alone: no window, and nothing slow at start-up."""
 
+import ast
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -59,6 +61,21 @@ def test_simulating_imports_nothing_heavy_either() -> None:
     loaded = run(f"{USE}\nimport sys; print(*sys.modules)")
     assert "occ_model.simulation.render" in loaded
     assert {name.partition(".")[0] for name in loaded} & {*HEAVY, "occ_gui"} == set()
+
+
+def test_type_checkers_see_each_public_name_where_it_is_imported_from() -> None:
+    import occ_model
+
+    source = ast.parse(Path(occ_model.__file__).read_text(encoding="utf-8"))
+    seen = {
+        alias.asname: f"{node.module}"
+        for node in ast.walk(source)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+        if alias.asname == alias.name  # a name that is public by that
+    }
+    modules = {**occ_model._MODULES, "__version__": "version"}
+    assert seen == {name: f"occ_model.{module}" for name, module in modules.items()}
 
 
 def test_every_public_name_is_there() -> None:

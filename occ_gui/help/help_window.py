@@ -1,5 +1,6 @@
 """The window of the manual: list of pages, the page, back and forward, search in the page."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QUrl
@@ -42,18 +43,18 @@ class HelpWindow(QMainWindow):
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._folder = folder
-        self.list = QListWidget()
-        self.list.setAccessibleName(self.tr("Pages"))
-        self.list.setToolTip(self.tr("The pages of the manual."))
+        self.page_list = QListWidget()
+        self.page_list.setAccessibleName(self.tr("Pages"))
+        self.page_list.setToolTip(self.tr("The pages of the manual."))
         for title, name in pages(folder):
-            item = QListWidgetItem(title, self.list)
+            item = QListWidgetItem(title, self.page_list)
             item.setData(_FILE, name)
         self.browser = HelpBrowser()
         self.browser.setAccessibleName(self.tr("Page"))
         self.search = QLineEdit()
         self._lay_out()
-        self.list.itemActivated.connect(self._show_item)
-        self.list.itemClicked.connect(self._show_item)
+        self.page_list.itemActivated.connect(self._show_item)
+        self.page_list.itemClicked.connect(self._show_item)
         self.browser.sourceChanged.connect(self._on_page)
         self.search.textEdited.connect(self._find_from_start)
         self.search.returnPressed.connect(self.find_next)
@@ -62,16 +63,7 @@ class HelpWindow(QMainWindow):
     def _lay_out(self) -> None:
         bar = QToolBar(self.tr("Navigation"))
         bar.setMovable(False)
-        keys = QKeySequence.StandardKey
-        back = self._action(bar, self.tr("Back"), keys.Back)
-        forward = self._action(bar, self.tr("Forward"), keys.Forward)
-        for action, go, can_go in (
-            (back, self.browser.backward, self.browser.backwardAvailable),
-            (forward, self.browser.forward, self.browser.forwardAvailable),
-        ):
-            action.setEnabled(False)
-            action.triggered.connect(go)
-            can_go.connect(action.setEnabled)
+        self._add_history(bar)
         bar.addSeparator()
         self.search.setPlaceholderText(self.tr("Find in this page"))
         self.search.setAccessibleName(self.tr("Find in this page"))
@@ -80,26 +72,34 @@ class HelpWindow(QMainWindow):
         self.search.setMaximumWidth(_SEARCH_WIDTH)
         bar.addWidget(self.search)
         self.addToolBar(bar)
-        find, close = QAction(self), QAction(self)
-        find.setShortcut(QKeySequence(keys.Find))
-        find.triggered.connect(self.search.setFocus)
-        close.setShortcut(QKeySequence(Qt.Key.Key_Escape))
-        close.triggered.connect(self.close)
-        self.addActions([find, close])
+        self._add_key(QKeySequence.StandardKey.Find, self.search.setFocus)
+        self._add_key(QKeySequence.StandardKey.Cancel, self.close)
         parts = QSplitter()
-        parts.addWidget(self.list)
+        parts.addWidget(self.page_list)
         parts.addWidget(self.browser)
         parts.setStretchFactor(1, 1)
         parts.setSizes([_LIST_WIDTH, _SIZE.width() - _LIST_WIDTH])
         self.setCentralWidget(parts)
         self.browser.setFocus()
 
-    @staticmethod
-    def _action(bar: QToolBar, text: str, key: QKeySequence.StandardKey) -> QAction:
-        action = bar.addAction(text)
+    def _add_history(self, bar: QToolBar) -> None:
+        keys, browser = QKeySequence.StandardKey, self.browser
+        for text, key, go, can_go in (
+            (self.tr("Back"), keys.Back, browser.backward, browser.backwardAvailable),
+            (self.tr("Forward"), keys.Forward, browser.forward, browser.forwardAvailable),
+        ):
+            action = bar.addAction(text)
+            action.setShortcut(QKeySequence(key))
+            action.setToolTip(f"{text} ({action.shortcut().toString()})")
+            action.setEnabled(False)
+            action.triggered.connect(go)
+            can_go.connect(action.setEnabled)
+
+    def _add_key(self, key: QKeySequence.StandardKey, do: Callable[[], object]) -> None:
+        action = QAction(self)
         action.setShortcut(QKeySequence(key))
-        action.setToolTip(f"{text} ({action.shortcut().toString()})")
-        return action
+        action.triggered.connect(lambda: do())
+        self.addAction(action)
 
     def show_page(self, page: str) -> None:
         """Show a page, such as ``guide.md``, or one of its headings, ``guide.md#heading``."""
@@ -127,8 +127,8 @@ class HelpWindow(QMainWindow):
         self.show_page(item.data(_FILE))
 
     def _on_page(self, url: QUrl) -> None:
-        for place in range(self.list.count()):
-            item = self.list.item(place)
+        for place in range(self.page_list.count()):
+            item = self.page_list.item(place)
             if item.data(_FILE) == url.fileName():
-                self.list.setCurrentItem(item)
+                self.page_list.setCurrentItem(item)
                 self.setWindowTitle(self.tr("Manual: {title}").format(title=item.text()))

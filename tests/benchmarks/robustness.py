@@ -1,7 +1,8 @@
 """How many of all codes are read from tilted, cut-off and noisy pictures, by each decoder.
 
-``python tests/benchmarks/robustness.py`` prints the table for the README. Each code gets one
-picture a cell, with a random start time; every picture is made whole and decoded from its pixels.
+``python tests/benchmarks/robustness.py`` prints the table of ``resources/docs/decoders.md``.
+Each code gets one picture a cell, with a random start time; every picture is made whole and decoded
+from its pixels.
 """
 
 import argparse

@@ -1,7 +1,7 @@
 """Every parameter of a scene, declared once.
 
 Sliders, number fields, tooltips, command-line settings, validation, the keys of a scene file and
-the README's table are all made from these declarations. Values are in SI units.
+the manual's table are all made from these declarations. Values are in SI units.
 """
 
 from collections.abc import Iterable

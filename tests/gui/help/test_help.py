@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,6 +19,8 @@ from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import CONTENTS, GUIDE, PAGE_OF_PANE, docs_folder, heading_id, pages
 from occ_gui.window.current_pane import PICTURE
+
+ROOT = Path(__file__).parents[3]
 
 IMAGE = int(QTextDocument.ResourceType.ImageResource.value)
 
@@ -82,9 +85,9 @@ def test_every_pane_has_a_page_and_its_heading(manual: HelpWindow) -> None:
 
 def test_every_page_is_listed_and_shown_under_its_title(manual: HelpWindow) -> None:
     for place, (title, name) in enumerate(pages(docs_folder())):
-        manual.list.itemClicked.emit(manual.list.item(place))
+        manual.page_list.itemClicked.emit(manual.page_list.item(place))
         assert manual.browser.source().fileName() == name
-        assert manual.list.currentItem().text() == title
+        assert manual.page_list.currentItem().text() == title
         assert manual.windowTitle().endswith(title)
         assert len(manual.browser.toPlainText()) > 300
 
@@ -137,15 +140,25 @@ def test_a_picture_is_as_wide_as_the_page_and_no_wider(qtbot: QtBot, manual: Hel
 
 def test_a_search_finds_the_next_place_and_begins_again(qtbot: QtBot, manual: HelpWindow) -> None:
     qtbot.keyClicks(manual.search, "slider")
-    found = set()
-    for _ in range(40):
+    count = manual.browser.toPlainText().lower().count("slider")
+    places = []
+    for _ in range(2 * count):
         cursor = manual.browser.textCursor()
         assert cursor.selectedText().lower() == "slider"
-        found.add(cursor.position())
+        places.append(cursor.position())
         qtbot.keyClick(manual.search, Qt.Key.Key_Return)
-    assert len(found) == manual.browser.toPlainText().lower().count("slider") > 3
+    assert sorted(set(places)) == places[:count] == places[count:]
     qtbot.keyClicks(manual.search, " of no page")
     assert not manual.find_next()
+
+
+def test_keys_begin_a_search_and_close_the_manual(qtbot: QtBot, manual: HelpWindow) -> None:
+    manual.activateWindow()
+    qtbot.waitUntil(manual.browser.hasFocus)
+    qtbot.keyClick(manual.browser, Qt.Key.Key_F, Qt.KeyboardModifier.ControlModifier)
+    assert manual.search.hasFocus()
+    qtbot.keyClick(manual.search, Qt.Key.Key_Escape)
+    assert not manual.isVisible()
 
 
 def test_code_stands_on_a_ground_of_the_theme(manual: HelpWindow) -> None:
@@ -181,11 +194,30 @@ def test_a_missing_manual_is_answered_with_a_sentence(
     assert not (tmp_path / CONTENTS).exists()
 
 
+def test_pages_and_pictures_come_out_of_an_archive(tmp_path: Path) -> None:
+    archive = tmp_path / "occ.zip"
+    with zipfile.ZipFile(archive, "w") as packed:
+        for file in [*ROOT.glob("occ_model/**/*.py"), *ROOT.glob("occ_gui/**/*.py")]:
+            packed.write(file, file.relative_to(ROOT))
+        for folder in ("docs", "pictures"):
+            for file in (ROOT / "resources" / folder).iterdir():
+                packed.write(file, Path("occ_model", file.relative_to(ROOT)))
+    program = (
+        f"import sys; sys.path.insert(0, {str(archive)!r})\n"
+        "from occ_gui.help.pages import docs_folder, pages\n"
+        "folder = docs_folder()\n"
+        "print(len(pages(folder)), (folder / '../pictures/window.png').is_file())\n"
+    )
+    assert run(program, tmp_path).split() == [str(len(pages(docs_folder()))), "True"]
+
+
+def run(program: str, folder: Path) -> str:
+    command = [sys.executable, "-W", "error", "-c", program]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
+
+
 def test_the_start_does_not_import_the_window_of_the_manual() -> None:
     program = "import sys, occ_gui.app.application; print(*sys.modules)"
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
-    loaded = done.stdout.split()
+    loaded = run(program, ROOT).split()
     assert "occ_gui.help.help_menu" in loaded
     assert {"occ_gui.help.help_window", "occ_gui.help.help_browser"}.isdisjoint(loaded)

@@ -1,11 +1,10 @@
 """Files that are opened again: recent files, dropped files and the sample photos."""
 
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
+from gui.user import User
 from PIL import Image
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QMenu
@@ -15,8 +14,6 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.files import file_controller
 from occ_model.scene.scene import Scene
-
-User = Any  # the fixture of that name
 
 
 @pytest.fixture
@@ -135,7 +132,7 @@ def test_a_dropped_file_that_is_no_photo_is_answered_by_a_sentence(
 
 
 @pytest.fixture
-def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Iterator[Path]:
+def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
     """Put a sample photo with its scene in place of those of the program."""
     folder = tmp_path / "resources" / "photos"
     folder.mkdir(parents=True)

@@ -6,13 +6,12 @@ from types import FrameType
 from typing import Any
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import Qt
 
 from occ_gui.app.application import Application
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.picture.averaged_image import AveragedImage
-
-User = Any  # the fixture of that name
 
 MOST_FUNCTIONS = 12
 

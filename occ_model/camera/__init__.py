@@ -1,1 +1,1 @@
-"""From the light's waveform to column values, and from column values to the image."""
+"""The camera: exposure, pixel values, projection, optics and sensor."""

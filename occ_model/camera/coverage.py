@@ -1,4 +1,4 @@
-"""How much of each pixel the panel covers, for outlines of any shape, sharp or blurred."""
+"""Coverage: the share of each pixel that a panel of any outline covers, sharp or blurred."""
 
 import math
 
@@ -8,23 +8,23 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray, Pixels
 
 _REACH = 4.0
-"""Standard deviations after which a blurred edge has come to its end: 3e-5 are left."""
+"""Standard deviations after which a blurred edge ends: 3e-5 of it are left."""
 
 _FINE = 4.0
-"""Standard deviations of the blur, in cells, from which a coarser grid shows as much."""
+"""Standard deviations of the blur, in cells, from which a coarser grid is as good."""
 
 _SAMPLED = 16
-"""Rows that tell as much of a cell's height as all of them, where the outline is high."""
+"""Rows of a cell that are sampled where the outline is high: they are as good as all."""
 
 _EXACT = 4096
-"""Rows of an outline that are all looked at: a blur may be wider than the panel is high."""
+"""Rows of an outline that are all used: a blur may be wider than the panel is high."""
 
 
 class Coverage:
     """The share of the light in each pixel that comes from the panel.
 
-    A pixel belongs to the panel when its centre lies inside the outline. The blur takes in what
-    lies beyond the picture's rim: the lens blurs before the sensor cuts.
+    A pixel belongs to the panel when its centre lies inside the outline. The blur includes light
+    from beyond the picture's rim, as the lens blurs before the sensor cuts.
 
     Parameters
     ----------
@@ -42,14 +42,14 @@ class Coverage:
         self._margin = math.ceil(_REACH * blur)
         seen = range(-self._margin, rows + self._margin)
         cell = max(1, int(blur / _FINE))
-        # The widest blur takes no more rows than a narrow one.
+        # The widest blur needs no more rows than a narrow one.
         self._stride = max(1, min(cell // _SAMPLED, _height(outline, seen) // _EXACT))
         self._cell = cell - cell % self._stride
         self._crossings = _crossings(outline, seen, self._stride)
         self._coarse = self._whole(rows) if self._cell > 1 else None
 
     def rows(self, first: int, last: int) -> Pixels:
-        """Give the rows from ``first`` to before ``last``, shape (rows, columns), 0 to 1."""
+        """Return the rows from ``first`` to before ``last``, shape (rows, columns), 0 to 1."""
         if self._coarse is not None:
             return self._enlarged(self._coarse, first, last)
         margin = self._margin
@@ -61,7 +61,7 @@ class Coverage:
         return np.ascontiguousarray(inner, dtype=np.float32)
 
     def _sharp(self, first: int, last: int, cell: int) -> Pixels:
-        """Share of each cell inside the outline, the margins at both sides included."""
+        """Return the share of each cell inside the outline, the margins at both sides included."""
         row, x, sign = self._crossings
         chosen = slice(*np.searchsorted(row, (first, last)).tolist())
         margin, width = self._margin, self._columns + 2 * self._margin
@@ -74,11 +74,11 @@ class Coverage:
         np.add.at(steps, place, weight * (1.0 - share))
         np.add.at(steps, (place[0], place[1] + 1), weight * share)
         np.cumsum(steps, axis=1, out=steps)
-        # Round one way the steps go up at the left and down at the right, round the other not.
+        # Their sign depends on the direction of the outline.
         return np.abs(steps[:, :-2])
 
     def _whole(self, rows: int) -> Pixels:
-        """Blur the whole picture on a coarse grid, which shows a wide blur as well."""
+        """Blur the whole picture on a coarse grid, which is fine enough for a wide blur."""
         sharp = self._sharp(-self._margin, rows + self._margin, self._cell)
         reach = math.ceil(self._margin / self._cell)
         size = (2 * reach + 1, 2 * reach + 1)
@@ -88,8 +88,8 @@ class Coverage:
         return np.asarray(blurred, dtype=np.float32)
 
     def _enlarged(self, coarse: Pixels, first: int, last: int) -> Pixels:
-        """Draw straight lines between the cells' centres."""
-        # Not by OpenCV, whose coordinates are short integers in many of its versions.
+        """Interpolate linearly between the cells' centres."""
+        # Not by OpenCV: its coordinates are short integers in many versions.
         column, right = self._between(0, self._columns, coarse.shape[1])
         row, below = self._between(first, last, coarse.shape[0])
         part = coarse[row[0] : row[-1] + 2]
@@ -101,14 +101,14 @@ class Coverage:
         return np.asarray(weight @ wide, dtype=np.float32)
 
     def _between(self, first: int, last: int, cells: int) -> tuple[IndexArray, Pixels]:
-        """Say which cell's centre each pixel's lies after, and by which share of a cell."""
+        """Return the cell before each pixel's centre, and the distance from it in cells."""
         place = (np.arange(first, last) + (self._margin + 0.5)) / self._cell - 0.5
         before = np.clip(np.floor(place), 0, cells - 2)
         return before.astype(np.int64), np.clip(place - before, 0.0, 1.0).astype(np.float32)
 
 
 def _height(outline: FloatArray, seen: range) -> int:
-    """Give how many of the rows seen lie between the outline's first and its last."""
+    """Count the rows seen that lie between the outline's first and its last."""
     low, high = np.clip(outline[:, 1], seen.start, seen.stop).min(), outline[:, 1].max()
     return int(min(float(high), float(seen.stop)) - low)
 
@@ -116,7 +116,7 @@ def _height(outline: FloatArray, seen: range) -> int:
 def _crossings(
     outline: FloatArray, seen: range, stride: int
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
-    """Say where the outline crosses the rows seen, or the middle one of every ``stride`` of them.
+    """Find where the outline crosses the rows seen, or the middle one of every ``stride`` rows.
 
     Returns
     -------
@@ -135,7 +135,7 @@ def _crossings(
     row = start[edge] + (np.arange(len(edge)) - before[edge]) * stride
     x0, y0, x1, y1 = x0[edge], y0[edge], x1[edge], y1[edge]
     along = (row - y0) / (y1 - y0)
-    # Between its ends, as rounding would not leave all of an upright edge.
+    # Clipped to the ends, as rounding would move some rows of an upright edge.
     column = np.clip(x0 * (1.0 - along) + x1 * along, np.minimum(x0, x1), np.maximum(x0, x1))
     order = np.argsort(row, kind="stable")
     return row[order], column[order], np.where(y1 > y0, 1.0, -1.0)[order]

@@ -1,4 +1,4 @@
-"""Contrast enhancement and rounding to 8 bits."""
+"""Contrast enhancement: histogram equalization or a stretch, and rounding to 8 bits."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
 
 _SAME = 1e-9
-"""Grey levels within which column values are the same: they are not known any better."""
+"""Grey levels within which column values are equal: their own error is no smaller."""
 
 
 def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
@@ -19,14 +19,13 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 
 
 class Enhancement:
-    """The contrast enhancement that a picture with some column values gets.
+    """The contrast enhancement of a picture with some column values.
 
-    The curve is that of the columns; what a lens, noise or a file makes of the pixels afterwards is
-    sent through it as it is.
+    Its curve follows from the columns' values alone, and is applied to pixels that a lens, noise or
+    a file has changed since.
 
-    A profile that spans less than one grey level gets rounding only; one whose values are all the
-    same but for the arithmetic's own rounding gets the same grey level everywhere, also where they
-    lie half-way between two.
+    A profile that spans less than one grey level is only rounded. One whose values differ by
+    nothing but rounding errors has the same grey level everywhere, also half-way between two.
 
     Parameters
     ----------
@@ -57,7 +56,7 @@ class Enhancement:
         return self._scale is not None
 
     def __call__(self, values: NDArray[np.floating[Any]]) -> ByteArray:
-        """Enhance and round grey levels, those of the profile or others, of any shape."""
+        """Enhance and round grey levels, of the profile or not, of any shape."""
         if self._scale is not None:
             return to_bytes((values - self._low) * self._scale)
         if self._is_even:
@@ -71,12 +70,12 @@ class Enhancement:
 
 
 def _equalization(rounded: ByteArray) -> ByteArray:
-    """Give what each of the 256 grey levels becomes."""
-    # One row, given as such: a one-dimensional array means different shapes to OpenCV 4 and 5.
+    """Return the enhanced level of each of the 256 grey levels."""
+    # Explicitly one row: a one-dimensional array has different shapes in OpenCV 4 and 5.
     equalized = cv2.equalizeHist(rounded[None, :])[0]
     curve = np.zeros(256, dtype=np.uint8)
     curve[rounded] = equalized
-    # A level that no column has becomes what the next darker one does: no more are below it.
+    # A level that no column has follows the next darker one: as many columns are below it.
     return np.maximum.accumulate(curve)
 
 

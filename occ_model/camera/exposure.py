@@ -20,13 +20,13 @@ _AT_ONCE = Fraction(0)
 def column_phases(
     scene: Scene, period: int, shift: Fraction = _AT_ONCE, columns: int | None = None
 ) -> Phases:
-    """Say where in the sent period each column's exposure starts.
+    """Return the place in the sent period where each column's exposure starts.
 
     The start and the step from column to column are reduced to one period in exact arithmetic,
     as fractions; the columns then follow in floating point. The step is split in whole chips, a
-    part short enough (24 bits) that its product with any column number is exact, and a rest below
-    1e-7 chips, so that the error does not grow with the column: about 2e-16 chips after a million
-    columns, however many chips a period has.
+    part short enough (24 bits) that its product with any column number is exact, and a remainder
+    below 1e-7 chips, so that the error does not grow with the column: about 2e-16 chips after a
+    million columns, however many chips a period has.
 
     Parameters
     ----------
@@ -35,9 +35,9 @@ def column_phases(
     period
         The number of chips of one sent period.
     shift
-        Chips by which all starts are moved.
+        Chips added to all starts.
     columns
-        How many columns, by default those of the camera.
+        Number of columns, by default those of the camera.
 
     Returns
     -------
@@ -50,14 +50,14 @@ def column_phases(
 
 
 def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
-    """Say where in its cycle something periodic is, a delay after each column's start.
+    """Return the phase of a periodic signal at a delay after each column's start, in cycles.
 
     Parameters
     ----------
     scene
         The scene.
     frequency
-        In Hz.
+        Of the signal, in Hz.
     delay
         In seconds.
 
@@ -89,7 +89,7 @@ def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
     fraction[over] = 0.0
     chip += column * step_chip
     chip += carry + over + start_chip
-    # Exact: a whole number is never so near to a multiple of the period without being one.
+    # Exact: a quotient of whole numbers this small never rounds up to a whole number.
     chip -= period * np.floor(chip / period)
     return Phases(chip.astype(np.int64), fraction)
 

@@ -1,7 +1,7 @@
-"""How the lens pictures the panel, and the mean pixel values that come of it, rows by rows.
+"""Optics: the panel as the lens pictures it, and the mean pixel values, some rows at a time.
 
-A row of the picture is worked on while it is in the processor's cache, so that the largest picture
-needs little more memory than its own bytes.
+Rows are computed while they are in the processor's cache, and the largest picture needs little more
+memory than its own bytes.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,12 +22,12 @@ from occ_model.scene.scene import Camera, Scene
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gain:
-    """What each pixel's light is multiplied by.
+    """A factor of each pixel's light.
 
     Parameters
     ----------
     stage
-        What the time that it takes is counted under.
+        The stage that its time is counted under.
     rows
         Gives the factors for rows from the first to before the last.
     """
@@ -37,15 +37,15 @@ class Gain:
 
 
 STAGE = "optics"
-"""What the time of all that belongs to no effect is counted under."""
+"""The stage that the time of no effect in particular is counted under."""
 
 BLOCK_ROWS = 64
-"""Rows that are worked on at once."""
+"""Rows that are computed at once."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Optics:
-    """How the panel is pictured.
+    """The imaging of the panel: outline, blur and gains.
 
     Parameters
     ----------
@@ -55,11 +55,11 @@ class Optics:
     blur
         Standard deviation of the lens's blur in pixels.
     emission
-        What the panel's own light is multiplied by.
+        Factors of the panel's own light.
     transmission
-        What all light is multiplied by.
+        Factors of all light.
     cover_stage
-        What the time that it takes to cover pixels by the panel is counted under.
+        The stage that the time to compute the panel's coverage is counted under.
     """
 
     outline: FloatArray
@@ -111,14 +111,14 @@ def picture_rows(
     surroundings: FloatArray,
     stage_ended: Callable[[str], object],
 ) -> Iterator[Rows]:
-    """Give the picture's mean pixel values, from the first rows to the last.
+    """Compute the picture's mean pixel values, from the first rows to the last.
 
     Parameters
     ----------
     scene
         The scene.
     optics
-        How the panel is pictured.
+        The imaging of the panel.
     panel, surroundings : ndarray of float64, shape (columns,)
         Pixel values of each column before saturation.
     stage_ended
@@ -140,7 +140,7 @@ def _plain_rows(
     panel_row = panel.astype(np.float32)[None, :]
     dark_row = surroundings.astype(np.float32)[None, :]
     changed = (first[1:] != first[:-1]) | (last[1:] != last[:-1])
-    # Where the span changes at every row or two, blocks of unlike rows are the faster ones.
+    # Where the span changes every row or two, blocks of different rows are faster.
     level = np.count_nonzero(changed) <= camera.rows / BLOCK_ROWS
     breaks = np.flatnonzero(changed) + 1 if level else np.empty(0, np.int64)
     starts = [0, *breaks.tolist(), camera.rows]

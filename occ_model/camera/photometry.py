@@ -1,4 +1,4 @@
-"""From luminance to pixel values: equations (1) to (3) of the paper."""
+"""Photometry: pixel values from luminance, equations (1) to (3) of the paper."""
 
 import math
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ WHITE = 255.0
 """The largest pixel value."""
 
 FLAT = 1.0
-"""Grey levels that values must span to differ at all: stretching less would invent stripes."""
+"""Least span in grey levels that is enhanced: stretching less would invent stripes."""
 
 _MID_GREY = 118.0
 """The pixel value of a scene of the luminance that the meter is calibrated to."""
@@ -71,14 +71,14 @@ def level_values(scene: Scene) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ColumnLight:
-    """What reaches each column while it is exposed.
+    """The light that reaches each column during its exposure.
 
     Parameters
     ----------
     lit : ndarray of float64, shape (columns,)
-        Share of the exposure in which the panel is lit; between 0 and 1 too where it is half lit.
+        Mean light of the panel in the exposure, as a share of the fully lit panel's.
     ambient : ndarray of float64, shape (columns,) or (1,)
-        The light from elsewhere, as a multiple of its mean over time.
+        The external light, as a multiple of its mean over time.
     """
 
     lit: FloatArray
@@ -119,8 +119,8 @@ def surroundings_values(scene: Scene, light: ColumnLight) -> FloatArray:
 def column_profile(scene: Scene) -> FloatArray:
     """Give the pixel value of every column before contrast enhancement, PV_sim.
 
-    It is :func:`panel_values` of the paper's model. The sum saturates, not its terms: a pixel is
-    full when all its light is in.
+    It is :func:`panel_values` of the paper's model, saturated. The sum saturates, not its terms: a
+    pixel is full by the light of the whole exposure.
 
     Returns
     -------

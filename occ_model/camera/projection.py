@@ -1,4 +1,4 @@
-"""Where the panel lies in the image, and the image of it."""
+"""Projection of the panel onto the image, and painting of the image."""
 
 import numpy as np
 
@@ -8,12 +8,12 @@ from occ_model.scene.scene import Camera, Pose, Scene
 from occ_model.scene.units import METRE
 
 MAX_PIXELS = 170_000_000
-"""The largest image that is made or read; a larger one is refused, not left to fill the memory."""
+"""Largest image that is made or read; a larger one is refused, as it would fill the memory."""
 
 _NEAREST_SHARE = 1e-6
 """Depth, as a share of the distance, below which a corner counts as in the camera's plane.
 
-A depth is a difference: of a smaller one too few digits are left to say where the corner is.
+A depth is a difference of numbers; a smaller one has too few digits to place the corner.
 """
 
 
@@ -78,7 +78,7 @@ def _centre(camera: Camera) -> FloatArray:
 
 
 def rotation_of(pose: Pose) -> FloatArray:
-    """Turn about the columns axis first, then the rows axis, then the optical axis."""
+    """Return the rotation about the columns axis, then the rows axis, then the optical axis."""
     angles = (pose.pitch, pose.yaw, pose.roll)
     (sx, cx), (sy, cy), (sz, cz) = ((np.sin(angle), np.cos(angle)) for angle in angles)
     about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
@@ -88,11 +88,10 @@ def rotation_of(pose: Pose) -> FloatArray:
 
 
 def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
-    """Say which columns of every row lie inside a convex polygon.
+    """Find the columns of every row that lie inside a convex polygon.
 
-    A pixel lies inside when its centre does, or lies on the left or upper rim: so that each pixel
-    belongs to one of two panels that meet in it. Nothing is drawn, so that corners may lie
-    any distance outside the image.
+    A pixel lies inside when its centre does, or lies on the left or upper rim, so that each pixel
+    belongs to only one of two adjacent panels. Corners may lie any distance outside the image.
 
     Parameters
     ----------
@@ -113,8 +112,8 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
         if y0 == y1:
             continue
         crossed = slice(_row_from(min(y0, y1), rows), _row_from(max(y0, y1), rows))
-        # Interpolated from both ends: exact at each of them, however steep the edge; and all along
-        # an upright one, whose rows must not differ.
+        # Interpolated from both ends, so as to be exact at each, however steep the edge; clipped, so
+        # that all rows of an upright edge are alike.
         along = (row[crossed] - y0) / (y1 - y0)
         x = np.clip(x0 * (1.0 - along) + x1 * along, min(x0, x1), max(x0, x1))
         np.minimum(left[crossed], x, out=left[crossed])
@@ -129,7 +128,7 @@ def _row_from(y: float, rows: int) -> int:
 
 
 def check_size(camera: Camera) -> None:
-    """Refuse a picture that would fill the memory.
+    """Refuse a picture that is too large.
 
     Raises
     ------
@@ -167,7 +166,7 @@ def paint(
     columns = len(enhanced)
     first, last = row_spans(corners, rows, columns)
     image = np.empty((rows, columns), dtype=np.uint8)
-    # Rows that carry the same span are painted as one block: a level panel is a single one.
+    # Rows with the same span are painted as one block; a level panel is a single one.
     changes = np.flatnonzero((first[1:] != first[:-1]) | (last[1:] != last[:-1])) + 1
     starts = [0, *changes.tolist()]
     for top, bottom in zip(starts, [*starts[1:], rows], strict=True):

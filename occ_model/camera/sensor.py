@@ -1,8 +1,7 @@
-"""The pixels: from grey levels to the electrons behind them, and back.
+"""The sensor: electrons of a pixel from its grey level, and back, and the noise they cause.
 
-The paper's equations (1) and (2) say which pixel value a camera was found to give for a luminance.
-That value is the mean of many pixels; what a single one deviates from it follows from the number of
-electrons that it holds.
+The paper's equations (1) and (2) give the pixel value of a luminance, which is the mean of many
+pixels. How far a single pixel deviates from it follows from the number of its electrons.
 """
 
 from collections.abc import Callable
@@ -14,9 +13,9 @@ from occ_model.camera.photometry import WHITE, luminance_of, pixel_value
 from occ_model.scene.scene import Scene
 
 _EXPOSURE_FACTOR = 0.65
-"""H = 0.65 L t / N^2 in lux seconds: what lenses let through of a luminance (ISO 12232).
+"""H = 0.65 L t / N^2 in lux seconds, the exposure behind a lens for a luminance (ISO 12232).
 
-It holds the fall-off of light at 10 degrees off the axis already, some 6 %."""
+It includes the fall-off of light at 10 degrees off the axis, some 6 %."""
 
 _PHOTONS = 8.8e15
 """Photons in a lumen second of white LED light: 320 lm/W, 3.55e-19 J a photon of 560 nm."""
@@ -44,7 +43,7 @@ def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
 
 
 def converter_step(scene: Scene) -> float:
-    """Give the electrons to one step of the converter, whose range ends at the largest value."""
+    """Return the electrons of one step of the converter, whose range ends at the largest value."""
     largest = float(electrons_of(np.array([WHITE]), scene)[0])
     return min(largest, scene.sensor.full_well) / float(2**scene.sensor.adc_bits)
 
@@ -55,10 +54,10 @@ def deviation(
     """Give the standard deviation of pixels in grey levels from that of their electrons.
 
     The deviation sigma of n electrons is multiplied by the slope of the gamma encoding,
-    PV / (gamma n) for n electrons. It is taken at sqrt(n^2 + sigma^2) of them, which is n where
-    there is light and keeps it finite where there is none. A pixel deviates by no more than it
-    lies below saturation: a full one shows no noise, and one within a deviation of being full
-    shows less than a sensor that is saturated by its gain alone.
+    PV / (gamma n) for n electrons. The slope is taken at sqrt(n^2 + sigma^2) electrons, which is n
+    where there is light and finite where there is none. The deviation is at most the distance
+    from saturation: a full pixel shows no noise, and one within a deviation of being full shows
+    less than a sensor that is saturated by its gain alone.
 
     Parameters
     ----------
@@ -77,8 +76,8 @@ def deviation(
     square = variance(electrons)
     there = np.sqrt(electrons * electrons + square)
     slope = values_of(there, scene) / np.maximum(scene.camera.gamma * there, _TINY)
-    room = np.maximum(saturation_value(scene) - values, 0.0)
-    return np.minimum(slope * np.sqrt(square), room)
+    headroom = np.maximum(saturation_value(scene) - values, 0.0)
+    return np.minimum(slope * np.sqrt(square), headroom)
 
 
 def saturation_value(scene: Scene) -> float:

@@ -1,1 +1,1 @@
-"""What the paper's model leaves out: one file an effect, and the plan that picks them."""
+"""Effects that the paper's model leaves out, and the plan that chooses among them."""

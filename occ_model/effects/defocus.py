@@ -19,13 +19,13 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
 _REACH = 4.0
-"""Standard deviations from the rim after which nothing of it is left."""
+"""Standard deviations from the rim beyond which the blur is negligible."""
 
 _WIDEST = 1e12
-"""Pixels of a point spread beyond which it leaves nothing of any panel."""
+"""Largest point spread in pixels: any larger one leaves nothing of any panel either."""
 
 _SLACK = 1.1
-"""What the rim's integrals can be wrong by, being sums."""
+"""Factor on the rim's integrals, which are computed as sums, to keep the bound above them."""
 
 
 class Defocus(OpticsEffect):
@@ -42,7 +42,7 @@ class Defocus(OpticsEffect):
     parameters = ("point_spread", "focus_distance", "pixel_pitch")
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the lens makes more than a point of a point."""
+        """Say whether the image of a point is wider than a point."""
         return blur_of(scene) != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:
@@ -75,7 +75,7 @@ class Defocus(OpticsEffect):
 
 
 def blur_of(scene: Scene) -> float:
-    """Give the standard deviation of the point spread in pixels."""
+    """Return the standard deviation of the point spread in pixels."""
     camera, lens, distance = scene.camera, scene.lens, scene.pose.distance
     spot = 0.0
     if lens.focus_distance:
@@ -95,7 +95,7 @@ def _reaches(corners: FloatArray, scene: Scene, blur: float) -> bool:
 
 
 def _near(side: float, size: int, blur: float) -> int:
-    """Give 1 where a side of the panel is seen in the picture or just beside it, 0 where not."""
+    """Return 1 where a side of the panel is in the picture or just beside it, 0 where not."""
     reach = _REACH * blur + 1.0
     return int(-reach < side < size + reach)
 
@@ -103,7 +103,7 @@ def _near(side: float, size: int, blur: float) -> int:
 def _rim(view: PaperView, both: bool) -> tuple[float, float]:
     """Integrate the squared and the absolute change across the rim, in standard deviations.
 
-    Only the panel's side of it where the observed rectangle ends there.
+    Where the observed rectangle ends at the rim, only the panel's side of it counts.
     """
     scene = view.scene
     distance, share = _tail()
@@ -127,7 +127,7 @@ def _rim(view: PaperView, both: bool) -> tuple[float, float]:
 
 @lru_cache(maxsize=1)
 def _tail() -> tuple[FloatArray, FloatArray]:
-    """Give distances from the rim and how much of the light there comes from beyond it."""
+    """Return distances from the rim, and the share of the light there from beyond the rim."""
     distance = np.linspace(0.0, _REACH, 33)
     beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in distance.tolist()])
     return distance, beyond

@@ -22,19 +22,19 @@ from occ_model.scene.scene import Camera, Lens, Scene
 from occ_model.scene.simulation_settings import Observable
 
 _PARTS = 64
-"""Parts that each edge of the panel is bent in at least."""
+"""Fewest parts that each edge of the panel is divided into."""
 
 _MOST_PARTS = 1024
-"""Parts at the most."""
+"""Most parts of an edge."""
 
 _NEAR = 0.01
-"""How far from the curve the bent parts may lie, in pixels."""
+"""Largest distance of the straight parts from the curve, in pixels."""
 
 _DIRECTIONS = 64
-"""Directions in which the lens is looked at for a fold."""
+"""Directions in which a fold of the lens's image is searched for."""
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
-"""How far out it is looked at, in multiples of the picture's corner and of what is needed."""
+"""Radii of that search, in multiples of the picture's corner and of the radius needed."""
 
 
 class Distortion(OpticsEffect):
@@ -56,17 +56,17 @@ class Distortion(OpticsEffect):
     def _bound(self, view: PaperView, observable: Observable) -> float:
         """Bound the change by the strip between the straight outline and the bent one.
 
-        Pixels in it show the panel in place of the surroundings, or the other way round. It is a
-        pixel wider than the outline moves, as a pixel's centre is in or out.
+        Pixels in it show the panel in place of the surroundings, or the reverse. It is a pixel
+        wider than the outline moves, as a pixel's centre lies inside or outside.
         """
         scene, region = view.scene, view.region
         try:
             straight, bent = _outlines(scene, view.corners)
-        except ProjectionError:  # refused where it is to be simulated
+        except ProjectionError:  # the simulation refuses it
             return math.inf
         reach = 4.0 * blur_of(scene) + 1.0
         seen = _within(straight, scene.camera, reach) | _within(bent, scene.camera, reach)
-        seen |= np.roll(seen, -1)  # a part is seen where either of its ends is
+        seen |= np.roll(seen, -1)  # a part is seen if either of its ends is
         if not seen.any():
             return 0.0
         moved = np.abs(bent - straight)
@@ -94,7 +94,7 @@ class Distortion(OpticsEffect):
 
 
 def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
-    """Give where rays (x, y) are pictured, in focal lengths, shape as ``rays``."""
+    """Return the image points of rays (x, y), in focal lengths, shape as ``rays``."""
     x, y = rays[..., 0], rays[..., 1]
     square = x * x + y * y
     radial = 1.0 + square * (lens.radial_k1 + lens.radial_k2 * square)
@@ -116,8 +116,8 @@ def _within(points: FloatArray, camera: Camera, reach: float) -> np.ndarray:
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give the outline of a panel with these corners, without and with distortion, by points.
 
-    What lies so far outside that no light of it reaches the picture is cut off first: out there
-    the equations need not make sense.
+    Parts so far outside that none of their light reaches the picture are cut off first: the
+    equations need not be valid there.
     """
     camera = scene.camera
     rays = image_rays(corners, camera)
@@ -128,11 +128,11 @@ def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray
     if np.hypot(*rays.T).max() > view.radius:
         rays = clipped(rays, view.rim)
     if len(rays) == 0:
-        rays = np.full((3, 2), 2.0 * view.radius)  # a panel without area, out of sight
+        rays = np.full((3, 2), 2.0 * view.radius)  # a panel without area, outside the picture
         return image_points(rays, camera), image_points(rays, camera)
     rays = subdivided(rays, _parts(rays, scene))
     bent = distorted(rays, scene.lens)
-    # A panel that goes on where the lens folds goes on as far as its light can come from.
+    # A panel that extends beyond the fold is continued as far as light can reach the picture.
     beyond = np.hypot(*rays.T) >= view.radius
     far = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
     bent[beyond] *= far[:, None]
@@ -140,7 +140,7 @@ def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def _parts(rays: FloatArray, scene: Scene) -> IndexArray:
-    """Say in how many parts each edge of a polygon is to be bent."""
+    """Return the number of parts that each edge of a polygon is divided into."""
     halves = subdivided(rays, np.full(len(rays), 2 * _PARTS))
     halves = distorted(halves, scene.lens) * scene.camera.focal_length_pixels
     starts, middles = halves[::2], halves[1::2]
@@ -153,7 +153,7 @@ def _parts(rays: FloatArray, scene: Scene) -> IndexArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _View:
-    """The rays that can reach the picture: their radius, and a polygon to cut by."""
+    """The rays that can reach the picture: their radius, and a polygon to clip by."""
 
     radius: float
     rim: FloatArray
@@ -163,7 +163,7 @@ class _View:
 def _view(lens: Lens, corner: float, needed: float) -> _View:
     """Find the rays that are pictured up to ``needed`` focal lengths from the centre.
 
-    Where the lens folds before that, they are those as far as it does not.
+    Where the lens folds before that, they end at the fold.
 
     Raises
     ------
@@ -186,13 +186,13 @@ def _view(lens: Lens, corner: float, needed: float) -> _View:
             "before its corners are reached; bring them nearer to 0."
         )
     radius = float(radii[last])
-    # Rays that a lens without distortion pictures count as well: the bound compares with it.
+    # The rays that a lens without distortion would need are included: the bound compares with it.
     kept = max(radius, needed)
     return _View(radius, circle * kept / math.cos(math.pi / _DIRECTIONS))
 
 
 def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:
-    """Give by what an area is enlarged at each ray; not above 0 where the picture folds."""
+    """Return the magnification of area at each ray; 0 or less where the picture folds."""
     x, y = rays[..., 0], rays[..., 1]
     square = x * x + y * y
     k1, k2, p1, p2 = lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2

@@ -18,8 +18,8 @@ class Emission(OpticsEffect):
 
     Its luminance, the intensity over the area that is seen, falls as cos^(m - 1): a Lambertian
     panel, m = 1, is equally bright from all sides (J. M. Kahn and J. R. Barry, "Wireless infrared
-    communications", Proc. IEEE 85, 1997, for the generalized Lambertian source). Light from
-    elsewhere that the panel reflects is not changed.
+    communications", Proc. IEEE 85, 1997, for the generalized Lambertian source). External
+    light that the panel reflects is not changed.
     """
 
     name = "emission"
@@ -36,7 +36,7 @@ class Emission(OpticsEffect):
         order = scene.transmitter.lambertian_order
         x, y = view.corner_rays.T
         cosines = _cosine(scene, x, y)
-        # Where the panel's plane is seen edge-on between the corners, none of them is the least.
+        # Where the panel's plane is seen edge-on between the corners, the least is 0, at none of them.
         is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())
         least = 0.0 if is_crossed else float(np.abs(cosines).min()) ** (order - 1.0)
         dark, bright = reachable_luminances(scene)
@@ -63,7 +63,7 @@ def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _largest_loss(view: PaperView, dark: float, emitted: float, factor: float) -> float:
-    """Give the most grey levels that are lost to ``factor``, at any share of the light."""
+    """Return the largest loss in grey levels by ``factor``, at any share of the light."""
     # The loss grows with the light until that saturates, under the strongest vignetting.
     light = min(max(view.just_white - dark, 0.0), emitted)
     return view.largest_change(dark + light * factor, dark + light)

@@ -37,7 +37,7 @@ class Flicker(LightEffect):
         return view.largest_change(dark * (1.0 - _seen_depth(view.scene)), dark)
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
-        """Let the light from elsewhere change from column to column."""
+        """Vary the external light from column to column."""
         return replace(light, ambient=light.ambient * ambient_shares(scene))
 
 
@@ -61,9 +61,9 @@ def ambient_shares(scene: Scene) -> FloatArray:
 
 
 def response(scene: Scene) -> float:
-    """Give sinc(F t), the share of the flicker that an exposure leaves.
+    """Return sinc(F t), the share of the flicker that an exposure leaves.
 
-    Whole cycles are taken out before the sine, so that it is nothing where they leave nothing.
+    Whole cycles are subtracted before the sine, so that it is exactly 0 for a whole number of them.
     """
     cycles = Fraction(scene.surroundings.flicker_frequency) * Fraction(scene.camera.exposure_time)
     whole = round(cycles)

@@ -29,15 +29,15 @@ _LUMINANCE_STEPS = (
 """Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
 
 _ROUNDING = 0.5
-"""Grey levels by which rounding the pixels changes them at most, each time."""
+"""Largest change in grey levels by rounding the pixels once."""
 
 
 class Jpeg(FileEffect):
     """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
 
     The cosine transform is orthonormal, so that the pixels' mean square error is that of the
-    coefficients (Parseval): at most half a step of each. The contrast enhancement works on what is
-    read back from the file.
+    coefficients (Parseval): at most half a step of each. The contrast enhancement is applied to
+    the picture read back from the file.
     """
 
     name = "jpeg"
@@ -57,10 +57,10 @@ class Jpeg(FileEffect):
         return min(error + 2.0 * _ROUNDING, WHITE)
 
     def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
-        """Add the steps that a change makes: as often as it is large against a step.
+        """Add the steps of rounding that a change causes, in proportion to its size.
 
         Of dithered pixels that change by c, c / 1 round to another level; of coefficients that
-        change by c, c / q round to another step q. Without noise all may do so at once.
+        change by c, c / q round to another step q. Without noise all of them may do so at once.
         """
         step = _step(view.scene.camera.jpeg_quality) * _block_dilution(view.region)
         if not dithered:
@@ -74,7 +74,7 @@ class Jpeg(FileEffect):
         Raises
         ------
         ParameterError
-            The picture is larger than such a file can hold.
+            The picture is larger than a JPEG file can hold.
         """
         if not self.is_present(scene):
             return image

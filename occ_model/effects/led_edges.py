@@ -35,10 +35,10 @@ class LedEdges(LightEffect):
         return scene.transmitter.edge_time != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
-        """Bound the change by the columns that see one, and how much each of them sees.
+        """Bound the change by the columns that see an edge, and the change of each.
 
         A column's light changes where a chip does within its exposure or the edge time before it,
-        and then by at most tau / 2: what one ramp keeps back.
+        and then by at most tau / 2, the light that one ramp keeps back.
         """
         scene = view.scene
         share = min(scene.transmitter.edge_time / (2.0 * scene.camera.exposure_time), 1.0)
@@ -53,7 +53,7 @@ class LedEdges(LightEffect):
         return change * math.sqrt(_share_of_columns(view))
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
-        """Let the columns see the ramps."""
+        """Replace the light of every column by that of the ramps."""
         if not self.is_present(scene):
             return light
         return replace(light, lit=edged_lit_fraction(scene))

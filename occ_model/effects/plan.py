@@ -14,7 +14,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE, Observable, SimulationSettings
 
 _DITHERING = 0.5
-"""Grey levels of noise that spread a pixel evenly over the steps of rounding."""
+"""Grey levels of noise that spread a pixel over the steps of rounding (dithering)."""
 
 
 def plan(
@@ -30,8 +30,8 @@ def plan(
     then differs by no more from what it is with all effects. Bounds and tolerance are counted in
     levels of the stretched profile, grey levels times 255 / swing: what a decoder sees is contrast.
 
-    A file's rounding turns small changes into steps. With it in the plan, bounds are counted as
-    they come through the file.
+    A file's rounding turns small changes into steps. With a file in the plan, each bound is that of
+    the change after the file.
 
     Parameters
     ----------
@@ -44,8 +44,8 @@ def plan(
         ``"image"``: the pixels of the panel's bounding rectangle; ``"profile"``: the means of its
         columns, which is what a decoder sees.
     force
-        Effects that are simulated (True) or left out (False) whatever they do. What is left out by
-        hand is outside of the promise.
+        Effects that are always simulated (True) or left out (False). The tolerance does not cover
+        what is left out by hand.
 
     Returns
     -------
@@ -142,7 +142,7 @@ class _ThroughFile:
 def _noise_that_dithers(
     bounds: Mapping[str, float], forced: Mapping[str, bool], stretch: float
 ) -> tuple[str, ...]:
-    """Give the noise that spreads pixels over the steps of rounding: it stays in beside a file."""
+    """Return the noise that dithers: it is always simulated with a file."""
     names = (effect.name for effect in NOISES)
     return tuple(
         name for name in names if forced.get(name, True) and bounds[name] >= _DITHERING * stretch
@@ -152,7 +152,7 @@ def _noise_that_dithers(
 def _file_in(
     left_out: set[str], bounds: Mapping[str, float], forced: Mapping[str, bool]
 ) -> FileEffect | None:
-    """Give the file that the picture is kept in, None where it is left out or none."""
+    """Return the file that the picture is kept in, None where it is left out or there is none."""
     for effect in FILES:
         name = effect.name
         if bounds[name] and name not in left_out:
@@ -166,14 +166,14 @@ def _leave_out(
     tolerance: float,
     through: Callable[[float], float] = float,
 ) -> tuple[set[str], float]:
-    """Leave out the smallest bounds first, as far as the tolerance reaches.
+    """Leave out the smallest bounds first, as long as their sum is within the tolerance.
 
     Returns
     -------
     left_out
         The names of effects.
     spent
-        What they can change together, as it comes through the file.
+        The most that they can change together, after the file.
     """
     total, spent, left_out = 0.0, 0.0, set()
     for name in sorted((name for name in NAMES if name not in forced), key=bounds.__getitem__):

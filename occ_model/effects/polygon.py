@@ -1,4 +1,4 @@
-"""Polygons: cutting one by another, and cutting their edges in parts."""
+"""Polygons: clip one by another, and divide their edges."""
 
 import numpy as np
 
@@ -6,9 +6,9 @@ from occ_model.arrays import FloatArray, IndexArray
 
 
 def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
-    """Cut a polygon by a convex one that goes round counter-clockwise.
+    """Clip a polygon by a convex one whose corners are in counter-clockwise order.
 
-    Edge by edge of the window, what lies outside it is taken away (I. E. Sutherland and
+    Edge by edge of the window, the part outside is removed (I. E. Sutherland and
     G. W. Hodgman, "Reentrant polygon clipping", Comm. ACM 17, 1974).
 
     Parameters
@@ -19,7 +19,7 @@ def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
     Returns
     -------
     ndarray of float64, shape (corners, 2)
-        Without corners where nothing is left.
+        Empty where nothing is left.
     """
     for start, end in zip(window, np.roll(window, -1, axis=0), strict=True):
         if len(polygon) == 0:
@@ -46,14 +46,14 @@ def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
 
 
 def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
-    """Cut the edges of a polygon in equal parts.
+    """Divide the edges of a polygon into equal parts.
 
     Parameters
     ----------
     polygon : ndarray of float64, shape (corners, 2)
         In order.
     parts : ndarray of int64, shape (corners,)
-        In how many parts the edge from each corner to the next is cut.
+        Number of parts of the edge from each corner to the next.
 
     Returns
     -------

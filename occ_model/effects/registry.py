@@ -1,4 +1,4 @@
-"""All effects, in the order that light travels."""
+"""The list of all effects, in the order that light travels."""
 
 from typing import TypeVar
 
@@ -46,6 +46,6 @@ def moves_light(scene: Scene) -> bool:
 
 
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
-    """Give the effects of a kind that a plan includes, in order."""
+    """Return the effects of a kind that a plan includes, in order."""
     included = plan.included
     return tuple(e for e in EFFECTS if isinstance(e, kind) and e.name in included)

@@ -26,11 +26,11 @@ class FullWell(PixelEffect):
         return _above_full_well(scene) > 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
-        """Bound the change by what the brightest column has beyond a full well."""
+        """Bound the change by the excess of the brightest column over a full well."""
         return _above_full_well(view.scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
-        """Cut off what is beyond a full well."""
+        """Limit the values to that of a full well."""
         full = np.asarray(saturation_value(scene), dtype=values.dtype)
         return np.minimum(values, full)
 
@@ -80,7 +80,7 @@ class SensorNoise(NoiseEffect):
     parameters = ("pixel_pitch", "quantum_efficiency", "read_noise", "adc_bits")
 
     def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - as light is
-        """Say that every scene has it: light comes in photons."""
+        """Every scene has it: light comes in photons."""
         return True
 
     def _bound(self, view: PaperView, observable: Observable) -> float:

@@ -19,7 +19,7 @@ class Vignetting(OpticsEffect):
     """The light at a pixel falls as cos^n of its angle off the optical axis.
 
     n = 4 is the natural fall-off of a thin lens that keeps straight lines straight (W. J. Smith,
-    *Modern Optical Engineering*); lenses that are made against it have less. On the axis nothing
+    *Modern Optical Engineering*); lenses corrected for it have less. On the axis nothing
     is lost. The angle is that of a lens without distortion.
     """
 

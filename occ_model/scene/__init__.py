@@ -1,1 +1,1 @@
-"""What is simulated: frozen values made of declared parameters, and their files."""
+"""Scenes: frozen values of declared parameters, their files and presets."""

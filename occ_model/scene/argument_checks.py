@@ -1,4 +1,4 @@
-"""Checks of arguments that are no parameters of a scene."""
+"""Check the arguments of functions: counts, choices, switches, seeds."""
 
 from collections.abc import Mapping, Sequence
 from numbers import Integral
@@ -9,7 +9,7 @@ from occ_model.errors import ParameterError, shown
 
 
 def check_count(name: str, value: object, least: int, most: int | None = None) -> None:
-    """Refuse what is no whole number from ``least``, nor up to ``most`` if that is given.
+    """Refuse a value that is not a whole number from ``least`` to ``most``, if that is given.
 
     Raises
     ------
@@ -25,7 +25,7 @@ def check_count(name: str, value: object, least: int, most: int | None = None) -
 
 
 def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
-    """Refuse what is none of a few words.
+    """Refuse a value that is not one of ``choices``.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
 
 
 def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
-    """Give what is switched on (True) and off (False) by name, or refuse what is no such thing.
+    """Return switches, on (True) or off (False) by name, or refuse a value that is no such mapping.
 
     Raises
     ------
@@ -60,5 +60,5 @@ def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
 
 
 def check_seed(seed: object) -> None:
-    """Refuse what is no seed of random numbers."""
+    """Refuse a value that is not a seed of random numbers: a whole number from 0."""
     check_count("seed", seed, 0)

@@ -1,4 +1,4 @@
-"""Scenes from files and from texts such as ``switching_frequency=10kHz``."""
+"""Scenes from files, and changed by texts such as ``switching_frequency=10kHz``."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -12,10 +12,10 @@ from occ_model.scene.provenance import ENDINGS, scene_inside
 from occ_model.scene.scene import Scene
 
 SCENE_ENDING = ".toml"
-"""The ending of the files that scenes are saved to."""
+"""Ending of the files that scenes are saved to."""
 
 DEFAULT_PRESET = "phone-68us"
-"""The scene where none is asked for: one that all models and decoders have an answer to."""
+"""The preset used where none is named: all models and decoders give a result for it."""
 
 
 def read_scene_file(path: Path) -> Scene:
@@ -38,9 +38,9 @@ def read_scene_file(path: Path) -> Scene:
 
 
 def check_scene_path(path: Path) -> None:
-    """Refuse to save a scene where it would not be opened again.
+    """Refuse to save a scene to a file that would not be opened as one.
 
-    Other endings mean figures, tables and photos, to whoever opens a file.
+    Other endings are those of figures, tables and photos.
 
     Raises
     ------

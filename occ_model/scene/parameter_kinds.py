@@ -1,6 +1,6 @@
-"""The kinds of parameter: what a declaration holds, and how it checks, reads and writes a value.
+"""Kinds of parameter: quantities, counts, choices, chip patterns; each checks and reads a value.
 
-Values are in SI units; how one is shown is its unit's business (:mod:`occ_model.scene.units`).
+Values are in SI units; a unit says how they are shown (:mod:`occ_model.scene.units`).
 """
 
 import math
@@ -24,7 +24,7 @@ def _whole(value: object) -> int | None:
         return int(value)
     try:
         number = float(value) if isinstance(value, Real) else math.nan
-    except OverflowError:  # a fraction too large to hold, and so for every declaration
+    except OverflowError:  # a fraction too large for a float, and so for every declaration
         return None
     return int(number) if number.is_integer() else None
 
@@ -39,7 +39,7 @@ def _read_whole(text: str) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """What every kind of parameter has.
+    """The declaration of a parameter, of whatever kind.
 
     Parameters
     ----------
@@ -59,11 +59,11 @@ class Declaration:
     meaning: str
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
-        """Make the error that names the parameter, what is wrong and what is allowed."""
+        """Make the error that names the parameter, the problem and what is allowed."""
         return ParameterError(f"{self.name} {problem}; allowed: {allowed}.")
 
     def _check_length(self, text: str, allowed: str) -> None:
-        """Refuse a text that is too long to be read as a number."""
+        """Refuse a text that is too long to be a number."""
         if len(text) > LONGEST_TEXT:
             raise self.refuse(
                 f"is a text of {len(text):,} characters",
@@ -106,14 +106,14 @@ class Quantity(Declaration):
         return number
 
     def _outside(self, number: float) -> str:
-        """Write a value that is not allowed with as many digits as tell it from the limits."""
+        """Write a value that is not allowed with enough digits to tell it from the limits."""
         text = self.unit.format(number)
         if text in (self.unit.format(self.low), self.unit.format(self.high)):
             return self.unit.format(number, digits=17)
         return text
 
     def parse(self, text: str, plain: float = 1.0) -> float:
-        """Read a value as people write it; a number without a unit is worth ``plain`` in SI."""
+        """Read a value as people write it; ``plain`` is the SI value of 1 without a unit."""
         self._check_length(text, self.allowed)
         number = self.unit.parse(text, plain)
         if number is None:
@@ -132,7 +132,7 @@ class Quantity(Declaration):
             value = low * (high / low) ** fraction
         else:
             value = low + (high - low) * fraction
-        # By way of the text, so that typing what is shown gives the very same value.
+        # Through its text, so that typing the text shown gives the very same value.
         rounded = self.unit.parse(self.unit.format(value, digits=4))
         return min(max(value if rounded is None else rounded, low), high)
 

@@ -1,4 +1,4 @@
-"""A preset's file: a scene file with notes on its values, laid over those that it is based on."""
+"""Preset files: scene files with notes on their values, based on other presets."""
 
 import re
 from collections.abc import Mapping
@@ -16,25 +16,25 @@ from occ_model.scene.scene import Scene
 FOLDER, ENDING = "presets", ".toml"
 
 _MAX_BASES = 8
-"""Presets that one is based on at most; each is laid over the others whenever it is loaded."""
+"""Presets that one may be based on; all of them are read whenever it is loaded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """A scene to begin with.
+    """A scene with a name, a title and notes on its values.
 
     Parameters
     ----------
     name
-        The name that it is loaded by.
+        The name to load it by.
     title
-        What it is, in a few words.
+        A short description.
     scene
         The scene.
     sources
         Where a parameter's value comes from, by the parameter's name.
     assumed
-        Why a parameter has the value it has where no source gives one.
+        The reason for a parameter's value where no source gives one.
     """
 
     name: str
@@ -45,14 +45,14 @@ class Preset:
 
 
 def preset_from(name: str, text: str) -> Preset:
-    """Read a preset from its file's text; without a title its name is one.
+    """Read a preset from its file's text; its name is the title where the text has none.
 
     Raises
     ------
     SceneFileError
         It is no preset.
     ParameterError
-        A value is out of range, or a note is on what is no parameter.
+        A value is out of range, or a note is on an unknown parameter.
     """
     preset = _put_together(name, _layers(text))
     return preset if preset.title else Preset(name, name, preset.scene, preset.sources, {})
@@ -72,7 +72,7 @@ def package_preset(name: str) -> Preset:
 
 @lru_cache(maxsize=64)
 def _package_layers(name: str) -> tuple[dict[str, Any], ...]:
-    """Read a preset file of the package, which does not change while the program runs."""
+    """Read a preset file of the package; it does not change while the program runs."""
     try:
         return _layers(resource_text(FOLDER, *f"{name}{ENDING}".split("/")))
     except (OSError, UnicodeDecodeError) as error:
@@ -89,7 +89,7 @@ def _put_together(name: str, layers: tuple[dict[str, Any], ...]) -> Preset:
 
 
 def _layers(text: str) -> tuple[dict[str, Any], ...]:
-    """Read a preset file's text and, before it, what of the package it is based on."""
+    """Read a preset file's text, after the layers of the presets that it is based on."""
     content = toml_format.from_toml(text)
     named = content.pop("based_on", [])
     bases = [named] if isinstance(named, str) else named
@@ -114,7 +114,7 @@ def _laid_over(base: Preset, content: dict[str, Any]) -> Preset:
         raise SceneFileError(f"title is {shown(title)}; allowed: a text.")
     sources = checked_notes(tables.pop("sources", {}))
     assumed = checked_notes(tables.pop("assumed", {}))
-    # A value with a source here is no longer assumed, whatever the base said of it, and vice versa.
+    # A value with a source here is no longer assumed, as it may be in the base, and vice versa.
     return Preset(
         name=base.name,
         title=title,
@@ -127,20 +127,20 @@ def _laid_over(base: Preset, content: dict[str, Any]) -> Preset:
 def _over(
     base: Mapping[str, str], own: Mapping[str, str], without: Mapping[str, str]
 ) -> Mapping[str, str]:
-    """Lay a preset's own notes over its base's, less what it says otherwise; read-only."""
+    """Combine a preset's own notes with those of its base, ``without`` some names; read-only."""
     kept = {name: note for name, note in base.items() if name not in without}
     return MappingProxyType({**kept, **own})
 
 
 def checked_notes(table: object) -> dict[str, str]:
-    """Return the notes on a preset's values, or refuse what are none.
+    """Return the notes on a preset's values, or refuse a value that is no table of notes.
 
     Raises
     ------
     SceneFileError
         It is no table of texts.
     ParameterError
-        A note is on what is no parameter.
+        A note is on an unknown parameter.
     """
     if not isinstance(table, dict) or not all(isinstance(note, str) for note in table.values()):
         raise SceneFileError(

@@ -1,4 +1,4 @@
-"""Scenes to begin with: those that come with the package, and the user's own.
+"""Presets, the package's and the user's own: list, load, save and delete them.
 
 Each value has its source, or the reason why it is assumed, in the preset's file.
 """
@@ -40,14 +40,14 @@ USER_FOLDER = "OCC_PRESETS"
 _NAME = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9 _-]{0,58}[A-Za-z0-9_-])?")
 _NAMES = "1 to 60 letters, digits, spaces, - and _, the first a letter or digit, the last no space"
 _DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
-"""Names that Windows keeps for devices."""
+"""Names that Windows reserves for devices."""
 
 
 def presets() -> tuple[str, ...]:
     """List the names of the presets: those of the package, then the user's own.
 
-    A file among the user's own that is no preset is left out; :func:`unreadable_presets` tells
-    why.
+    A file among the user's own that cannot be read as a preset is left out;
+    :func:`unreadable_presets` gives the reason.
     """
     return (*_built_in(), *user_presets())
 
@@ -63,12 +63,12 @@ def all_presets() -> tuple[Preset, ...]:
 
 
 def unreadable_presets() -> dict[str, str]:
-    """Tell which files among the user's own presets cannot be used.
+    """List the user's own preset files that cannot be used.
 
     Returns
     -------
     dict
-        Why not, in a sentence, by the file's name without its ending, control characters escaped.
+        The reason, a sentence, by the file's name without its ending, control characters escaped.
     """
     return _read_own()[1]
 
@@ -79,7 +79,7 @@ def load_preset(name: str) -> Scene:
     Raises
     ------
     PresetError
-        No preset has that name; the names there are stand in the message.
+        No preset has that name; the message lists the known names.
     SceneFileError, ParameterError
         The user's own file of that name is no preset.
     """
@@ -107,7 +107,7 @@ def preset_named(name: str) -> Preset:
 def save_preset(
     name: str, scene: Scene, *, title: str = "", sources: Mapping[str, str] | None = None
 ) -> Path:
-    """Save a scene as one of the user's own presets, in place of one of that name.
+    """Save a scene as one of the user's own presets; one of that name is replaced.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def save_preset(
     scene
         The scene.
     title
-        What it is, in a few words; by default the name.
+        A short description; by default the name.
     sources
         Where values come from, by the parameter's name.
 
@@ -128,9 +128,9 @@ def save_preset(
     Raises
     ------
     PresetError
-        The name cannot be one, or a preset of the package has it.
+        The name is not allowed, or is that of a preset of the package.
     ParameterError
-        ``scene`` or ``title`` is none, or a source is of what is no parameter.
+        ``scene`` is no scene, ``title`` no text, or a source is given for an unknown parameter.
     OutputError
         The file cannot be written.
     """
@@ -155,7 +155,7 @@ def delete_preset(name: str) -> None:
     Raises
     ------
     PresetError
-        None of the user's own has that name.
+        None of the user's own presets has that name.
     OutputError
         It cannot be deleted.
     """
@@ -173,7 +173,7 @@ def delete_preset(name: str) -> None:
 
 
 def user_folder() -> Path:
-    """Give the folder of the user's own presets, which need not be there yet."""
+    """Return the folder of the user's own presets, which need not exist yet."""
     folder = os.environ.get(USER_FOLDER)
     if folder:
         return Path(folder)
@@ -188,20 +188,23 @@ def _built_in() -> tuple[str, ...]:
 
 
 def _files_in(folder: Path) -> list[Path]:
-    """List what a user keeps as presets, readable or not."""
+    """List the files in a folder that have the ending of presets, readable or not."""
     try:
         return sorted(p for p in folder.glob(f"*{ENDING}") if not p.name.startswith("."))
-    except (OSError, ValueError):  # no folder, none that may be read, or none that can be one
+    except (
+        OSError,
+        ValueError,
+    ):  # it is missing, unreadable, or cannot exist
         return []
 
 
 def _own_names() -> tuple[str, ...]:
-    """List the files that could be the user's own presets."""
+    """List the names of the user's own preset files, readable or not."""
     return tuple(p.stem for p in _files_in(user_folder()) if _name_problem(p.stem) is None)
 
 
 def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
-    """Load the user's own presets by name; of files that are none, tell why."""
+    """Load the user's own presets by name, and give the reasons for files that are none."""
     loaded: dict[str, Preset] = {}
     failures: dict[str, str] = {}
     for path in _files_in(user_folder()):
@@ -221,7 +224,7 @@ def _own_file(name: str) -> Path:
 
 
 def _name_problem(name: object) -> str | None:
-    """Say why a preset of the user's own cannot have a name, None where it can."""
+    """Return why a preset of the user's own cannot have a name, None where it can."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         return f"A preset cannot be named {shown(name)}; allowed: {_NAMES}."
     if name.lower() in {other.lower() for other in _built_in()}:
@@ -245,12 +248,12 @@ def _unknown(name: object, known: tuple[str, ...]) -> PresetError:
 
 
 def _load_own(name: str) -> Preset:
-    """Load one of the user's own, which may change at any time and is not trusted."""
+    """Load one of the user's own presets, whose file may change at any time and hold anything."""
     path = _own_file(name)
     text = read_text(path)
     try:
         return preset_from(name, text)
-    except Exception as error:  # noqa: BLE001 - a file, whatever is in it, must not hide the others
+    except Exception as error:  # noqa: BLE001 - one bad file must not hide the others
         kind = type(error) if isinstance(error, SceneFileError | ParameterError) else SceneFileError
         problem = error if isinstance(error, OccError) else shown(error)
         where = one_line(str(path))

@@ -22,15 +22,15 @@ ENDINGS = (".png", ".svg", ".pdf", ".csv")
 _SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
 
 _LARGEST = 64_000_000
-"""Bytes of a drawing or document that is looked into: its text may stand anywhere."""
+"""Bytes of a drawing or document that are searched: its text may stand anywhere."""
 
 _LONGEST = 1_000_000
-"""Bytes of the text itself, and of the start of a picture or table, where it stands."""
+"""Bytes of the text itself, and of the start of a picture or table, which holds it."""
 
 _SVG = b"<dc:description>", b"</dc:description>"
 _COMMENTS = re.compile(rb"(?:#[^\n]*+\n?+)*+")
 _PDF = b"/Subject ("
-# Nothing that is passed over is looked at again.
+# Possessive, so that no byte is matched twice.
 _PDF_LITERAL = re.compile(rb"((?:[^\\()]++|\\.)*+)\)", re.DOTALL)
 _PDF_ESCAPE = re.compile(rb"\\([0-7]{1,3}|.)", re.DOTALL)
 _ESCAPED = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
@@ -43,15 +43,15 @@ class Provenance:
     Parameters
     ----------
     title
-        What the figure or table shows.
+        Title of the figure or table.
     scenes
         The scenes by name.
     seed
-        Of all random numbers, None where there are none.
+        Seed of all random numbers, None where there are none.
     notes
         Further lines.
     date
-        When they were made, empty where the file is to be the same whenever it is.
+        When they were made; empty for a file that must not depend on it.
     """
 
     title: str
@@ -61,7 +61,7 @@ class Provenance:
     date: str = ""
 
     def lines(self) -> list[str]:
-        """Write it as lines of text."""
+        """Write the provenance as lines of text."""
         lines = [self.title, f"occ_model {__version__}"]
         if self.date:
             lines.append(f"date {self.date}")
@@ -73,12 +73,12 @@ class Provenance:
         return lines
 
     def text(self) -> str:
-        """Write it as one text."""
+        """Write the provenance as one text."""
         return "\n".join(self.lines())
 
 
 def scenes_in(text: str) -> dict[str, Scene]:
-    """Read the scenes out of what :meth:`Provenance.text` wrote, by their names.
+    """Read the scenes, by name, from a text that :meth:`Provenance.text` wrote.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def scenes_in(text: str) -> dict[str, Scene]:
 
 
 def first_scene_in(text: str) -> Scene | None:
-    """Read the first scene out of what :meth:`Provenance.text` wrote, None where there is none.
+    """Read the first scene from a text that :meth:`Provenance.text` wrote, None without any.
 
     Raises
     ------
@@ -109,7 +109,7 @@ def first_scene_in(text: str) -> Scene | None:
 
 
 def scene_inside(path: Path) -> Scene:
-    """Read the scene that an exported figure or table carries; of several the first.
+    """Read the scene that an exported figure or table carries, the first of several.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def _of_png(path: Path) -> str:
     from PIL.PngImagePlugin import PngImageFile
 
     try:
-        # It reads up to the pixels, and unpacks no more than its own limits allow.
+        # Pillow reads up to the pixels, and unpacks no more text than its own limits allow.
         with PngImageFile(start) as picture:
             return str(picture.info.get("Description", ""))
     except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
@@ -178,7 +178,7 @@ def _of_pdf(path: Path) -> str:
         literal = _PDF_LITERAL.match(content, place, place + _LONGEST)
         if literal:
             return _literal_text(literal[1])
-        # What follows a start is looked at once, and the next start is beyond it.
+        # The bytes after a start are searched once; the next start is beyond it.
         place = content.find(_PDF, place)
     return ""
 

@@ -20,7 +20,7 @@ def _declared(name: str) -> Any:
 
 
 class _Checked:
-    """Checks every field against its declaration, so that no invalid value object exists."""
+    """Base of the parameter groups: checks every field against its declaration."""
 
     __slots__ = ()
     __dataclass_fields__: ClassVar[dict[str, Any]]
@@ -33,7 +33,7 @@ class _Checked:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Transmitter(_Checked):
-    """The LED panel and what it sends."""
+    """The LED panel, its light and its code."""
 
     code: int = _declared("code")
     bits: int = _declared("bits")
@@ -75,14 +75,14 @@ class Camera(_Checked):
 
     @property
     def focal_length_pixels(self) -> float:
-        """Focal length in pixels; the size of a pixel drops out of it."""
+        """Focal length in pixels; it does not depend on the size of a pixel."""
         diagonal: float = (self.rows**2 + self.columns**2) ** 0.5
         return self.equivalent_focal_length / _DIAGONAL_35MM * diagonal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lens(_Checked):
-    """What the lens does to the picture."""
+    """The lens: vignetting, distortion, point spread and focus."""
 
     vignetting_exponent: float = _declared("vignetting_exponent")
     radial_k1: float = _declared("radial_k1")
@@ -100,7 +100,7 @@ class Lens(_Checked):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor(_Checked):
-    """What a pixel does with the light."""
+    """The sensor's pixels: size, efficiency, capacity, noise, converter."""
 
     pixel_pitch: float = _declared("pixel_pitch")
     quantum_efficiency: float = _declared("quantum_efficiency")
@@ -112,7 +112,7 @@ class Sensor(_Checked):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose(_Checked):
-    """Where the panel stands as the camera sees it."""
+    """The panel's position and rotation as seen by the camera."""
 
     distance: float = _declared("distance")
     offset_x: float = _declared("offset_x")
@@ -124,7 +124,7 @@ class Pose(_Checked):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Surroundings(_Checked):
-    """The light that does not come from the panel."""
+    """The light that does not come from the panel, and its flicker."""
 
     illuminance: float = _declared("illuminance")
     reflectance: float = _declared("reflectance")
@@ -142,7 +142,7 @@ class Receiver(_Checked):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Model(_Checked):
-    """When the picture is taken, and the choices that the model leaves open."""
+    """The start time, and the choices that the model leaves open."""
 
     start_time: float = _declared("start_time")
     averaging: str = _declared("averaging")
@@ -155,7 +155,7 @@ class Scene:
     """Everything that one simulated picture depends on.
 
     A scene is a value: it never changes, compares by content, and can be a dictionary's key.
-    Its parameters are spread over groups; :meth:`replace` and :meth:`value` reach them by name.
+    Its parameters stand in groups; :meth:`replace` and :meth:`value` find them by name.
     """
 
     transmitter: Transmitter = field(default_factory=Transmitter)
@@ -195,7 +195,7 @@ class Scene:
         return value
 
     def tables(self) -> dict[str, dict[str, ParameterValue]]:
-        """Return all parameters, one table a group."""
+        """Return all parameters, one table for each group."""
         return {
             group: {name: getattr(getattr(self, group), name) for name in names}
             for group, names in GROUPS.items()
@@ -207,7 +207,7 @@ class Scene:
 
     @classmethod
     def from_toml(cls, text: str) -> Self:
-        """Read the text of a scene file; parameters that it does not name keep their defaults.
+        """Read the text of a scene file; parameters that it does not name have their defaults.
 
         Raises
         ------
@@ -219,7 +219,7 @@ class Scene:
         return cls().with_tables(toml_format.from_toml(text))
 
     def with_tables(self, tables: Mapping[str, object]) -> Self:
-        """Return the scene with the parameters of ``tables`` changed, strictly by group."""
+        """Return the scene with the parameters of ``tables`` changed, each in its own group."""
         changes: dict[str, Any] = {}
         for group, values in tables.items():
             if group not in GROUPS:
@@ -257,18 +257,18 @@ _GROUP_OF = {name: group for group, names in GROUPS.items() for name in names}
 
 
 def group_of(name: str) -> str:
-    """Say which group of a scene a parameter belongs to."""
+    """Return the group of a scene that a parameter belongs to."""
     parameter_named(name)
     return _GROUP_OF[name]
 
 
 def check_scene(value: object) -> None:
-    """Refuse what is no scene.
+    """Refuse a value that is not a scene.
 
     Raises
     ------
     ParameterError
-        Saying where scenes come from.
+        Naming the value and how to load a scene.
     """
     if not isinstance(value, Scene):
         raise ParameterError(

@@ -10,12 +10,12 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import LEVEL
 
 Observable: TypeAlias = Literal["profile", "image"]
-"""What an error is counted in: the panel's bounding rectangle, or the means of its columns."""
+"""The quantity observed: pixels of the panel's bounding rectangle, or means of its columns."""
 
 OBSERVABLES: tuple[Observable, ...] = ("profile", "image")
 
 NoiseSource: TypeAlias = Literal["exact", "reused"]
-"""Whether noise is drawn for every pixel, or taken from a plane of noise again and again."""
+"""Source of noise: drawn for every pixel, or taken repeatedly from one plane of noise."""
 
 NOISE_SOURCES: tuple[NoiseSource, ...] = ("exact", "reused")
 
@@ -36,15 +36,16 @@ class SimulationSettings:
     Parameters
     ----------
     tolerance
-        How much effects left out may change, in levels of the stretched profile.
+        How much the effects left out may change the observable, root mean square in levels of the
+        stretched profile.
     observable
-        What the tolerance is of.
+        The quantity that the tolerance refers to.
     force
         Effects switched on (True) or off (False) by hand.
     noise
-        Where noise comes from.
+        The source of noise.
     seed
-        Of all that is random.
+        Seed of all random numbers.
     """
 
     tolerance: float = TOLERANCE.default

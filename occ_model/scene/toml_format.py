@@ -1,4 +1,4 @@
-"""TOML in and out: tables of parameters, with the version of the format, read strictly."""
+"""The TOML format of scene files: tables of parameters and the format's version, read strictly."""
 
 import re
 import tomllib
@@ -12,7 +12,7 @@ from occ_model.errors import SceneFileError, one_line, shown
 FORMAT = 1
 
 _MAX_KEY_PARTS = 32
-"""Parts of a dotted key; the parser's time grows with their square, and ours have two."""
+"""Most parts of a dotted key: the parser's time grows with their square, and ours have two."""
 
 _KEY_PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
 _LONG_KEY = re.compile(rf"(?:{_KEY_PART}[ \t]*+\.[ \t]*+){{{_MAX_KEY_PARTS}}}")
@@ -24,7 +24,7 @@ def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:
 
 
 def from_toml(text: str) -> dict[str, Any]:
-    """Read what :func:`to_toml` wrote, without the version.
+    """Read a text that :func:`to_toml` wrote; the version is not returned.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def from_toml(text: str) -> dict[str, Any]:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Read TOML from anywhere, in a time that grows as the text does.
+    """Read TOML from an untrusted source, in a time that grows with the text's length.
 
     Raises
     ------

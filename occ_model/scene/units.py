@@ -1,6 +1,6 @@
-"""Quantities as people write them: ``"10 kHz"``, ``"68us"``, ``"1/8000 s"``, ``"30°"``.
+"""Units: quantities read and written as people do, ``"10 kHz"``, ``"68us"``, ``"1/8000 s"``.
 
-Inside the package every value is in its SI unit; this module is the only one that knows prefixes.
+Elsewhere in the package every value is in its SI unit; only this module knows prefixes.
 """
 
 import math
@@ -24,7 +24,7 @@ _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
 
 LONGEST_TEXT = 200
-"""Characters of a text that may be a quantity: several times what 17 digits and a unit take."""
+"""Most characters of a quantity's text: several times those of 17 digits and a unit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +40,9 @@ class Unit:
     smallest_plain
         From this magnitude (in the unit itself) up to the next prefix no prefix is used.
     spellings
-        Other spellings that are read, with what each is worth in the SI unit.
+        Other spellings that are read, each with its value in the SI unit.
     shown
-        Symbol and worth of the unit that is shown in place of the SI unit, if any.
+        Symbol, and value in the SI unit, of a unit that is shown in place of the SI unit.
     """
 
     symbol: str
@@ -52,7 +52,7 @@ class Unit:
     shown: tuple[str, float] | None = None
 
     def factor(self, text: str) -> float | None:
-        """Say what the unit written ``text`` is worth in SI, None if it is not understood."""
+        """Return the SI value of the unit written ``text``, None if it is not understood."""
         known = dict(self.spellings)
         if self.shown is not None:
             known[self.shown[0]] = self.shown[1]
@@ -63,7 +63,7 @@ class Unit:
         if text == self.symbol:
             return 1.0
         stem = text.removesuffix(self.symbol)
-        # "10k" is ten kilohertz to anyone; "5m" of a length never gets here, m being the unit.
+        # "10k" means ten kilohertz; "5m" of a length is read above, m being the unit.
         return _PREFIXES.get(stem) if stem else None
 
     def parse(self, text: str, plain: float = 1.0) -> float | None:
@@ -74,15 +74,14 @@ class Unit:
         text
             A number or a fraction, with or without a unit.
         plain
-            What a number without a unit is worth in SI.
+            The SI value of 1 without a unit.
 
         Returns
         -------
         float or None
-            The value in SI, None when the text is no quantity of this unit, or is too long for
-            one.
+            The value in SI, None if the text is no quantity of this unit or is too long.
         """
-        # Stripped before: to look for the end of a unit among spaces takes a square of their time.
+        # Stripped before: the search for a unit's end among n spaces takes a time as n^2.
         match = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST_TEXT else None
         if match is None:
             return None
@@ -98,7 +97,7 @@ class Unit:
         return _scaled(value, factor)
 
     def display(self, value: float) -> tuple[str, float]:
-        """Choose the unit that ``value`` is best shown in: its symbol and its worth in SI."""
+        """Choose the unit to show ``value`` in: its symbol and its value in SI."""
         if self.shown is not None:
             return self.shown
         size = abs(value)

@@ -1,1 +1,1 @@
-"""From scene to picture: columns, then pixels, each stage timed."""
+"""Simulation of a picture: columns, then pixels, each stage timed."""

@@ -1,4 +1,4 @@
-"""The band model, the state of the art that the paper compares itself with.
+"""The band model, the state of the art that the paper compares with.
 
 A chip shows as h_c = (t_LED - t) / t_r columns of one state, a change of state as h_t = t / t_r
 columns of transition. It is undefined when the exposure is longer than the switching period.
@@ -16,7 +16,7 @@ from occ_model.transmitter.packet import sent_chips
 
 
 def band_lengths(scene: Scene) -> tuple[float, float]:
-    """Give h_c and h_t, the columns of a complete band and of a transition, not rounded.
+    """Return h_c and h_t, the columns of a complete band and of a transition, not rounded.
 
     Raises
     ------
@@ -35,12 +35,12 @@ def band_lengths(scene: Scene) -> tuple[float, float]:
 
 
 def band_profile(scene: Scene) -> FloatArray:
-    """Give the column profile that the band model predicts.
+    """Return the column profile that the band model predicts.
 
     With ``band_reading = "literal"`` h_c columns stand for every chip and h_t for every change of
     state, both rounded to whole columns, so that the profile drifts along the picture. With
     ``"charitable"`` a run of n equal chips has (n t_LED - t) / t_r columns, not rounded.
-    Both start in the picture where the scene's start time says.
+    Both start at the scene's start time.
 
     Returns
     -------
@@ -77,10 +77,10 @@ def band_profile(scene: Scene) -> FloatArray:
 def _knots(
     chips: ByteArray, complete: float, transition: float, *, between_equal: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Corner points of one packet's polyline: positions, from 0 to its length, and states.
+    """Return the corners of one packet's polyline: positions, from 0 to its length, and states.
 
-    Each chip holds its state for ``complete``, then moves to the next chip's: over ``transition``
-    where that differs, over ``between_equal`` where it is the same.
+    Each chip has its state for ``complete`` columns and then changes to the next chip's, within
+    ``transition`` columns where that differs and ``between_equal`` where it is the same.
     """
     following = np.roll(chips, -1)
     moves = np.where(chips != following, transition, between_equal)
@@ -92,7 +92,7 @@ def _knots(
 
 
 def _literal_start(scene: Scene, chips: ByteArray, positions: FloatArray) -> float:
-    """Say at which column of the packet's polyline the picture starts."""
+    """Return the column of the packet's polyline at which the picture starts."""
     start = column_phases(scene, len(chips), columns=1)
     chip = int(start.chip[0])
     into_chip = float(start.fraction[0]) * scene.transmitter.switching_period

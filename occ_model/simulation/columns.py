@@ -23,9 +23,9 @@ class Columns:
     Parameters
     ----------
     panel, surroundings : ndarray of float64, shape (columns,)
-        Pixel values of the panel and beside it, before saturation: what a lens may still darken.
+        Pixel values of the panel and beside it before saturation, which a lens may still darken.
     profile, around : ndarray of float64, shape (columns,)
-        The same as far as a pixel can hold it: the column values PV_sim, and those beside them.
+        The same after saturation: the column values PV_sim, and those beside them.
     """
 
     panel: FloatArray

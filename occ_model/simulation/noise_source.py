@@ -15,7 +15,7 @@ StageEnded: TypeAlias = Callable[[str], None]
 """Called with the name of a stage that has just ended."""
 
 _PLANE = 2**21
-"""Numbers in the plane: eight megabytes, which stay in the processor's cache."""
+"""Numbers in the plane: eight megabytes, which fit the processor's cache."""
 
 
 class Noise(Protocol):
@@ -40,8 +40,8 @@ class Noise(Protocol):
 def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
     """Give an effect's own stream of random numbers.
 
-    It depends on the seed and the effect alone: switching another effect on or off leaves it as it
-    was. What belongs to the camera does not depend on the seed either.
+    It depends on the seed and the effect alone: switching another effect on or off does not change
+    it. That of an effect of the camera itself does not depend on the seed either.
     """
     entropy = 0 if effect.of_the_camera else seed
     own = np.random.SeedSequence(entropy, spawn_key=(crc32(effect.name.encode()),))
@@ -49,7 +49,7 @@ def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
 
 
 class ExactNoise:
-    """Each pixel's number is drawn anew, for each effect from its own stream."""
+    """Noise drawn for every pixel, for each effect from its own stream."""
 
     def __init__(
         self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
@@ -69,11 +69,11 @@ class ExactNoise:
 
 
 class ReusedNoise:
-    """Each row is a piece of one long row of numbers, from a random place.
+    """Noise reused: each row is a piece of one long row of numbers, from a random place.
 
-    Much faster than drawing. All effects share the numbers, scaled to what they make together.
-    Pieces overlap, but at random, so that neither the rows of a picture nor its columns' means
-    show it.
+    Much faster than drawing. All effects share the numbers, scaled to their total deviation. The
+    pieces overlap at random, which shows neither in the rows of a picture nor in its columns'
+    means.
     """
 
     def __init__(
@@ -91,7 +91,7 @@ class ReusedNoise:
         """Give the deviations of the next rows."""
         chosen = self._random.integers(0, len(self._places), rows)
         total: Pixels = self._places[chosen]
-        if values is not self._values:  # most rows have the mean values of the rows before
+        if values is not self._values:  # most rows have the mean values of the previous rows
             self._values = values
             self._spread = pixel_spread(self._effects, self._scene, values)
         total *= self._spread
@@ -101,7 +101,7 @@ class ReusedNoise:
 
 @lru_cache(maxsize=2)
 def _plane(columns: int) -> Pixels:
-    """Give all pieces of the plane that are as long as a row, shape (pieces, columns)."""
+    """Return all pieces of the plane of a row's length, shape (pieces, columns)."""
     length = max(_PLANE, 8 * columns)
     numbers = np.random.default_rng(0).standard_normal(length, dtype=np.float32)
     numbers -= numbers.mean(dtype=np.float64)

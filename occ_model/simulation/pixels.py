@@ -1,4 +1,4 @@
-"""A picture whose rows are not alike: pixels exposed, read out and written, some rows at a time."""
+"""The pixels of a picture whose rows differ: exposed, saturated and stored some rows at a time."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class ExposedRows:
     Parameters
     ----------
     place
-        Which rows of the picture.
+        The rows of the picture.
     values : ndarray of float32, shape (rows, columns)
         Pixel values from 0 to 255.
     panel
@@ -39,7 +39,7 @@ class ExposedRows:
     panel: Panel
 
     def to_bytes(self, out: ByteArray) -> None:
-        """Round them."""
+        """Round the values to bytes."""
         cv2.convertScaleAbs(self.values, dst=out)
 
 
@@ -96,7 +96,7 @@ class PixelExposure:
             yield ExposedRows(rows.place, values, rows.panel)
 
     def _saturated(self, mean: Pixels) -> Pixels:
-        """Limit mean values to what a pixel can hold."""
+        """Limit mean values to those that a pixel can hold."""
         for limit in self._limits:
             mean = limit.apply(self._scene, mean)
             self._timer.stage_ended(limit.name)

@@ -37,12 +37,12 @@ def render(
     scene
         The scene.
     tolerance
-        How much, in levels of the stretched profile, effects left out may change; 0: every effect
-        that is not exactly nothing is simulated; infinity: none, the bare paper model.
+        Most change by the effects left out, in levels of the stretched profile. 0: every effect of
+        the scene is simulated; infinity: none, the bare paper model.
     seed
-        Of all that is random.
+        Seed of all random numbers.
     observable, force
-        What the tolerance is of, and effects switched on or off by hand: as for
+        The quantity that the tolerance refers to, and effects switched on or off by hand: as for
         :func:`occ_model.plan`.
     noise
         ``"exact"``: drawn for every pixel; ``"reused"``: from a plane of noise at random places,

@@ -1,1 +1,1 @@
-"""From a code to the light's waveform."""
+"""The transmitter: from a code to the light's waveform."""

@@ -1,4 +1,4 @@
-"""The light of an LED that takes time to switch, and its exact running integral.
+"""Waveform of an LED with rise and fall times, and its exact running integral.
 
 The chips s(x), x in chips, are averaged over the last ``tau``:
 s_tau(x) = (1/tau) (C(x) - C(x - tau)), with C their running integral. The light is then continuous
@@ -15,11 +15,11 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.waveform import Duration, Phases, Waveform, Windows
 
 PhasesAt = Callable[[Fraction], Phases]
-"""Gives the phases of all windows' starts, each moved by so many chips."""
+"""Gives the phases of all windows' starts, shifted by a number of chips."""
 
 
 class EdgedWaveform:
-    """The light of a chip sequence sent over and over by an LED with edges.
+    """The light of a chip sequence sent repeatedly by an LED with edges.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ class EdgedWaveform:
         self._level: FloatArray = np.concatenate([chips, chips, chips[:1]]).astype(np.float64)
         self._rise: FloatArray = np.diff(self._level, prepend=self._level[period - 1])
 
-        # The chips less their mean, and the integral of that less its own mean, at each chip's
-        # start, and from the first chip's. Each scaled so as to be whole numbers, below 2^53.
+        # The running integral of the chips less their mean, its own mean taken out, and the
+        # integral of that, at each chip's start. Scaled to whole numbers, below 2^53: exact.
         swing = period * chips.astype(np.int64) - int(chips.sum())
         integral = np.cumsum(swing) - swing
         integral = 2 * period * integral - 2 * int(integral.sum())
@@ -52,16 +52,15 @@ class EdgedWaveform:
     def lit_chips(self, starts: PhasesAt, exposure: Fraction) -> FloatArray:
         """Light within windows, in lit chips.
 
-        Like :meth:`.Waveform.lit_chips` it never takes what a window holds from the difference of
-        two larger numbers: what is left of the error is that of the phases, also in windows far
-        shorter than a chip.
+        As in :meth:`.Waveform.lit_chips` no term is the difference of two much larger numbers: the
+        error stays that of the phases, also in windows far shorter than a chip.
 
         Parameters
         ----------
         starts
             Where the windows start.
         exposure
-            How long they all last, in chips.
+            Length of every window, in chips.
 
         Returns
         -------
@@ -80,12 +79,12 @@ class EdgedWaveform:
     def _kept_back(self, starts: Phases, duration: Duration) -> FloatArray:
         """Light that the ramps keep back within windows, for edges within one chip.
 
-        On a ramp of height h that has gone on for x, h (x - x^2 / (2 tau)) is kept back since its
-        start; when it is over, h tau / 2.
+        A ramp of height h keeps back h (x - x^2 / (2 tau)) within the time x after its start, and
+        h tau / 2 in all.
         """
         edge = float(self._edge)
         windows = Windows.of(starts, duration)
-        ahead = np.maximum(edge - starts.fraction, 0.0)  # what is left of the first chip's ramp
+        ahead = np.maximum(edge - starts.fraction, 0.0)  # rest of the first chip's ramp
         end = np.minimum(windows.end, edge)
         apart = self._rise[windows.first] * ahead * (0.5 * ahead / edge)
         apart += 0.5 * edge * (self._level[windows.last - 1] - self._level[windows.first])
@@ -97,9 +96,9 @@ class EdgedWaveform:
     def _swing_integral(self, starts: Phases, duration: Duration) -> FloatArray:
         """Integral over windows of the running integral of the chips less their mean.
 
-        Both integrals are of something whose mean is taken out, so that they are periodic and stay
-        small however long the edge is. In chips^2, times 2 period^2: within a chip whose tables
-        are I and H it is I x + H x^2.
+        The mean is taken out before both integrations, so that they are periodic and stay small
+        for any edge time. In chips^2, times 2 period^2: I x + H x^2 within a chip whose tables
+        are I and H.
         """
         windows = Windows.of(starts, duration)
         first, last, fraction = windows.first, windows.last, starts.fraction
@@ -112,7 +111,7 @@ class EdgedWaveform:
 
 
 def most_changes(chips: ByteArray, span: float) -> int:
-    """Give the most changes of state within any ``span`` chips of a sequence sent over and over.
+    """Give the most changes of state within any ``span`` chips of a sequence sent repeatedly.
 
     Parameters
     ----------

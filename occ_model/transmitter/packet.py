@@ -1,4 +1,4 @@
-"""The packet: header and line-coded bits, sent over and over."""
+"""The packet: a header and line-coded bits, sent repeatedly."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -10,7 +10,7 @@ from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter import line_code
 
 HEADER = (1, 1, 1, 0)
-"""Three ones, which no line-coded data contain, and a zero.
+"""The header: three ones, which no line-coded data contain, and a zero.
 
 The paper names only the three ones. Without the zero the code 0 and the code with only its first
 bit set would send the same endless chip sequence.
@@ -36,7 +36,7 @@ def packet_length(bits: int) -> int:
 
 
 def sent_chips(transmitter: Transmitter) -> ByteArray:
-    """Give one period of what is sent: the raw pattern if there is one, else the packet.
+    """Return one period of the chips sent: the raw pattern if there is one, else the packet.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def _sent_chips(code: int, bits: int, pattern: str) -> ByteArray:
 
 
 def packets(codes: IndexArray, bits: int) -> ByteArray:
-    """Give the packets of some codes.
+    """Return the packets of some codes.
 
     Returns
     -------
@@ -69,7 +69,7 @@ def packets(codes: IndexArray, bits: int) -> ByteArray:
 
 
 def packet(scene: Scene) -> ByteArray:
-    """Give one period of the chips that a scene's transmitter sends.
+    """Return one period of the chips that a scene's transmitter sends.
 
     Returns
     -------

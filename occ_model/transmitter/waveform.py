@@ -1,7 +1,7 @@
-"""The light as a periodic, piecewise-constant waveform, and its exact running integral.
+"""Waveform of the light: periodic, piecewise constant, with an exact running integral.
 
-Time is counted in chips here, and split into whole chips and a fraction: what is left of a double
-after a million packets is too coarse to say where in a chip an edge falls, a fraction alone is not.
+Time is counted in chips and split into whole chips and a fraction: after a million packets a double
+is too coarse to place an edge within a chip, a fraction alone is not.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
 @dataclass(frozen=True, slots=True)
 class Phases:
-    """Times within one period, one an array element: whole chips and a fraction in [0, 1)."""
+    """Times within one period, as arrays: whole chips and a fraction in [0, 1)."""
 
     chip: IndexArray
     fraction: FloatArray
@@ -43,19 +43,19 @@ class Duration:
 
 @dataclass(frozen=True, slots=True)
 class Windows:
-    """Windows of one length, by the chips that they start and end in.
+    """Windows in time of one length, by the chips that they start and end in.
 
-    Chips count on into the period after the one that they start in; whole periods are left out.
+    Chip numbers continue into the period after that of the start; whole periods are left out.
 
     Parameters
     ----------
     first, last : ndarray of int64
         The chips.
     before, end : ndarray of float64
-        How much of the first chip lies after the start, and of the last one before the end. Where
-        a short window crosses a chip's edge, they are as exact as the window is short.
+        Part of the first chip after the start, and of the last one before the end. Where a short
+        window crosses a chip's edge, their error shrinks with the window.
     crosses : ndarray of bool
-        Whether the start's fraction and the length's make more than a whole chip.
+        Whether the fractions of the start and of the length add up to more than a chip.
     """
 
     first: IndexArray
@@ -66,7 +66,7 @@ class Windows:
 
     @classmethod
     def of(cls, starts: Phases, duration: Duration) -> Self:
-        """Give the windows that start at some phases and all last as long."""
+        """Return the windows of one duration that start at some phases."""
         before = 1.0 - starts.fraction
         crosses = duration.fraction >= before
         last = starts.chip + duration.chips + crosses
@@ -75,7 +75,7 @@ class Windows:
 
 
 class Waveform:
-    """The light of a chip sequence that is sent over and over.
+    """The light of a chip sequence that is sent repeatedly.
 
     Parameters
     ----------
@@ -93,15 +93,15 @@ class Waveform:
     def lit_chips(self, starts: Phases, duration: Duration) -> FloatArray:
         """Light within windows, C(end) - C(start), in lit chips.
 
-        The difference is taken term by term, the whole chips by themselves, which are exact: the
-        error stays that of the phases, about 2e-16 chips, however long or short the windows are.
+        The difference is taken term by term, the exact whole chips separately: the error stays that
+        of the phases, about 2e-16 chips, for windows of any length.
 
         Parameters
         ----------
         starts
             Where the windows start.
         duration
-            How long they all last.
+            Length of every window.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Every parameter of a scene, declared once.
+"""The parameters of a scene, each declared once: range, unit, slider, default, meaning.
 
 Sliders, number fields, tooltips, command-line settings, validation, the keys of a scene file and
 the manual's table are all made from these declarations. Values are in SI units.
@@ -40,7 +40,7 @@ def quantity(name: str) -> Quantity:
     Raises
     ------
     TypeError
-        It is a word, a count or a pattern.
+        It is a choice, a count or a pattern.
     """
     declared = PARAMETERS[name]
     if not isinstance(declared, Quantity):

@@ -1,4 +1,4 @@
-"""What takes the picture: the camera, its lens and its sensor."""
+"""Parameters of the camera, its lens and its sensor."""
 
 from occ_model.scene.parameter_kinds import Count, Parameter, Quantity
 from occ_model.scene.units import ELECTRON, METRE, NONE, PIXEL, SECOND

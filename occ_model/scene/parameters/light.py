@@ -1,4 +1,4 @@
-"""What sends light: the panel and its surroundings."""
+"""Parameters of the light: the transmitter's and the surroundings'."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Where the panel stands, and what is made of the picture."""
+"""Parameters of the pose, the receiver and the model."""
 
 import math
 

@@ -166,7 +166,7 @@ class Figures(QObject):
             )
 
         def draw() -> "Drawing":
-            from occ_model.figures.window_panes import decode_drawing
+            from occ_model.figures.decoding import decode_drawing
 
             return decode_drawing(shown.frame.scene, result)
 

@@ -1,6 +1,6 @@
-"""Figures and tables for print; the only part that draws."""
+"""Figures and tables for print; the only package that imports matplotlib."""
 
 from occ_model.figures.matplotlib_import import import_matplotlib
 
-# Before any module of this folder imports matplotlib by itself.
+# Before any module of this package imports matplotlib.
 import_matplotlib()

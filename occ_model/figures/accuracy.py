@@ -1,4 +1,4 @@
-"""What accuracy costs in time, drawn: error over time, both on a logarithmic scale."""
+"""Draw the accuracy study: error over time, both on a logarithmic scale."""
 
 from collections.abc import Iterable, Sequence
 from math import isclose
@@ -34,9 +34,9 @@ def write_accuracy_figure(
     Parameters
     ----------
     folder
-        Where to.
+        The folder to write to.
     scene, settings
-        What was measured.
+        The scene and the settings that were measured.
     points
         As :func:`occ_model.study.accuracy.accuracy` gives them.
 
@@ -100,7 +100,7 @@ def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> None:
     ax.plot(times[:-1], errors[:-1], linestyle=line, linewidth=0.7, **style)
     ax.plot(times[-1:], errors[-1:], linestyle="", label=ACCURACY_PARTS[part], **style)
     for number, (point, x, y) in enumerate(zip(points, times, errors, strict=True)):
-        # Side by side, so that neighbours' names do not cover each other.
+        # Left and right in turn, so that neighbours' names do not cover each other.
         side = -1 if number % 2 else 1
         align = "left" if side > 0 else "right"
         name = point.name if part != "effects" else str(number)

@@ -1,4 +1,4 @@
-"""A drawing, which is a figure with its table of numbers: its style, and writing it to files."""
+"""Drawings, which are figures with the numbers in them: their style, and writing them to files."""
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
@@ -40,32 +40,32 @@ _LOOK: dict[Any, Any] = {
 
 
 def house_style() -> AbstractContextManager[None]:
-    """Give all figures drawn within the same look, whatever has been set before."""
-    # The backend opens windows; a figure that becomes a file has none.
+    """Give all figures drawn within this context the same style, whatever the user's settings."""
+    # The backend only concerns windows, and these figures become files.
     defaults = {name: value for name, value in rcParamsDefault.items() if name != "backend"}
     return rc_context(defaults | _LOOK)
 
 
 def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
-    """Write a figure in the format that the file's ending names, its provenance inside.
+    """Write a figure in the format of the file's ending, with its provenance inside.
 
-    To be called within the house style, in which the figure was drawn.
+    Call it within :func:`house_style`, in which the figure was drawn.
 
     Raises
     ------
     OutputError
-        The ending names no format of figures, or the file cannot be written.
+        The ending is none of a figure's, or the file cannot be written.
     """
     write_whole(path, figure_bytes(figure, figure_format(path), provenance))
 
 
 def figure_format(path: Path) -> str:
-    """Say which format a file's ending names.
+    """Give the format that a file's ending names.
 
     Raises
     ------
     OutputError
-        None of those that figures are written in.
+        The ending is none of a figure's.
     """
     ending = path.suffix.lower().removeprefix(".")
     if ending not in FORMATS:
@@ -74,7 +74,7 @@ def figure_format(path: Path) -> str:
 
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
-    """Encode a figure, its provenance inside."""
+    """Encode a figure with its provenance inside."""
     title, text = provenance.title, provenance.text()
     metadata: dict[str, dict[str, str | None]] = {
         "pdf": {"Title": title, "Subject": text, "CreationDate": None},
@@ -87,9 +87,9 @@ def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> by
 
 
 def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
-    """Write a figure as PDF and as PNG, its provenance inside.
+    """Write a figure as PDF and as PNG, with its provenance inside.
 
-    To be called within the house style, in which the figure was drawn.
+    Call it within :func:`house_style`, in which the figure was drawn.
 
     Raises
     ------
@@ -109,13 +109,13 @@ class Drawing:
     name
         The file's name without ending.
     title
-        What it shows.
+        What the figure shows.
     draw
-        Draws it, to be called in the house style.
+        Function that draws the figure, to be called within :func:`house_style`.
     header
         Names of the table's columns, with units.
     rows
-        Gives the table's rows.
+        Function that gives the table's rows.
     """
 
     name: str
@@ -125,12 +125,12 @@ class Drawing:
     rows: Callable[[], Iterable[Sequence[object]]]
 
     def write(self, path: Path, provenance: Provenance) -> None:
-        """Write it in the format that the file's ending names, its provenance inside.
+        """Write the figure, or its table as CSV, in the format of the file's ending.
 
         Raises
         ------
         OutputError
-            The ending names none, or the file cannot be written.
+            The ending is none of :data:`ENDINGS`, or the file cannot be written.
         """
         ending = path.suffix.lower()
         if ending not in ENDINGS:
@@ -147,16 +147,16 @@ class Drawing:
 def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
-    """Write drawings in all formats into a folder, which is made where there is none.
+    """Write drawings in all formats into a folder, which is created where there is none.
 
     Parameters
     ----------
     folder
-        Where to.
+        The folder to write to.
     drawings
         The drawings.
     provenance
-        Gives the provenance of each.
+        Function that gives the provenance of each.
 
     Returns
     -------
@@ -179,7 +179,7 @@ def write_all(
 
 
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
-    """Write a simulation's settings as lines of a provenance; the seed has a line of its own."""
+    """Write a simulation's settings, except the seed, as lines of a provenance."""
     forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     return (
         f"tolerance {settings.tolerance:g} levels of the {settings.observable}",

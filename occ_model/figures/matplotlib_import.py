@@ -1,4 +1,4 @@
-"""The import of matplotlib, out of reach of what its users have set for figures of their own."""
+"""Import matplotlib with its default settings, whatever the user has set for other figures."""
 
 import logging
 import os
@@ -13,29 +13,29 @@ _SETTINGS_HERE = "matplotlibrc"
 """The file in the working folder that matplotlib reads before any other."""
 
 _SETTINGS_ELSEWHERE = "MATPLOTLIBRC"
-"""The variable that names the file that it reads next."""
+"""The variable that names the settings file that matplotlib reads next."""
 
 _BACKEND = "MPLBACKEND"
-"""The variable that names its window; an unknown one stops the import."""
+"""The variable that names the backend, which draws windows; an unknown one stops the import."""
 
 
 def import_matplotlib() -> None:
-    """Import matplotlib with its own defaults, if it is not imported yet.
+    """Import matplotlib with its default settings, if it is not imported yet.
 
-    A settings file that is damaged, cannot be read or never ends would stop the import, and one of
-    another taste would change the figures. The backend that the environment asks for is set
-    afterwards, where there is such a backend: a notebook draws its own figures with it.
+    A settings file that is damaged, unreadable or endless would stop the import, and any other
+    would change the figures. The backend that the environment names is set afterwards, where it
+    exists: a notebook draws its own figures with it.
 
     Raises
     ------
     OutputError
-        matplotlib cannot be imported: say, there is no folder at all that it can write to.
+        matplotlib cannot be imported: for example, there is no folder that it can write to.
     """
     if "matplotlib" in sys.modules:
         return
     logger = logging.getLogger("matplotlib")
     level, backend = logger.level, os.environ.get(_BACKEND)
-    # It tells at length of a folder for its cache that is not there; it does without.
+    # It logs warnings of a missing folder for its cache, and works without one.
     logger.setLevel(logging.ERROR)
     try:
         with _without_settings():
@@ -54,7 +54,7 @@ def import_matplotlib() -> None:
 
 @contextmanager
 def _without_settings() -> Iterator[None]:
-    """Hide all settings from this thread's import; nothing else in the process sees a change."""
+    """Hide all settings files from the import in this thread, and from nothing else."""
     before = {name: os.environ.pop(name, None) for name in (_SETTINGS_ELSEWHERE, _BACKEND)}
     os.environ[_SETTINGS_ELSEWHERE] = os.devnull
     exists, thread = os.path.exists, get_ident()
@@ -62,8 +62,8 @@ def _without_settings() -> Iterator[None]:
     def exists_but_for_settings(path: str) -> bool:
         return exists(path) and not (path == _SETTINGS_HERE and get_ident() == thread)
 
-    # No variable stands before the working folder's file, and to change the folder would change
-    # it for all threads.
+    # The working folder's file is read before any that a variable names, and a change of the
+    # working folder would concern all threads.
     os.path.exists = exists_but_for_settings  # type: ignore[assignment]
     try:
         yield

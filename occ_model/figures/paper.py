@@ -1,4 +1,4 @@
-"""The paper's figures 2 to 6, from the simulation."""
+"""Draw the paper's figures 2 to 6 from the simulation."""
 
 import math
 from collections.abc import Mapping
@@ -27,7 +27,7 @@ from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
 from occ_model.transmitter.packet import packet
 
 _PICTURE_STEP = 8
-"""Every figure of a picture shows means of this many pixels a side: print has no more."""
+"""Side in pixels of the cells whose means are printed: print resolves no more."""
 
 _PACKETS_SHOWN = 2.5
 

@@ -1,4 +1,4 @@
-"""A sweep's success rates, drawn: over one axis as curves, over two as maps."""
+"""Draw a sweep's success rates: over one parameter as curves, over two as maps."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -27,28 +27,28 @@ _STYLES: tuple[dict[str, Any], ...] = (
     {"color": colours.PHOTO, "marker": "^", "markersize": 3, "linestyle": ":"},
     {"color": colours.NOISE, "marker": "D", "markersize": 3, "linestyle": "-."},
 )
-"""Told apart by any eye, in grey print, and where one curve lies on another."""
+"""Distinct for colour-blind readers, in grey print, and where curves lie on each other."""
 
 _REFUSED = "0.75"
-"""Grey, which the map's colours do not hold."""
+"""Grey, which is not one of the map's colours."""
 
 _TICKS = 10
-"""Labels that fit an axis."""
+"""Largest number of labels at an axis."""
 
 _CELLS_WITH_NUMBERS = 14
-"""Cells a side in which there is room for a number."""
+"""Largest number of cells on a side at which each holds its number."""
 
 
 def write_sweep_figure(path: Path, table: SweepTable) -> None:
-    """Draw a table's success rates and write them in the format that the file's ending names.
+    """Draw a table's success rates and write them in the format of the file's ending.
 
-    One axis: a curve a decoder, with its 95 % intervals. Two: a map a decoder side by side, the
-    first axis from left to right. What the model refuses is a gap, or grey.
+    One axis: a curve for each decoder, with its 95 % intervals. Two axes: a map for each decoder,
+    the first axis from left to right. Points that the model refuses are gaps, or grey.
 
     Parameters
     ----------
     path
-        The file: PNG, PDF or SVG, its provenance inside.
+        The file: PNG, PDF or SVG, with its provenance inside.
     table
         The rates.
 
@@ -57,7 +57,7 @@ def write_sweep_figure(path: Path, table: SweepTable) -> None:
     ParameterError
         The table has more than two axes.
     OutputError
-        The ending names no such format, or the file cannot be written.
+        The ending is none of these, or the file cannot be written.
     """
     figure_format(path)  # before anything is drawn
     names = list(table.axes)
@@ -124,7 +124,7 @@ def _curves(table: SweepTable) -> Figure:
         style = look if labels is None else {**look, "linestyle": ""}  # nothing is between words
         rates = table.rates(decoder)
         low, high = table.intervals(decoder)
-        error = np.maximum([rates - low, high - rates], 0.0)  # no less than rounding leaves of it
+        error = np.maximum([rates - low, high - rates], 0.0)  # rounding can leave less than nothing
         ax.errorbar(
             at, rates, error, label=f"{decoder} decoder", capsize=2, linewidth=1.0,
             elinewidth=0.7, markerfacecolor="none", clip_on=False, **style,
@@ -195,7 +195,7 @@ def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> No
 
 
 def _round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
-    """Give places among the cells of increasing values for round ones, and their texts."""
+    """Give the positions of round values among cells of increasing values, and their labels."""
     locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
     marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
     scale = np.log if is_log else np.asarray
@@ -209,14 +209,14 @@ def _step(count: int) -> int:
 def _places(
     name: str, values: tuple[ParameterValue, ...], factor: float
 ) -> tuple[FloatArray, list[str] | None]:
-    """Give where values stand on an axis, and their names where they are words."""
+    """Give the positions of values on an axis, and their labels where they are words."""
     if isinstance(PARAMETERS[name], Choice):
         return np.arange(len(values), dtype=np.float64), [str(value) for value in values]
     return np.array([float(value) / factor for value in values]), None
 
 
 def _is_log(name: str, at: FloatArray) -> bool:
-    """Say whether values are spread as their logarithmic slider would spread them."""
+    """Return whether values are spaced by ratios rather than by steps."""
     parameter = PARAMETERS[name]
     is_log = isinstance(parameter, Quantity) and parameter.scale == "log"
     if not is_log or len(at) < 3 or float(at.min()) <= 0.0:
@@ -226,7 +226,7 @@ def _is_log(name: str, at: FloatArray) -> bool:
 
 
 def _shown_unit(name: str, values: tuple[ParameterValue, ...]) -> tuple[str, float]:
-    """Choose the unit that suits the middle of some values, and what it is worth in SI."""
+    """Choose the unit that suits the median of some values, and give its size in SI units."""
     parameter = PARAMETERS[name]
     if not isinstance(parameter, Quantity):
         return "", 1.0

@@ -1,4 +1,4 @@
-"""Tables as CSV, with their provenance in comment lines."""
+"""Write a table as CSV, with its provenance in comment lines."""
 
 import csv
 from collections.abc import Iterable, Sequence
@@ -21,14 +21,14 @@ def write_table(
     header
         Names of the columns, with units.
     rows
-        The rows; None is written as nothing.
+        The rows; None becomes an empty cell.
     provenance
-        Goes in front, each line after a ``#``.
+        Written first, each line after a ``#``.
 
     Raises
     ------
     OutputError
-        The file cannot be written; nothing half-written stays.
+        The file cannot be written; no incomplete file stays.
     """
     text = StringIO()
     for line in provenance.lines():

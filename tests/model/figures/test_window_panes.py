@@ -8,8 +8,9 @@ import pytest
 from PIL import Image
 
 import occ_model as occ
+from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import ENDINGS, Drawing, write_all
-from occ_model.figures.window_panes import decode_drawing, picture_drawing, profile_drawing
+from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
 
 SCENE = occ.load_preset("phone-68us").replace(rows=800, panel_height=2.0)

@@ -1,0 +1,106 @@
+"""Draw the steps of decoding for print: signal, threshold and chips, run lengths or templates."""
+
+from collections.abc import Iterable
+from itertools import zip_longest
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from occ_model import colours
+from occ_model.arrays import FloatArray
+from occ_model.figures.drawing import Drawing
+from occ_model.figures.window_panes import caption
+from occ_model.results import DecodeResult
+from occ_model.scene.scene import Scene
+
+_SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
+_MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
+_THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "linewidth": 0.9}
+
+
+def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
+    """Draw the steps of decoding, up to the code or to the step that failed.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    result
+        The decoder's result.
+    """
+    message = result.failure or f"code {result.code} read by the {result.decoder} decoder"
+
+    def draw() -> Figure:
+        figure = Figure(figsize=(7.2, 4.2))
+        upper, lower = figure.subplots(2, 1)
+        _draw_signal(upper, result)
+        if result.folded is not None and result.model is not None:
+            _draw_folded(lower, result.folded, result.model)
+        else:
+            _draw_runs(lower, result)
+        upper.set_title(message, fontsize=8, loc="left")
+        figure.supxlabel(caption(scene), fontsize=7)
+        return figure
+
+    signal = [] if result.signal is None else result.signal.tolist()
+    starts = [] if result.chip_starts is None else result.chip_starts.tolist()
+    chips = result.chips.tolist()
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        yield from zip_longest(range(len(signal)), signal, starts, chips)
+
+    header = ("column of the region", "signal (grey level)", "chip from column", "chip")
+    title = f"Decoding, {message}: {caption(scene)}"
+    return Drawing(f"decoding-{result.decoder}", title, draw, header, rows)
+
+
+def _draw_signal(ax: Axes, result: DecodeResult) -> None:
+    ax.set_xlabel("column of the region")
+    ax.set_ylabel("grey level")
+    if result.signal is None:
+        return
+    ax.plot(result.signal, linewidth=0.8, label="signal", **_SIGNAL)
+    if result.threshold is not None:
+        ax.axhline(result.threshold, label="threshold", **_THRESHOLD)
+    if result.chip_starts is not None and result.chip_length is not None:
+        lit = result.chip_starts[result.chips.astype(bool)].tolist()
+        bars = [(start, result.chip_length) for start in lit]
+        low = float(result.signal.min())
+        height = 0.06 * max(float(np.ptp(result.signal)), 1.0)
+        ax.broken_barh(bars, (low - 2.0 * height, height), color="0.3", label="chips: lit")
+    _legend(ax, 3)
+
+
+def _legend(ax: Axes, columns: int) -> None:
+    """Put the legend above the axes, where it covers nothing."""
+    ax.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=7, ncols=columns, frameon=False
+    )
+
+
+def _draw_folded(ax: Axes, folded: FloatArray, model: FloatArray) -> None:
+    ax.plot(folded, linewidth=1.0, label="signal, folded over one packet", **_SIGNAL)
+    ax.plot(model, linewidth=1.0, label="the code's forward model", **_MODEL)
+    ax.set_xlabel("eighth of a chip")
+    ax.set_ylabel("lit fraction")
+    _legend(ax, 2)
+
+
+def _draw_runs(ax: Axes, result: DecodeResult) -> None:
+    ax.set_xlabel("length of a run (columns)")
+    ax.set_ylabel("runs")
+    if result.histograms is None:
+        return
+    hatches = ("", "////")
+    for value, histogram in enumerate(result.histograms):
+        lengths = np.flatnonzero(histogram.counts)
+        ax.bar(
+            lengths + (0.2 if value else -0.2), histogram.counts[lengths], width=0.4,
+            label=("dark runs", "lit runs")[value], hatch=hatches[value], edgecolor="0.2",
+            linewidth=0.4, color=("0.6", colours.SIMULATION)[value],
+        )  # fmt: skip
+        if histogram.split is not None:
+            ax.axvline(histogram.split + (0.5 if value else 0.4), **_THRESHOLD)
+    _legend(ax, 2)

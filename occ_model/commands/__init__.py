@@ -1,4 +1,4 @@
-"""The commands of ``occ-model``, one file each: ``add_to`` says what it takes and does."""
+"""The commands of ``occ-model``, one module each, whose ``add_to`` declares options and action."""
 
 import argparse
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ _COMMANDS = (render, plan, accuracy, sweep, limits, decode, match, figures, list
 
 
 def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Read a command line, for :func:`run_command`."""
+    """Parse a command line for :func:`run_command`."""
     parser = Parser(
         prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
     )
@@ -34,12 +34,12 @@ def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def run_command(options: argparse.Namespace) -> int:
-    """Do what a command line asks for; return the exit code.
+    """Run the command of a command line; return the exit code.
 
     Raises
     ------
     OccError
-        It cannot be.
+        An option or a file is not allowed.
     """
     check_files(options)
     code: int = options.command(options)

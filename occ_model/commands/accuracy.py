@@ -1,4 +1,4 @@
-"""``occ-model accuracy``."""
+"""The command ``occ-model accuracy``: time and error of each way to simulate a scene."""
 
 import argparse
 import sys
@@ -20,7 +20,9 @@ from occ_model.study.accuracy import accuracy, point_count
 
 def add_to(commands: Commands) -> None:
     """Add the command."""
-    parser = commands.add_parser("accuracy", help="show what accuracy costs in time")
+    parser = commands.add_parser(
+        "accuracy", help="measure the time and the error of each way to simulate a scene"
+    )
     add_scene_options(parser)
     add_simulation_options(parser)
     parser.add_argument(
@@ -35,7 +37,7 @@ def _run(options: argparse.Namespace) -> int:
     scene, settings = scene_of(options), simulation_settings_of(options)
     measured = accuracy(scene, settings)
     if options.out:
-        make_folder(options.out)  # rather than after minutes of work
+        make_folder(options.out)  # a refusal must not come after minutes of work
     points = []
     with tqdm(total=point_count(scene, settings), unit="point", file=sys.stderr) as bar:
         for point in measured:
@@ -43,7 +45,7 @@ def _run(options: argparse.Namespace) -> int:
             bar.write(_line(point), file=sys.stdout)
             bar.update()
     if options.out:
-        # matplotlib takes half a second to import: only for those who want a figure.
+        # matplotlib takes half a second to import: only where a figure is drawn.
         from occ_model.figures.accuracy import write_accuracy_figure
 
         write_accuracy_figure(options.out, scene, settings, points)

@@ -1,4 +1,4 @@
-"""Workers on other machines, by way of dask."""
+"""Connect to a dask cluster, whose workers can do a sweep."""
 
 import asyncio
 import logging
@@ -10,11 +10,11 @@ from typing import Any
 from occ_model.errors import OccError, one_line, shown
 
 _SECONDS = 5
-"""How long a scheduler gets to answer."""
+"""Seconds to wait for a scheduler's answer."""
 
 
 class ClusterError(OccError):
-    """There is no cluster to work with."""
+    """A cluster cannot be reached, or has no workers."""
 
 
 @contextmanager
@@ -24,7 +24,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
     Parameters
     ----------
     address
-        Of its scheduler, such as ``tcp://10.0.0.5:8786``.
+        The address of its scheduler, such as ``tcp://10.0.0.5:8786``.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         raise ClusterError(
             "A cluster needs the package distributed: pip install 'occ-explorer[cluster]'."
         ) from None
-    # What it has to say of a connection that fails is said below, in one sentence.
+    # A connection that fails is reported below in one sentence, instead of dask's log.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     if not asyncio.run(_workers(address)):
         raise ClusterError(
@@ -52,12 +52,12 @@ def cluster_executor(address: str) -> Iterator[Executor]:
 
 
 async def _workers(address: str) -> int:
-    """Ask a scheduler how many workers it has: clients that nobody answers are slow to go away."""
+    """Ask a scheduler for its number of workers: a client without a scheduler is slow to close."""
     from distributed.core import rpc
     from distributed.security import Security
 
     try:
-        # As the client does: certificates for tls:// are what dask's configuration says.
+        # As the client does: certificates for tls:// come from dask's configuration.
         keys: Any = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
         async with asyncio.timeout(_SECONDS):
             async with rpc(address, connection_args=keys) as scheduler:  # type: ignore[no-untyped-call]

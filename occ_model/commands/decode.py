@@ -1,4 +1,4 @@
-"""``occ-model decode``."""
+"""The command ``occ-model decode``: read the code from a picture or photo."""
 
 import argparse
 import sys

@@ -1,4 +1,4 @@
-"""``occ-model figures``."""
+"""The command ``occ-model figures``: write the paper's figures 2 to 6."""
 
 import argparse
 import sys
@@ -45,7 +45,7 @@ def _run(options: argparse.Namespace) -> int:
     check_count("images", options.images, 1, MOST_IMAGES)
     check_seed(options.seed)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
-    # matplotlib takes half a second to import: only for those who want a figure.
+    # matplotlib takes half a second to import: only where a figure is drawn.
     from occ_model.figures.drawing import house_style
 
     photos = [

@@ -1,4 +1,4 @@
-"""The files that a command line reads and writes: none is written over another."""
+"""Check the files that a command line reads and writes: no output may overwrite another one."""
 
 import argparse
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ INPUTS = {
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",
 }
-"""Options that name a file to read, and what sentences call it."""
+"""Options that name a file to read, with the file's name in messages."""
 
 OUTPUTS = {
     "out": "--out",
@@ -32,16 +32,16 @@ _FIGURES = (*PICTURE_ENDINGS, ".pdf", ".svg")
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """What a command writes to the path of an option.
+    """The kind of file that a command writes to the path of an option.
 
     Parameters
     ----------
     what
-        What it is, for a sentence.
+        Its name in messages.
     ending
-        The ending that suits it.
+        Its usual ending.
     refused
-        Endings of files of another kind.
+        Endings of other kinds of files.
     names
         The files that are written, where the path is that of their folder.
     """
@@ -53,13 +53,13 @@ class Written:
 
 
 SCENE_FILE = Written("A scene")
-"""Its ending is checked by the rule that all saving of scenes has."""
+"""A scene file; its ending is checked as wherever scenes are saved."""
 
 TABLE = Written("A table", ".csv", (*_FIGURES, ".toml"))
 
 
 def folder_of_figures(*names: str) -> Written:
-    """Say that figures of these names are written into a folder, each as PDF, PNG and CSV."""
+    """Describe a folder of figures of these names, each as PDF, PNG and CSV."""
     endings = ("pdf", "png", "csv")
     return Written("Figures", names=tuple(f"{name}.{end}" for name in names for end in endings))
 
@@ -70,8 +70,8 @@ def check_files(options: argparse.Namespace) -> None:
     Parameters
     ----------
     options
-        A command line as the parser read it. ``options.writes``, if there, tells for an option what
-        is written to its path.
+        The parsed command line. ``options.writes``, if there, maps an option to what is written to
+        its path.
 
     Raises
     ------
@@ -132,10 +132,10 @@ def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
 
 
 def is_same_file(path: Path, other: Path) -> bool:
-    """Say whether two paths are, or would be, one file: the same one, a link to it, or its name."""
+    """Return whether two paths are, or would be, the same file, whatever links or letter case."""
     try:
         return path.samefile(other)
-    except (OSError, ValueError):  # one of them is not there yet
+    except (OSError, ValueError):  # one of them does not exist yet
         pass
     try:
         path, other = path.resolve(), other.resolve()
@@ -159,9 +159,9 @@ def _is_same_folder(folder: Path, other: Path) -> bool:
 
 
 def ignores_case(folder: Path) -> bool:
-    """Say whether names that differ in case alone are one file in a folder.
+    """Return whether names that differ only in case are the same file in a folder.
 
-    It is tried with the name of a file that is there, or of the folder itself.
+    This is tried with the name of a file in the folder, or of the folder itself.
     """
     try:
         inside = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]

@@ -1,4 +1,4 @@
-"""``occ-model limits``."""
+"""The command ``occ-model limits``: find the frequencies and exposures that a decoder reads."""
 
 import argparse
 import math
@@ -21,13 +21,13 @@ _DIGITS = 4
 def add_to(commands: Commands) -> None:
     """Add the command."""
     parser = commands.add_parser(
-        "limits", help="say how fast a scene can go, and how long it can be exposed"
+        "limits", help="find how fast a scene can go, and how long it can be exposed"
     )
     add_scene_options(parser)
     parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPER_DECODER)
     parser.add_argument(
         "--rate", type=float, default=99.0, metavar="PERCENT",
-        help="of the bits that are to be read; default: %(default)s",
+        help="of the bits from which a scene counts as read; default: %(default)s",
     )  # fmt: skip
     parser.add_argument(
         "--images", type=int, default=20,

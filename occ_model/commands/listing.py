@@ -1,4 +1,4 @@
-"""``occ-model presets`` and ``occ-model parameters``."""
+"""The commands ``occ-model presets`` and ``occ-model parameters``: list what can be set."""
 
 import argparse
 
@@ -8,7 +8,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
 
 _LONGEST_NOTE = 1000
-"""Characters of the note on a value that are shown."""
+"""Largest number of characters of a value's note that are printed."""
 
 
 def add_to(commands: Commands) -> None:

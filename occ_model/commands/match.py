@@ -1,4 +1,4 @@
-"""``occ-model match``."""
+"""The command ``occ-model match``: find the settings that explain a photo."""
 
 import argparse
 import sys
@@ -79,7 +79,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _square_wave(scene: Scene, text: str) -> Scene:
-    """Let the scene send a square wave: two chips to a cycle."""
+    """Make a scene send a square wave: two chips per cycle."""
     frequency = parameter_named("switching_frequency").parse(text)
     return scene.replace(pattern="10", switching_frequency=2.0 * float(frequency))
 

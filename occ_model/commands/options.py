@@ -1,4 +1,4 @@
-"""The options that commands share: the scene, the effects that are simulated, the noise."""
+"""The options that commands share (scene, simulated effects, noise), and their parser."""
 
 import argparse
 import sys
@@ -25,23 +25,23 @@ else:
 
 
 _LONGEST_MESSAGE = 1000
-"""Characters of a refusal: room for all that is allowed, and not for whatever was written."""
+"""Largest number of characters of an error message: all allowed values fit, long input is cut."""
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose help is written or fails, and whose refusals are short."""
+    """A parser whose help raises errors of output, and whose error messages are short."""
 
     def print_help(self, file: IO[str] | None = None) -> None:  # type: ignore[override]
-        """Print the help; what goes wrong is raised, and not passed over as by default."""
+        """Print the help; errors are raised, which argparse ignores by default."""
         print(self.format_help(), end="", file=file or sys.stdout)
 
     def error(self, message: str) -> NoReturn:
-        """End with the usage and a message, in which a word of the command line may be long."""
+        """Exit with the usage and a message, of bounded length whatever the command line."""
         super().error(one_line(message, _LONGEST_MESSAGE))
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
-    """Let a command line say which scene is meant; :func:`scene_of` reads it."""
+    """Add the options that choose a scene; :func:`scene_of` reads them."""
     start = parser.add_mutually_exclusive_group()
     start.add_argument("--preset", default=DEFAULT_PRESET, help="default: %(default)s")
     start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
@@ -56,7 +56,7 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_of(options: argparse.Namespace) -> Scene:
-    """Make the scene that a command line asks for.
+    """Make the scene that a command line describes.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def scene_of(options: argparse.Namespace) -> Scene:
 
 
 def add_plan_options(parser: argparse.ArgumentParser) -> None:
-    """Let a command line say which effects are simulated."""
+    """Add the options that choose the simulated effects."""
     own = SimulationSettings()
     parser.add_argument(
         "--tolerance",
@@ -95,7 +95,7 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_noise_options(parser: argparse.ArgumentParser) -> None:
-    """Let a command line say where noise comes from."""
+    """Add the options of the noise."""
     own = SimulationSettings()
     parser.add_argument(
         "--noise",
@@ -107,19 +107,19 @@ def add_noise_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:
-    """Let a command line say how a scene is simulated; :func:`simulation_settings_of` reads it."""
+    """Add the options of the simulation; :func:`simulation_settings_of` reads them."""
     add_plan_options(parser)
     add_noise_options(parser)
 
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
-    """Read how a scene is to be simulated.
+    """Read the settings of the simulation from a command line.
 
     Raises
     ------
     ParameterError
-        There is no such effect, one is switched both on and off, or the tolerance or the seed
-        cannot be.
+        There is no such effect, one is switched both on and off, or the tolerance or the seed is
+        out of range.
     """
     TOLERANCE.check(options.tolerance)
     check_seed(options.seed)

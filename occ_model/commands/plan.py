@@ -1,4 +1,4 @@
-"""``occ-model plan``."""
+"""The command ``occ-model plan``: list the effects that a scene calls for, with their bounds."""
 
 import argparse
 
@@ -15,7 +15,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 def add_to(commands: Commands) -> None:
     """Add the command."""
-    parser = commands.add_parser("plan", help="say which effects a scene calls for, and why")
+    parser = commands.add_parser("plan", help="list the effects that a scene calls for, and why")
     add_scene_options(parser)
     add_plan_options(parser)
     own = SimulationSettings()

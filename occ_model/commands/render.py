@@ -1,4 +1,4 @@
-"""``occ-model render``."""
+"""The command ``occ-model render``: simulate a picture and write it."""
 
 import argparse
 from pathlib import Path

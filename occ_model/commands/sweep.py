@@ -1,4 +1,4 @@
-"""``occ-model sweep``."""
+"""The command ``occ-model sweep``: measure the success rate over any parameters."""
 
 import argparse
 import sys
@@ -92,7 +92,7 @@ def _run(options: argparse.Namespace) -> int:
         {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
         options.path,
     )
-    # All that can be refused is, before a cluster is asked for or minutes of work are done.
+    # All arguments are checked before a cluster is contacted or minutes of work are done.
     request = checked_request(scene, axes, settings)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
     if options.plot:
@@ -106,7 +106,7 @@ def _run(options: argparse.Namespace) -> int:
     elif not options.plot:
         sys.stdout.writelines(table.csv())
     if options.plot:
-        # matplotlib takes half a second to import: only for those who want a figure.
+        # matplotlib takes half a second to import: only where a figure is drawn.
         from occ_model.figures.sweep import write_sweep_figure
 
         write_sweep_figure(options.plot, table)
@@ -131,7 +131,7 @@ def _check_plot(path: Path, axes: int) -> None:
 
 
 def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable | None:
-    """Measure with a bar that shows the time left; None where Ctrl-C ended it."""
+    """Measure with a progress bar that shows the time left; None after Ctrl-C."""
     from tqdm import tqdm
 
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
@@ -141,7 +141,7 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
 
         def progress(done: int, total: int, _left: float) -> None:
             nonlocal bar, reached
-            if bar is None:  # only now: what is refused needs none
+            if bar is None:  # not before the first point: a refused sweep shows none
                 bar = stack.enter_context(tqdm(total=total, unit="point", file=sys.stderr))
             reached = done
             bar.update(done - bar.n)
@@ -167,7 +167,7 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
 
 @contextmanager
 def _warnings_as_sentences() -> Iterator[None]:
-    """Print warnings as the sentences that they are, above a bar if there is one."""
+    """Print warnings as plain sentences, above the progress bar if there is one."""
     from tqdm import tqdm
 
     def show(message: Warning | str, *_others: object, **_options: object) -> None:

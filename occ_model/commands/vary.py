@@ -1,4 +1,4 @@
-"""The values that a parameter is varied over, as people write them."""
+"""Parse the values over which a parameter is varied, such as ``2kHz:20kHz:2kHz``."""
 
 import math
 from collections.abc import Iterable
@@ -16,14 +16,14 @@ SYNTAX = (
     "meets it; NAME=low:high:xN: N values from low to high, in even ratios where the parameter's "
     "slider is logarithmic (frequency, times, distance), else in even steps"
 )
-"""What :func:`axes_of` reads."""
+"""The syntax that :func:`axes_of` parses."""
 
 _DIGITS = 12
-"""Significant digits of a value that is counted up to: 0.6 + 3 x 0.2 is 1.2 to anyone."""
+"""Significant digits of a value in even steps, so that 0.6 + 3 x 0.2 is 1.2."""
 
 
 def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
-    """Read axes such as ``"switching_frequency=2kHz:20kHz:2kHz"``.
+    """Parse axes such as ``"switching_frequency=2kHz:20kHz:2kHz"``.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
         if name in axes:
             raise parameter.refuse("is varied twice", "one axis a parameter")
         axes[name] = _values(parameter, text)
-        check_points(axes)  # before more of them are made
+        check_points(axes)  # before the next axis is made
     return axes
 
 
@@ -72,9 +72,9 @@ def _forms(parameter: Parameter) -> str:
 def _spread(
     parameter: Quantity | Count, low: float, high: float, text: str
 ) -> list[ParameterValue]:
-    """Give N values from low to high."""
+    """Give N values from low to high, in even ratios or steps."""
     factor = text[1:].lstrip("0")
-    # No number of more digits: Python reads none of thousands.
+    # Python refuses to convert numbers of thousands of digits.
     is_whole = factor.isdecimal() and len(factor) <= len(str(MOST_POINTS))
     number = int(factor) if is_whole else 0
     if not 2 <= number <= MOST_POINTS:
@@ -94,7 +94,7 @@ def _stepped(
     if step is None or not step > 0.0 or math.isinf(step):
         raise parameter.refuse(f"varies in steps of {shown(text)}", "a step above 0")
     steps = (high - low) / step * (1 + 1e-9)
-    if steps >= MOST_POINTS:  # infinitely many, perhaps
+    if steps >= MOST_POINTS:  # possibly infinitely many
         count = f"{math.floor(steps) + 1} values" if steps < 1e15 else "too many values"
         raise parameter.refuse(f"varies over {count}", f"up to {MOST_POINTS}")
     last = math.floor(steps)

@@ -1,1 +1,1 @@
-"""What helps to understand a scene: its equations, a column's exposure, guided explorations."""
+"""Teaching material on a scene: its equations, a column's exposure, guided explorations."""

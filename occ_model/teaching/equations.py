@@ -1,4 +1,4 @@
-"""The paper's equations with the numbers of a scene in them."""
+"""Write the paper's equations with the numbers of a scene in them."""
 
 import numpy as np
 
@@ -15,13 +15,13 @@ _LIGHT = ("luminance", "illuminance", "reflectance")
 _ON = (
     "code", "bits", "pattern", "switching_frequency", "readout_time", "exposure_time", "start_time",
 )  # fmt: skip
-"""What the time depends on in which the LED is on while a column is exposed."""
+"""Parameters that determine how long the LED is on while a column is exposed."""
 
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
-    """Give the equations that tell how a scene's stripes look, with its numbers in them.
+    """Give the equations that determine a scene's stripes, with its numbers in them.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Guided explorations: short texts with a scene each, and a question to answer by trying."""
+"""Load the guided explorations: steps with a text, a scene, a question and its answer."""
 
 from collections.abc import Mapping
 from functools import lru_cache
@@ -37,8 +37,8 @@ def read_exploration(path: Path) -> Exploration:
     Raises
     ------
     SceneFileError
-        It cannot be read, is not an exploration's file, names a preset that does not exist, or has
-        a value that is out of range.
+        The file cannot be read, holds no exploration, names a preset that does not exist, or has a
+        value that is out of range.
     """
     return _exploration(path.stem, read_text(path))
 
@@ -67,7 +67,7 @@ def _step(content: Mapping[str, Any]) -> Step:
 
 
 def _written(value: object) -> str:
-    """Write a value as it is typed."""
+    """Write a value as in an option of the command line."""
     return value if isinstance(value, str) else shown(value)
 
 

@@ -1,4 +1,4 @@
-"""One column's exposure: which chips it sees."""
+"""Give the chips that a column's exposure covers."""
 
 import math
 from fractions import Fraction
@@ -13,11 +13,11 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
 _MOST_CHIPS = 400
-"""Chips that a drawing can tell apart."""
+"""Largest number of chips that a drawing resolves."""
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
-    """Say which chips a column sees.
+    """Give the chips that a column's exposure covers.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
         )
     chips = sent_chips(scene.transmitter)
     period = scene.transmitter.switching_period
-    # Exact, for a column's exposure may begin any number of chips after time zero, or before it.
+    # Exact: a column's exposure may begin any number of chips before or after time zero.
     begins = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
     begins *= Fraction(scene.transmitter.switching_frequency)
     first = math.floor(begins)
@@ -53,7 +53,7 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     needed = math.ceil(within + scene.camera.exposure_time / period) + 2
     count = min(needed, _MOST_CHIPS)
     start = (1.0 + within) * period
-    # In Python's whole numbers: the first chip's number can be larger than an array's can be.
+    # In Python's integers: the first chip's number can exceed an array's.
     places = (first - 1) % len(chips) + np.arange(count)
     return ExposureWindow(
         column=column,

@@ -17,7 +17,7 @@ from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.simulation_settings import SimulationSettings
 
-# The styles tell the lines apart in grey print, too.
+# The line styles differ, so that grey print distinguishes the lines too.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
 BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}

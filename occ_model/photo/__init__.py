@@ -1,1 +1,1 @@
-"""Real photographs."""
+"""Photographs: reading them, finding their stripes, and fitting a scene to them."""

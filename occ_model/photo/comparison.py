@@ -1,4 +1,4 @@
-"""A photo's profile laid over a simulated one."""
+"""Compare a photo's profile with a simulated one, column by column."""
 
 import numpy as np
 
@@ -7,27 +7,27 @@ from occ_model.errors import MatchError
 from occ_model.results import Comparison
 
 _FLAT = 1e-9
-"""A standard deviation that is nothing but rounding."""
+"""Standard deviation below which a profile differs by rounding only."""
 
 
 def compare(
     flattened: FloatArray, simulated: FloatArray, first_column: float = 0.0, scale: float = 1.0
 ) -> Comparison:
-    """Lay a photo's profile over a simulated one, and measure how alike they are.
+    """Compare a photo's profile with a simulated one, column by column.
 
-    The photo gets the simulation's mean and swing (standard deviation): how bright a photo is says
-    nothing about its stripes.
+    The photo's profile is scaled to the simulation's mean and standard deviation: the brightness of
+    a photo says nothing about its stripes.
 
     Parameters
     ----------
     flattened : ndarray of float64, shape (columns of the photo,)
-        The photo's profile without its uneven light; any levels.
+        The photo's profile without its uneven light, at any levels.
     simulated : ndarray of float64, shape (columns,)
         The simulated profile in grey levels.
     first_column
-        The column of the simulation on which the photo's first one lies.
+        The column of the simulation on which the photo's first column lies.
     scale
-        Columns of the simulation to one of the photo.
+        Columns of the simulation per column of the photo.
 
     Returns
     -------
@@ -36,7 +36,7 @@ def compare(
     Raises
     ------
     MatchError
-        Fewer than two of the simulation's columns are under the photo.
+        Fewer than two columns of the simulation are covered by the photo.
     """
     if not (np.isfinite(first_column) and np.isfinite(scale) and scale > 0.0):
         raise MatchError(

@@ -1,4 +1,4 @@
-"""The scene whose picture is the photo's, from a fit of its stripes."""
+"""Make the scene whose picture is the photo's, with uncertainties in SI units, from a fit."""
 
 import math
 from dataclasses import replace
@@ -21,17 +21,17 @@ from occ_model.transmitter import line_code
 from occ_model.transmitter.packet import HEADER, code_of, packet_length, sent_chips
 
 ESTIMATES = ("readout_time", "switching_frequency")
-"""Which of the two is estimated; the other one is known."""
+"""The parameters of which one is estimated and the other one is known."""
 
 _STRAIGHTENINGS = 40
-"""Steps to a ray that a lens bends by a few percent at most: each makes it so much more exact."""
+"""Fixed-point steps of the inverse distortion: each leaves a few percent of the error."""
 
 _NOTED = ("iso", "f_number")
-"""What the camera notes in a photo besides the exposure time, which is fitted."""
+"""Parameters in a photo's EXIF data besides the exposure time, which is fitted."""
 
 
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
-    """Give a fit's exposure time in seconds."""
+    """Give the exposure time of a fit in seconds."""
     if estimate == "readout_time":
         return fit.timing.exposure * scene.transmitter.switching_period
     return fit.timing.exposure / fit.timing.step * scene.camera.readout_time
@@ -40,46 +40,26 @@ def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
 def described(
     photo: Photo, scene: Scene, estimate: str, stripes: Stripes, explanation: Explanation
 ) -> Match:
-    """Put what was found in SI units, and in a scene.
+    """Express an explanation in SI units, and as a scene.
 
-    Of fits that are as good with another exposure the one is taken that is nearest to what the
-    camera noted, or the shortest.
+    Of fits that are as good with another exposure the one is taken that is nearest to the exposure
+    time in the photo's EXIF data, or the shortest.
 
     Raises
     ------
     MatchError
-        It is outside a parameter's range.
+        A value found is outside its parameter's range.
     """
     fit = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
-    timing, region = fit.timing, stripes.region
-    if estimate == "readout_time":
-        frequency = scene.transmitter.switching_frequency
-        readout = timing.step / frequency
-    else:
-        readout = scene.camera.readout_time
-        frequency = timing.step / readout
-    scene, turned = with_chips(scene, explanation.chips)
-    period = len(explanation.chips)
-    first = timing.start(len(stripes.profile)) - timing.step * region.first_column - turned
-    try:
-        scene = scene.replace(
-            readout_time=readout,
-            switching_frequency=frequency,
-            exposure_time=timing.exposure / frequency,
-            start_time=first % period / frequency,
-            gamma=timing.gamma,
-            averaging=explanation.camera.averaging,
-            enhancement=explanation.camera.enhancement,
-        )
-    except ParameterError as error:
-        raise MatchError(f"What explains the stripes cannot be: {error}") from None
+    region = stripes.region
+    scene = _with_timing(scene, fit, explanation, estimate, region)
     scene = with_levels(at_the_photo(scene, photo, region), fit)
     camera = scene.camera
     return Match(
         scene=scene,
         stripes=replace(stripes, low=fit.low, high=fit.low + fit.swing),
         readout_time=camera.readout_time,
-        switching_frequency=frequency,
+        switching_frequency=scene.transmitter.switching_frequency,
         exposure_time=camera.exposure_time,
         start_time=scene.model.start_time,
         gamma=camera.gamma,
@@ -94,10 +74,37 @@ def described(
     )
 
 
+def _with_timing(
+    scene: Scene, fit: StripeFit, explanation: Explanation, estimate: str, region: Region
+) -> Scene:
+    """Set the chips of an explanation, the times of its fit and its camera in a scene."""
+    timing, columns = fit.timing, len(fit.profile)
+    if estimate == "readout_time":
+        frequency = scene.transmitter.switching_frequency
+        readout = timing.step / frequency
+    else:
+        readout = scene.camera.readout_time
+        frequency = timing.step / readout
+    scene, turned = with_chips(scene, explanation.chips)
+    first = timing.start(columns) - timing.step * region.first_column - turned
+    try:
+        return scene.replace(
+            readout_time=readout,
+            switching_frequency=frequency,
+            exposure_time=timing.exposure / frequency,
+            start_time=first % len(explanation.chips) / frequency,
+            gamma=timing.gamma,
+            averaging=explanation.camera.averaging,
+            enhancement=explanation.camera.enhancement,
+        )
+    except ParameterError as error:
+        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+
+
 def _uncertainties(
     fit: StripeFit, estimate: str, scene: Scene, first_column: int
 ) -> dict[str, float]:
-    """Carry the fit's covariance over to what was estimated, in SI units."""
+    """Propagate the fit's covariance to the estimated parameters, in SI units."""
     timing = fit.timing
     frequency = scene.transmitter.switching_frequency
     # The first column's start in chips, as it depends on step, exposure and middle.
@@ -127,14 +134,14 @@ def _uncertainties(
 
 
 def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
-    """Let a scene send chips: as the code whose packet they are, else as a raw pattern.
+    """Set a scene's chips: as the code whose packet they are, else as a raw pattern.
 
     Returns
     -------
     scene
         The scene.
     turned
-        By how many chips its period starts later than the chips given.
+        Number of chips by which its period starts later than the given chips.
     """
     bits = scene.transmitter.bits
     if len(chips) == packet_length(bits):
@@ -150,16 +157,16 @@ def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
 
 
 def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
-    """Give the scene the photo's size, and a panel that fills a region of it.
+    """Set the picture's size to the photo's, and the panel so that it fills a region of it.
 
-    The panel stands as far away as it did, level and upright.
+    The panel keeps its distance, level and upright.
     """
     rows, columns = photo.samples.shape
     try:
         scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)
     except ParameterError as error:
         raise MatchError(f"The photo is no picture of a scene's camera: {error}") from None
-    # A pixel's centre is at a whole number, a rim half a pixel beside it.
+    # A pixel's centre has a whole number, its edge lies half a pixel beside it.
     across = 0.5 * (region.first_column + region.last_column) - 0.5
     down = 0.5 * (region.first_row + region.last_row) - 0.5
     rims = np.array(
@@ -182,7 +189,7 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
 
 
 def _straight(rays: FloatArray, lens: Lens) -> FloatArray:
-    """Give the rays that a lens pictures at some others; those it cannot stay as they are."""
+    """Invert a lens's distortion of rays; rays without an inverse stay unchanged."""
     if not lens.distorts:
         return rays
     straight = rays
@@ -193,7 +200,7 @@ def _straight(rays: FloatArray, lens: Lens) -> FloatArray:
 
 
 def with_levels(scene: Scene, fit: StripeFit) -> Scene:
-    """Give the scene the light that makes the photo's grey levels."""
+    """Set the light that gives the photo's grey levels."""
     low, high = float(np.median(fit.low)), float(np.median(fit.low + fit.swing))
     levels = np.array([max(low, 0.0), max(high, low, 0.0)])
     dark, bright = luminance_of(levels, scene.camera).tolist()
@@ -205,13 +212,13 @@ def with_levels(scene: Scene, fit: StripeFit) -> Scene:
 
 
 def with_notes(scene: Scene, photo: Photo) -> Scene:
-    """Give the scene what the camera noted of its settings, as far as it did."""
+    """Set the parameters that the photo's EXIF data hold."""
     noted = {name: getattr(photo, name) for name in _NOTED}
     return with_allowed(scene, **{n: value for n, value in noted.items() if value is not None})
 
 
 def with_allowed(scene: Scene, **changes: ParameterValue) -> Scene:
-    """Change what is within its range, and leave the rest: it is no part of what was fitted."""
+    """Change the values within their range, and leave the others: they were not fitted."""
     for name, value in changes.items():
         try:
             PARAMETERS[name].check(value)

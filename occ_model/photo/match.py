@@ -1,4 +1,8 @@
-"""Find the scene that explains a photo."""
+"""Find the scene whose stripes match those of a photo.
+
+The exact exposure integral, under slowly varying light, is fitted to the column means by least
+squares.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -21,19 +25,19 @@ from occ_model.transmitter.packet import sent_chips
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 
 PATTERN_SOURCES = ("auto", "scene", "read")
-"""What is taken as sent: what the scene sends, what is read from the photo, or what fits."""
+"""Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
 
 _EXPLAINS = 0.9
-"""Correlation from which chips are taken as what was sent; those that were read need it."""
+"""Correlation from which chips are taken as the sent ones; chips read from the photo need it."""
 
 _CLEARLY = 0.03
-"""By how much chips that were read must explain more than what was told, to take its place."""
+"""Difference in correlation by which chips read from the photo must exceed the scene's chips."""
 
 _LEAST = 0.8
-"""Correlation below which nothing is explained."""
+"""Correlation below which the scene's chips do not explain the stripes."""
 
 _NEAR = np.arange(-4, 5) / 8.0
-"""Turns of the last chip that steps about a known one are tried with."""
+"""Shifts of the last chip, in chips, of the steps that are tried near a known step."""
 
 
 def match_photo(
@@ -46,84 +50,81 @@ def match_photo(
     fit_gamma: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> Match:
-    """Find the settings that explain a photo's stripes.
+    """Find the settings whose stripes match those of a photo.
 
-    The exact exposure integral is fitted to the mean of the columns, under light that varies
-    slowly, by least squares. The uncertainties are those of the fit; what the model does not know,
-    such as a camera's own tone curve, can be more.
+    The uncertainties are those of the fit; effects outside the model can cause larger errors.
 
     Parameters
     ----------
     photo
         The photo.
     scene
-        What is known: what was sent (a code or a raw pattern; a plain square wave of F cycles per
-        second is the pattern "10" at a switching frequency of 2 F), and one of the switching
-        frequency and the readout time.
+        The known settings: the sent code or pattern (a square wave of F cycles per second is the
+        pattern "10" at a switching frequency of 2 F), and the switching frequency or readout time.
     estimate
-        The other one: ``"readout_time"`` or ``"switching_frequency"``.
+        The unknown one of these two: ``"readout_time"`` or ``"switching_frequency"``.
     sent
-        ``"scene"``: what the scene sends. ``"read"``: the shortest repeating sequence of chips that
-        explains the stripes is read from them. ``"auto"``: the second where the first explains
-        nothing.
+        ``"scene"``: the scene's pattern was sent. ``"read"``: the shortest pattern that explains
+        the stripes is read from them. ``"auto"``: it is read where the scene's does not match.
     averaging
-        What the camera averaged while it exposed a column: ``"pixel-value"`` or ``"light"``, as the
-        scene's parameter; ``"auto"``: what explains the photo better.
+        ``"pixel-value"`` or ``"light"``, as the scene's parameter, or ``"auto"``: the better match.
     fit_gamma
         Whether gamma is estimated too; light is then averaged.
     progress
-        Is told the share that is done. What it raises ends the match.
-
-    Returns
-    -------
-    Match
+        Called with the share of the work that is done. What it raises ends the match.
 
     Raises
     ------
     MatchError
-        The photo shows no stripes, nothing that is sent explains them, or what explains them is
-        outside a parameter's range.
+        The photo shows no stripes, or no pattern and settings in range explain them.
     ParameterError
-        ``estimate``, ``sent`` or ``averaging`` is none of these words.
+        ``estimate``, ``sent`` or ``averaging`` is not one of these words.
     """
+    _check(scene, estimate, sent, averaging)
+    report = progress or (lambda _share: None)
+    report(0.0)
+    task = _task(photo, scene, averaging, fit_gamma)
+    report(0.2)
+    explanation, was_read = _explanation(task, sent, report)
+    report(0.9)
+    match = described(photo, task.scene, estimate, task.stripes, explanation)
+    report(1.0)
+    return replace(match, pattern_was_read=was_read)
+
+
+def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
     check_scene(scene)
     check_choice("estimate", estimate, ESTIMATES)
     check_choice("sent", sent, PATTERN_SOURCES)
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
-    tell = progress or (lambda _share: None)
+
+
+def _task(photo: Photo, scene: Scene, averaging: str, fit_gamma: bool) -> "_Task":
+    stripes, scene = find_stripes(photo), with_notes(scene, photo)
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)
-    tell(0.0)
-    stripes = find_stripes(photo)
-    tell(0.2)
-    scene = with_notes(scene, photo)
-    cameras = camera_tones(
-        scene, averagings, float(np.median(stripes.low)), float(np.median(stripes.high))
-    )
-    task = _Task(stripes, cameras, scene.camera.gamma, fit_gamma)
-    explanation, was_read = _explanation(task, scene, sent, tell)
-    tell(0.9)
-    match = described(photo, scene, estimate, stripes, explanation)
-    tell(1.0)
-    return replace(match, pattern_was_read=was_read)
+    low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
+    cameras = camera_tones(scene, averagings, low, high)
+    return _Task(stripes, scene, cameras, fit_gamma)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Task:
-    """What is to be explained, and how."""
+    """The stripes to be explained, what is known of them, and the cameras that are tried."""
 
     stripes: Stripes
+    scene: Scene
     cameras: list[CameraTone]
-    gamma: float
     fit_gamma: bool
 
     def explained_by(self, chips: ByteArray, steps: FloatArray | None = None) -> Explanation | None:
-        """Explain the stripes by chips."""
-        return explain(self.stripes, chips, self.cameras, self.gamma, self.fit_gamma, steps)
+        """Fit the timing of given chips to the stripes."""
+        gamma = self.scene.camera.gamma
+        return explain(self.stripes, chips, self.cameras, gamma, self.fit_gamma, steps)
 
     def read(self) -> Explanation | None:
-        """Read the chips from the stripes, and explain the stripes by them."""
+        """Read the chips from the stripes, and fit their timing."""
         if self.stripes.period is None:
             return None
         read = read_pattern(self.stripes.profile, self.stripes.flattened, self.stripes.period)
@@ -134,11 +135,11 @@ class _Task:
 
 
 def _explanation(
-    task: _Task, scene: Scene, sent: str, tell: Callable[[float], object]
+    task: _Task, sent: str, report: Callable[[float], object]
 ) -> tuple[Explanation, bool]:
-    """Explain the stripes by what the scene sends, or by what is read from them."""
-    found = None if sent == "read" else task.explained_by(sent_chips(scene.transmitter))
-    tell(0.6)
+    """Explain the stripes by the scene's chips, or by those read from the photo."""
+    found = None if sent == "read" else task.explained_by(sent_chips(task.scene.transmitter))
+    report(0.6)
     was_read = False
     if sent != "scene" and (found is None or found.correlation < _EXPLAINS):
         read = task.read()

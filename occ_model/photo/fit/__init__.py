@@ -1,1 +1,1 @@
-"""The exposure model fitted to the stripes."""
+"""Fit the exposure model to the stripes in a photo."""

@@ -1,4 +1,4 @@
-"""What explains a photo's stripes: the timing that fits best for given chips."""
+"""Find the timings with which given chips fit a photo's stripes best."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -15,39 +15,39 @@ from occ_model.results import Stripes
 from occ_model.transmitter.waveform import Waveform
 
 _SURELY = 0.9
-"""Correlation from which a candidate is no chance."""
+"""Correlation from which a candidate is taken as no coincidence."""
 
 _PROMISING = 0.85
 """Share of the best candidate's correlation from which another is fitted too."""
 
 _BEST, _SHORTEST = 4, 4
-"""How many of the best candidates are fitted, and of the shortest exposures."""
+"""Numbers of candidates that are fitted: the best ones, and those of the shortest exposures."""
 
 _AROUND = (0.85, 0.93, 1.07, 1.15)
-"""Shares of an exposure that a fit is tried again with."""
+"""Factors by which an exposure is changed to fit it again."""
 
 _VALLEY = 1e-3
-"""Chips within which fits are the same."""
+"""Difference of exposures, in chips, below which fits count as the same."""
 
 _AS_GOOD = 1.05
-"""By what factor a fit may leave more unexplained than the best and still explain as well."""
+"""Factor by which a fit's residual may exceed the smallest one and still count as equally good."""
 
 _SAME_EXPOSURE = 0.04
-"""Chips within which two fits found the same exposure."""
+"""Difference in chips below which two fits have the same exposure."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Explanation:
-    """Chips and the fits that explain a photo's stripes with them.
+    """Chips, and the fits with which they explain a photo's stripes.
 
     Parameters
     ----------
     chips : ndarray of uint8, shape (chips,)
         One period.
     fits
-        The best fit and those that are as good with another exposure, from the shortest exposure.
+        The best fit, and those that are as good with another exposure, in order of the exposure.
     camera
-        What the camera made of the light.
+        The camera's response.
     """
 
     chips: ByteArray
@@ -56,16 +56,16 @@ class Explanation:
 
     @property
     def correlation(self) -> float:
-        """Of the best fit."""
+        """The correlation of the best fit."""
         return max(fit.correlation for fit in self.fits)
 
     def nearest(self, exposure: Callable[[StripeFit], float], wanted: float | None) -> StripeFit:
-        """Choose among fits that are as good: the exposure nearest to one noted, or the shortest.
+        """Choose the fit of the exposure time nearest to a wanted one, or else of the shortest.
 
         Parameters
         ----------
         exposure
-            Gives a fit's exposure time in seconds.
+            Function that gives a fit's exposure time in seconds.
         wanted
             Seconds, or None.
         """
@@ -82,49 +82,61 @@ def explain(
     with_gamma: bool = False,
     steps: FloatArray | None = None,
 ) -> Explanation | None:
-    """Find the timings with which known chips explain a photo's stripes.
+    """Find the timings with which given chips fit a photo's stripes best.
 
     Parameters
     ----------
     stripes
         The stripes.
     chips : ndarray of uint8, shape (chips,)
-        One period of what was sent.
+        One period of the sent chips.
     cameras
-        What the camera may have made of the light, each of which is tried.
+        The camera responses to try.
     gamma
-        The camera's.
+        The camera's gamma.
     with_gamma
-        Whether it is fitted too.
+        Whether gamma is fitted too.
     steps : ndarray of float64
-        Chips a column to try; by default all that are possible.
+        Chips per column to try; by default all that are possible.
 
     Returns
     -------
     Explanation or None
-        None where the chips never change, or no fit of them can be a picture.
+        None where the chips never change, or no fit has the levels of a picture.
     """
     if chips.min() == chips.max():
         return None
     candidates = _candidates(without_trend(stripes.profile), chips, steps, gamma)
     if candidates[0].correlation < _SURELY:
-        # Chips that are mostly on, or mostly off, swing about no mean: their levels tell more.
+        # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
         others = _candidates(stripes.flattened, chips, steps, gamma)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     starts = _promising(candidates)
+    best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
+    if best is None:
+        return None
+    model, fits, camera = best
+    polished = _distinct([_polished(model, fit, with_gamma) for fit in _as_good(fits)])
+    return Explanation(chips, tuple(_as_good(polished)), camera) if polished else None
+
+
+def _best_of_cameras(
+    stripes: Stripes,
+    chips: ByteArray,
+    cameras: Sequence[CameraTone],
+    starts: Sequence[Timing],
+    with_gamma: bool,
+) -> tuple[StripeModel, list[StripeFit], CameraTone] | None:
+    """Fit each camera's response from several timings; give the one with the least residual."""
     best: tuple[StripeModel, list[StripeFit], CameraTone] | None = None
     for camera in cameras:
         model = StripeModel(
             stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.rank_resolution
         )
-        fits = _apart([model.fit(start, with_gamma) for start in starts])
+        fits = _distinct([model.fit(start, with_gamma) for start in starts])
         if fits and (best is None or fits[0].residual < best[1][0].residual):
             best = model, fits, camera
-    if best is None:
-        return None
-    model, fits, camera = best
-    polished = _apart([_polished(model, fit, with_gamma) for fit in _as_good(fits)])
-    return Explanation(chips, tuple(_as_good(polished)), camera) if polished else None
+    return best
 
 
 def _candidates(
@@ -135,9 +147,9 @@ def _candidates(
 
 
 def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
-    """Choose the timings that a fit may end well from: the best, and the shortest exposures.
+    """Choose the timings to start fits from: the best ones, and those of the shortest exposures.
 
-    Many exposures make much the same stripes, so that the search cannot tell which is best.
+    Many exposures give similar stripes, so that the search alone does not find the best.
     """
     enough = _PROMISING * candidates[0].correlation
     good = [one.timing for one in candidates if one.correlation >= enough]
@@ -145,8 +157,8 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
     return list(dict.fromkeys([*good[:_BEST], *shortest[:_SHORTEST]]))
 
 
-def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep one possible fit of each exposure, the best first."""
+def _distinct(fits: Sequence[StripeFit]) -> list[StripeFit]:
+    """Keep the best possible fit of each exposure, in order of the residual."""
     kept: list[StripeFit] = []
     for fit in sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual):
         exposures = [other.timing.exposure for other in kept]
@@ -156,10 +168,10 @@ def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
 
 
 def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit:
-    """Fit again round a fit, and take the middle of what is about as likely.
+    """Fit again from exposures near a fit's, and take the middle of those that are about as likely.
 
-    The lit fraction has corners, and few columns see an edge: what is left unexplained has many
-    small valleys, and which of them is the deepest says little.
+    The lit fraction has corners, and few columns show an edge: the sum of squares has many shallow
+    minima, of which the deepest is hardly more likely than the others.
     """
     around = [replace(fit.timing, exposure=share * fit.timing.exposure) for share in _AROUND]
     fits = [fit, *(model.fit(timing, with_gamma) for timing in around)]
@@ -173,7 +185,7 @@ def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit
 
 
 def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep the best fit and those as good with another exposure, from the shortest exposure."""
+    """Keep the best fit and those as good with another exposure, in order of the exposure."""
     least = min(fit.residual for fit in fits)
     good = [fit for fit in fits if fit.residual <= _AS_GOOD * least]
     return sorted(good, key=lambda fit: fit.timing.exposure)

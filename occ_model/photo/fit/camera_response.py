@@ -1,4 +1,4 @@
-"""From lit fractions to how bright a column looks between its two levels."""
+"""The camera's response: from a column's lit fraction to its value between two levels."""
 
 import math
 from collections.abc import Sequence
@@ -13,31 +13,31 @@ from occ_model.photo.fit.least_squares import Tone
 from occ_model.scene.scene import Scene
 
 _BRIGHT = 1000.0
-"""Luminance in cd/m2 of the lit panel; only that of the dark one beside it matters."""
+"""Luminance in cd/m2 of the lit panel; only its ratio to that of the dark panel matters."""
 
 _DARKEST = 0.5
 """Grey levels below which dark columns are black."""
 
 _STEADY = np.ones(1)
 
-
 _RANK_RESOLUTION = 0.5
+"""Columns: a smaller change of the timing changes hardly any column's rank."""
 
 AVERAGINGS = ("pixel-value", "light")
 
 
 @dataclass(frozen=True, slots=True)
 class CameraTone:
-    """What a camera, and whoever enhanced its picture, made of the light.
+    """A camera's response to light, with the enhancement of its picture.
 
     Parameters
     ----------
     averaging, enhancement
-        In the words of the scene's parameters.
+        As the scene's parameters.
     tone
-        What comes of it.
+        The response.
     rank_resolution
-        Columns within which it does not follow a change of the timing, as ranks do not.
+        Smallest change of the timing, in columns, that changes the response: ranks are discrete.
     """
 
     averaging: str
@@ -49,16 +49,16 @@ class CameraTone:
 def camera_tones(
     scene: Scene, averagings: Sequence[str], low: float, high: float
 ) -> list[CameraTone]:
-    """Give the tones that a scene's picture can have, for stripes between two grey levels.
+    """Give the responses that a scene's camera can have, for stripes between two grey levels.
 
     Parameters
     ----------
     scene
-        Where it equalizes histograms, a picture that has been equalized is reckoned with too.
+        The scene. Where it equalizes histograms, the response of an equalized picture is given too.
     averagings
-        What may have been averaged.
+        The quantities that the camera may have averaged.
     low, high
-        The levels: with gamma they say how bright the dark panel is beside the lit one.
+        The levels: with gamma they give the luminance of the dark panel relative to the lit one.
     """
     tones = []
     for averaging in averagings:
@@ -70,9 +70,9 @@ def camera_tones(
 
 
 def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
-    """Give the tone of a scene's camera."""
+    """Give the response of a scene's camera."""
 
-    @lru_cache(maxsize=4)  # a fit asks again and again for the same gamma
+    @lru_cache(maxsize=4)  # a fit evaluates the same gamma many times
     def levels(gamma: float) -> tuple[Scene, float, float]:
         dark = (low / high) ** gamma if low > _DARKEST else 0.0
         camera = scene.replace(
@@ -93,7 +93,7 @@ def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
 
 
 def _equalized(tone: Tone) -> Tone:
-    """Give the tone of a picture whose histogram has been equalized: each column's rank."""
+    """Give the response of a picture with equalized histogram: each column's rank."""
 
     def of_rank(lit: FloatArray, gamma: float) -> FloatArray:
         values = np.round(tone(lit, gamma), 3)  # grey levels are no finer

@@ -1,8 +1,8 @@
-"""Where to begin a fit: the timings with which known chips explain a profile best.
+"""Search for timings to start a fit from: those at which given chips correlate with a profile.
 
-The chips' profile has a line spectrum: harmonics of the period. So for every step from column to
-column the profile's spectrum is read where those harmonics would lie, and one short inverse Fourier
-transform gives the correlation with the chips at every phase.
+The chips' profile has a line spectrum, the harmonics of its period. For each number of chips per
+column the profile's spectrum is sampled at these harmonics, and one short inverse Fourier transform
+gives the correlation with the chips at every phase.
 """
 
 from dataclasses import dataclass
@@ -14,75 +14,76 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
 
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
-"""Exposures in chips that a search tries; a fit goes on from the nearest."""
+"""Exposures in chips that the search tries; a fit starts from them."""
 
 _ROUGHLY = (0.3, 1.4, 2.4, 3.5, 5.4)
-"""Those that every step is tried with."""
+"""Exposures with which every step is tried."""
 
 _FASTEST = 0.95
-"""Chips a column: beyond it a chip has no column of its own."""
+"""Largest number of chips per column: beyond it a chip has no column of its own."""
 
 _PADDING = 4
 _PHASES_A_CHIP = 8
 
 _STEPS_A_TURN = 4.0
-"""Steps tried while the profile's last chip moves by one."""
+"""Number of steps tried while the position of the profile's last column changes by a chip."""
 
 _BEST_STEPS = 24
 _AT_ONCE = 2**19
-"""Numbers held at once, so that long chips need no gigabytes."""
+"""Largest number of array elements at once: it bounds the memory for long patterns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A timing to begin with, and the correlation it reaches."""
+    """A timing to start a fit from, and its correlation."""
 
     timing: Timing
     correlation: float
 
 
 class Search:
-    """Compares a profile with chips at any timing.
+    """Correlates a profile with chips at any timing.
 
     Parameters
     ----------
     flattened : ndarray of float64, shape (columns,)
         The profile without uneven light.
     chips : ndarray of uint8, shape (chips,)
-        One period of what is sent.
+        One period of the sent chips.
     """
 
     def __init__(self, flattened: FloatArray, chips: ByteArray) -> None:
         about = flattened - flattened.mean()
         self._columns, self._period = len(flattened), len(chips)
         size = _PADDING * self._columns
-        # Phases are counted from the middle column, where a step's error moves them least: half a
-        # column off a whole one, which two rounds of the spectrum make whole.
+        # Phases refer to the middle of the profile, where a step's error changes them least. For an
+        # even number of columns it lies between two of them, and the phase factor repeats after two
+        # periods of the spectrum: so the spectrum is tiled twice.
         turn = np.exp(1j * np.pi * (self._columns - 1) / size * np.arange(2 * size))
         self._turned = np.tile(np.fft.fft(about, size), 2) * turn
         self._power = float(about @ about)
         self._harmonics = np.arange(1, 2 * self._period + 1)
         lines = np.fft.fft(chips)[self._harmonics % self._period] / self._period
-        # A chip is a box of length one: the spectrum of the impulses times its own.
+        # A chip is a box of length one: the spectrum of impulses times that of the box.
         self._lines = lines * np.sinc(self._harmonics / self._period)
 
     def steps(self) -> FloatArray:
-        """Give all steps that are worth a try, in chips a column."""
+        """Give all steps to try, in chips per column."""
         slowest = max(1.5, 0.75 * self._period) / self._columns
         count = int(np.ceil((_FASTEST - slowest) * self._columns * _STEPS_A_TURN))
         return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_A_TURN)
 
     def candidates(self, steps: FloatArray, gamma: float) -> list[Candidate]:
-        """Find the best timing for each exposure, over some steps, best first."""
+        """Find the best timing of each exposure among some steps, best first."""
         rough = np.zeros(len(steps))
         together = max(1, _AT_ONCE // (_PHASES_A_CHIP * self._period))
         for first in range(0, len(steps), together):
             part = slice(first, first + together)
-            seen = self._read(steps[part])
+            seen = self._sampled(steps[part])
             for exposure in _ROUGHLY:
                 rough[part] = np.maximum(rough[part], self._scores(seen, exposure)[0])
         best = steps[np.argsort(rough)[-_BEST_STEPS:]]
-        seen = self._read(best)
+        seen = self._sampled(best)
         found = []
         for exposure in EXPOSURES:
             scores, phases = self._scores(seen, exposure)
@@ -94,8 +95,8 @@ class Search:
     def _scores(
         self, seen: NDArray[np.complex128], exposure: float
     ) -> tuple[FloatArray, FloatArray]:
-        """Give the best correlation over all phases, and the middle phase that gives it."""
-        # An exposure is a box too; its middle is where its phase is counted from.
+        """Give the best correlation over all phases, and the phase of the middle that has it."""
+        # An exposure is a box too, whose phase refers to its middle.
         lines = self._lines * np.sinc(self._harmonics * (exposure / self._period))
         energy = 2.0 * float((np.abs(lines) ** 2).sum()) * self._columns
         phases = _PHASES_A_CHIP * self._period
@@ -107,8 +108,8 @@ class Search:
         # A chip's own box is centred half a chip after its start.
         return scores, best / _PHASES_A_CHIP + 0.5
 
-    def _read(self, steps: FloatArray) -> NDArray[np.complex128]:
-        """Read the profile's spectrum at the chips' harmonics, about its middle.
+    def _sampled(self, steps: FloatArray) -> NDArray[np.complex128]:
+        """Sample the profile's spectrum at the chips' harmonics, with phases about its middle.
 
         Returns
         -------

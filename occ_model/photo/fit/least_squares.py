@@ -1,9 +1,9 @@
-"""The exposure model fitted to a profile of stripes, by least squares.
+"""Fit the exposure model to a profile of stripes by least squares.
 
 A profile is low(i) + swing(i) x tone(lit(i)): the lit fraction of the exact exposure integral,
-through the camera's tone, between two levels that vary slowly along the columns. For given times
-the levels are a linear fit, so that only the times are searched (variable projection: Golub and
-Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
+through the camera's response, between two levels that vary slowly along the columns. For a given
+timing the levels are a linear fit, so that the search is over the timing alone (variable
+projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
 """
 
 import math
@@ -23,57 +23,57 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.transmitter.waveform import Waveform
 
 _SMALL = 0.02
-"""Columns by which a timing is changed to see what the model makes of it."""
+"""Columns by which the timing is changed for finite differences."""
 
 Tone = Callable[[FloatArray, float], FloatArray]
-"""From lit fractions and a gamma to pixel values between any two levels."""
+"""A camera's response: from lit fractions and gamma to pixel values between any two levels."""
 
 _FULL = WHITE - 0.5
 _LEAST_KEPT = 0.4
-"""Share of the columns that must not be full for the full ones to be left out of the levels."""
+"""Share of unsaturated columns from which the saturated ones are left out of the fit."""
 
 _UNSEEN = 1e-4
-"""Weight of not knowing: a parameter that no column tells is off by a hundred of its scales."""
+"""Regularization of the covariance: a parameter on which no column depends gets a standard
+deviation of a hundred of its scales."""
 
 _LEAST_SWING = 0.05
-"""Share of the largest swing below which a column tells nothing of the stripes."""
+"""Share of the largest swing below which a column's stripes are not significant."""
 
 _CHIPS_A_FREEDOM = 6
 _MOST_FREEDOM = 8
 
 _SHORTEST = 1e-4
-"""Chips: a shorter exposure looks like none."""
+"""Shortest exposure in chips: shorter ones give the same stripes."""
 
 _BLUR = 0.4
-"""Columns by which a lens and a camera's own processing may well soften stripes, unknown to the
-model: a standard deviation."""
+"""Standard deviation, in columns, of blur by lens and image processing outside the model."""
 
 _DARKEST = -0.1
-"""How far the dark level may lie below black, as a share of the swing: dark columns are black."""
+"""Lowest dark level of a possible fit, as a share of the swing: pixel values are not negative."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StripeFit:
-    """What a fit found.
+    """A fitted timing with its uncertainty, and the profile that it gives.
 
     Parameters
     ----------
     timing
-        The times.
+        The timing.
     covariance : ndarray of float64, shape (4, 4)
-        Of the timing's fields in their order; 0 for gamma where it was given.
+        The covariance of the timing's fields in their order; 0 for gamma where it was given.
     low, swing : ndarray of float64, shape (columns,)
         The levels in grey levels.
     profile : ndarray of float64, shape (columns,)
         The model in grey levels.
     correlation
-        Of data and model, both without the uneven light.
+        Correlation of data and model, both without the uneven light.
     residual
-        Sum of the squares of what the model leaves unexplained.
+        Sum of the squared differences of data and model.
     likely
-        A rest up to which another timing is about as likely: by two standard deviations.
+        Largest residual of a timing that is about as likely: within two standard deviations.
     is_possible
-        Whether the levels can be a picture's: lit above dark, and dark not below black.
+        Whether the levels can be a picture's: lit above dark, and dark not negative.
     """
 
     timing: Timing
@@ -95,13 +95,13 @@ class StripeModel:
     profile : ndarray of float64, shape (columns,)
         Grey levels.
     waveform
-        What is sent.
+        The sent chips.
     tone
-        The camera's tone.
+        The camera's response.
     step
-        Chips a column, roughly: the levels get the freedom that as many chips can bear.
+        Chips per column, roughly: the number of chips limits the degrees of freedom of the levels.
     rank_resolution
-        Columns within which the tone does not follow a change of the timing.
+        Smallest change of the timing, in columns, that changes the response.
     """
 
     def __init__(
@@ -118,25 +118,25 @@ class StripeModel:
         self._change = max(_SMALL, rank_resolution) * step
         chips = step * len(profile)
         freedom = int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
-        # Both levels alike: or a faint tone would have more shapes for the mean than a clear one.
+        # The same number for both levels, or else the mean would fit better than the swing.
         self._shapes = smooth_shapes(len(profile), freedom)
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
 
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Fit the levels for some times.
+        """Fit the levels for a given timing.
 
         Returns
         -------
         low, swing, profile : ndarray of float64, shape (columns,)
-            The profile is the model's, as far as a pixel can hold it.
+            The profile is the model's, limited to white.
         """
         lit = timing.lit_fraction(self._waveform, len(self._profile))
         tone = self._tone(lit, timing.gamma)[:, None]
         parts = np.hstack([self._shapes, self._shapes * tone])
         kept = parts[self._kept]
         products = kept.T @ kept
-        # A tone that hardly varies leaves the levels open: keep them small rather than wild.
+        # Where the response hardly varies the levels are undetermined: keep them small.
         products[np.diag_indices_from(products)] += 1e-9 * len(kept)
         weights = np.linalg.solve(products, kept.T @ self._profile[self._kept])
         freedom = self._shapes.shape[1]
@@ -144,7 +144,7 @@ class StripeModel:
         return low, swing, np.minimum(parts @ weights, WHITE)
 
     def fit(self, start: Timing, with_gamma: bool = False, spread: float = 0.0) -> StripeFit:
-        """Fit the times from a first guess.
+        """Fit the timing from a first guess.
 
         Parameters
         ----------
@@ -153,9 +153,9 @@ class StripeModel:
         with_gamma
             Whether gamma is fitted too.
         spread
-            Where it is above nothing the exposure is held, evenly likely within as many chips.
+            Above 0: the exposure is held fixed, uniformly likely within as many chips either way.
         """
-        # Slow to import, and only needed when a photo is really matched.
+        # Imported only when a photo is matched: it is slow.
         from scipy.optimize import least_squares
 
         columns = len(self._profile)
@@ -163,7 +163,7 @@ class StripeModel:
         assert isinstance(gamma, Quantity)  # noqa: S101 - it is one
         low = np.array([0.5 * start.step, _SHORTEST, -np.inf, gamma.low])
         high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
-        # From well within the bounds, where a slope can be told.
+        # Away from the bounds, so that finite differences stay within them.
         inside = np.array([0.0, 10.0 * _SHORTEST, 0.0, 0.05])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
         first = np.clip(first, low + inside, high - inside)
@@ -198,7 +198,7 @@ class StripeModel:
         low, swing, profile = self.levels(timing)
         usual = float(np.median(swing))
         possible = usual > 0.0 and float(np.median(low)) > _DARKEST * usual
-        # Never so faint that evening the light out would blow up what is left of it.
+        # Bounded below, since flattening divides by it.
         swing = np.maximum(swing, _LEAST_SWING * max(float(swing.max()), FLAT))
         correlation = _flattened_correlation(self._profile, profile, low, swing)
         residual = self._profile - profile
@@ -210,10 +210,10 @@ class StripeModel:
 
 
 def _blur_deviation(timing: Timing) -> float:
-    """Give the chips by which an unknown blur may make an exposure look longer.
+    """Give the chips by which an unknown blur may lengthen the fitted exposure.
 
-    An edge's slope is the exposure's box, of variance t^2/12, and the blur's; to second order a
-    blur of sigma makes t look longer by 6 sigma^2 / t, and never by more than its own width.
+    An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur; to second
+    order a blur of sigma lengthens t by 6 sigma^2 / t, and never by more than its own width.
     """
     blur = _BLUR * timing.step
     return min(6.0 * blur**2 / timing.exposure, math.sqrt(12.0) * blur)
@@ -224,7 +224,7 @@ def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
     variance = float(residual @ residual) / max(1, len(residual) - slopes.shape[1])
     variance *= correlated_columns(residual)
     products = slopes.T @ slopes
-    # What no column sees a change of is not known for sure, but not known at all.
+    # A parameter on which no column depends gets a large variance instead of a division by zero.
     products[np.diag_indices_from(products)] += _UNSEEN * max(variance, 1e-12)
     return np.asarray(np.linalg.inv(products) * variance)
 
@@ -232,7 +232,7 @@ def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
 def _flattened_correlation(
     data: FloatArray, model: FloatArray, low: FloatArray, swing: FloatArray
 ) -> float:
-    """Correlate data and model without their uneven light; a column counts as its light swings."""
+    """Correlate data and model without their uneven light; columns are weighted by their swing."""
     weight = swing**2 / float((swing**2).sum())
     a, b = (data - low) / swing, (model - low) / swing
     a, b = a - float(weight @ a), b - float(weight @ b)

@@ -1,8 +1,8 @@
-"""Chips read from stripes of which only the period is known.
+"""Read the chips from stripes of which only the period is known.
 
-What repeats after T columns is a sum of harmonics of 1/T. With P chips a period the chips have only
-P numbers to tell them; the exposure and the chips' own length weigh the harmonics as boxes do. So
-for every P and exposure the chips that explain the harmonics best are a few divisions; they are
+Stripes that repeat after T columns are a sum of harmonics of 1/T. P chips per period have only P
+unknown levels; the exposure and the length of a chip multiply the harmonics by those of boxes. For
+each P and exposure the chips that explain the harmonics best therefore follow by division. They are
 rounded to on and off, and the shortest period whose rounded chips explain the stripes is taken.
 """
 
@@ -15,25 +15,25 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.stripes.envelope import without_trend
 
 MOST_CHIPS = 128
-"""Chips a period can have."""
+"""Largest number of chips in a period."""
 
 _LEAST_COLUMNS = 2.0
-"""Columns a chip must have."""
+"""Smallest number of columns per chip."""
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.3, 1.7, 2.3, 2.7, 3.3)
 _PHASES = 8
-"""Phases of a chip that are tried."""
+"""Number of phases within a chip that are tried."""
 
 _NOISE = 0.01
-"""Share of a harmonic's largest weight below which it tells nothing but noise."""
+"""Share of the largest weight below which a harmonic is dominated by noise."""
 
 _MOST_HARMONICS = 160
 
 _COHERENT = 0.93
-"""How sharply edges lie on a lattice of chips, as a share of the sharpest lattice.
+"""Coherence of the edges with a lattice of chips, as a share of the most coherent lattice's.
 
-Less than all, since gamma makes bright runs longer than dark ones. So of one pulse in a long period
-it cannot be told whether it is 1/8 or 1/9 of it.
+Below 1, since gamma makes bright runs longer than dark ones. Therefore a single pulse of 1/8 of a
+period cannot be distinguished from one of 1/9.
 """
 
 _LEAST_COHERENCE = 0.6
@@ -41,24 +41,24 @@ _LEAST_COHERENCE = 0.6
 _LEAST_CROSSINGS = 4
 
 _UNEXPLAINED = 0.15
-"""Share of the harmonics' power that the right chips may leave unexplained."""
+"""Largest share of the harmonics' power that the right chips leave unexplained."""
 
 _DIP = 0.5
-"""How much less the right number of chips leaves unexplained than the numbers beside it."""
+"""Ratio to neighbouring numbers of chips of the power that the right one leaves unexplained."""
 
 _BESIDE = (-3, -2, -1, 1, 2, 3)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadPattern:
-    """Chips that were read.
+    """Chips read from stripes.
 
     Parameters
     ----------
     chips : ndarray of uint8, shape (chips,)
         One period.
     explained
-        Correlation of the harmonics that they make with those in the photo.
+        Correlation of their harmonics with those in the photo.
     """
 
     chips: ByteArray
@@ -73,19 +73,19 @@ def read_pattern(profile: FloatArray, flattened: FloatArray, period: float) -> R
     profile : ndarray of float64, shape (columns,)
         Grey levels.
     flattened : ndarray of float64, shape (columns,)
-        The same without uneven light, from 0 (dark) to 1 (bright).
+        The profile without uneven light, from 0 (dark) to 1 (bright).
     period
-        Columns after which it repeats.
+        Columns after which the profile repeats.
 
     Returns
     -------
     ReadPattern or None
-        None where no sequence does.
+        None where no sequence explains the stripes.
 
     Notes
     -----
-    Chips may be misread, or not be read, where the exposure is shorter than a column's readout:
-    edges sharper than a column lie anywhere in it.
+    Chips may be misread, or not be read, where the exposure is shorter than a column's readout: the
+    position of an edge within a column is then unknown.
     """
     lines = _harmonics(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
@@ -97,9 +97,9 @@ def read_pattern(profile: FloatArray, flattened: FloatArray, period: float) -> R
 
 
 def _coarsest(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
-    """Find the chips that explain the harmonics, as many as given or a divisor of it.
+    """Find chips that explain the harmonics, their number being a divisor of a given one.
 
-    An exposure of nearly a chip moves the edges off the chips' lattice, to a finer one.
+    An exposure of nearly a chip shifts edges off the lattice of the chips, onto a finer one.
     """
     for divisor in range(2, count + 1):
         if count % divisor == 0:
@@ -126,9 +126,9 @@ def _chips_by_edges(flattened: FloatArray, period: float, most: int) -> int | No
 
 
 def _chips_by_lines(lines: NDArray[np.complex128], most: int) -> ReadPattern | None:
-    """Find the shortest chips that explain the harmonics far better than those beside them do.
+    """Find the smallest number of chips that explains the harmonics far better than its neighbours.
 
-    It needs no edges: an exposure of several chips leaves none.
+    This method needs no edges: an exposure of several chips leaves none.
     """
     read = {count: _best_chips(lines, count) for count in range(2, most + 1)}
     left = {count: 1.0 if one is None else _unexplained(one) for count, one in read.items()}
@@ -145,7 +145,7 @@ def _unexplained(read: ReadPattern) -> float:
 
 
 def canonical(chips: ByteArray) -> ByteArray:
-    """Turn a repeating sequence so that it starts with its longest run of ones, and shorten it."""
+    """Rotate a sequence so that its longest run of ones comes first, and keep one period of it."""
     text = "".join(map(str, chips.tolist()))
     shortest = (text + text).find(text, 1)
     text = text[:shortest]
@@ -157,14 +157,14 @@ def _harmonics(even: FloatArray, period: float) -> NDArray[np.complex128]:
     """Give the strength of each harmonic of 1/period, from the first."""
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
-    # Whole periods, or the harmonics leak into each other.
+    # Over whole periods, since otherwise the harmonics leak into each other.
     whole = int(int(columns / period) * period) or columns
     turn = np.exp(-2j * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(whole)))
     return np.asarray(turn @ even[:whole] / whole)
 
 
 def _best_chips(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
-    """Find the chips, for any exposure and phase, whose harmonics are most like those seen."""
+    """Find the chips, over all exposures and phases, whose harmonics are most like those given."""
     order = np.arange(1, len(lines) + 1)
     best: ReadPattern | None = None
     for exposure in _EXPOSURES:
@@ -184,13 +184,14 @@ def _best_chips(lines: NDArray[np.complex128], count: int) -> ReadPattern | None
 def _levels(
     lines: NDArray[np.complex128], weight: NDArray[np.complex128], count: int
 ) -> FloatArray:
-    """Solve for the chips' levels: all harmonics that are alike modulo their number tell one."""
+    """Solve for the chips' levels: harmonics that are equal modulo their number give one."""
     order = np.arange(1, len(lines) + 1) % count
     power = np.bincount(order, np.abs(weight) ** 2, count)
-    told = lines * np.conj(weight)
-    sums = np.bincount(order, told.real, count) + 1j * np.bincount(order, told.imag, count)
+    products = lines * np.conj(weight)
+    real = np.bincount(order, products.real, count)
+    sums = real + 1j * np.bincount(order, products.imag, count)
     spectrum = sums / (power + _NOISE * power.max())
-    # A harmonic and its mirror image tell the same of real levels.
+    # The spectrum of real levels is its own mirror image, conjugated.
     spectrum[0] = 0.0
     mirrored = np.conj(spectrum[(-np.arange(count)) % count])
     both = (power + power[(-np.arange(count)) % count]) > 0.0
@@ -199,7 +200,7 @@ def _levels(
 
 
 def _rounded(levels: FloatArray) -> ByteArray | None:
-    """Part levels in off and on half-way between the middles of either kind."""
+    """Round levels to off and on, half-way between the means of either kind."""
     split = 0.5 * (levels.max() + levels.min())
     for _ in range(8):
         on = levels > split

@@ -11,7 +11,7 @@ from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """How the exposures of the columns run over the chips.
+    """The timing of the columns' exposures, in chips.
 
     Parameters
     ----------
@@ -20,10 +20,10 @@ class Timing:
     exposure
         Chips that an exposure lasts: t / t_LED.
     middle
-        Where in the period of the chips the middle of the middle column's exposure is. Unlike the
-        first column's start it hardly depends on the other two.
+        Position in the period of the chips of the middle of the middle column's exposure. Unlike
+        the first column's start it hardly correlates with the other two.
     gamma
-        The exponent of the tone.
+        The exponent of the camera's response.
     """
 
     step: float
@@ -32,7 +32,7 @@ class Timing:
     gamma: float
 
     def start(self, columns: int) -> float:
-        """Say where in the chips the first column's exposure starts."""
+        """Give the position in the chips at which the first column's exposure starts."""
         return self.middle - 0.5 * self.step * (columns - 1) - 0.5 * self.exposure
 
     def lit_fraction(self, waveform: Waveform, columns: int) -> FloatArray:

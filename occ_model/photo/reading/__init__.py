@@ -1,1 +1,1 @@
-"""Photo files: from bytes to one grey picture, and what the camera noted."""
+"""Read photo files: from bytes to one channel's samples, with the camera's EXIF data."""

@@ -11,16 +11,16 @@ from occ_model.photo.reading.decoding import DecodedPicture, Samples
 from occ_model.photo.reading.watched_file import Progress
 
 _Take: TypeAlias = Callable[[Samples], Samples]
-"""Takes a channel of some pixels."""
+"""Extracts a channel from some pixels."""
 
 CHANNELS = ("brightest", "luma", "red", "green", "blue")
-"""What of a coloured photo is taken; ``"brightest"`` is the colour with the largest mean."""
+"""The channels of a coloured photo; ``"brightest"`` is the colour with the largest mean."""
 
 _COLOURS = ("red", "green", "blue")
 _GREEN = 1
 
 _NEAR_TIE = 0.5
-"""A difference of means, in grey levels, that rounding in a lossy format makes of grey."""
+"""Difference of means, in grey levels, that a lossy format's rounding can cause in a grey photo."""
 
 
 def white_of(samples: Samples) -> int:
@@ -28,7 +28,7 @@ def white_of(samples: Samples) -> int:
     return int(np.iinfo(samples.dtype).max)
 
 
-def take_channel(picture: DecodedPicture, channel: str, tell: Progress) -> tuple[Samples, str]:
+def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:
     """Take one channel of a picture.
 
     Parameters
@@ -36,29 +36,29 @@ def take_channel(picture: DecodedPicture, channel: str, tell: Progress) -> tuple
     picture
         The picture.
     channel
-        One of :data:`CHANNELS`. A near tie of the brightest is green's, of which a sensor has the
-        most pixels.
-    tell
-        Told which share of this is done, from 0 to 1.
+        One of :data:`CHANNELS`. Where the brightest nearly ties with green, green is taken: a
+        sensor has the most pixels of it.
+    report
+        Called with the share of this work that is done, from 0 to 1.
 
     Returns
     -------
     samples : ndarray of uint8 or uint16, shape (rows, columns)
     name
-        What was taken: ``"red"``, ``"green"``, ``"blue"``, ``"luma"``; ``"grey"`` if the picture
-        has no colours, also where its file has three equal channels.
+        The channel: ``"red"``, ``"green"``, ``"blue"``, ``"luma"``; ``"grey"`` if the picture has
+        no colours, also where its file has three equal channels.
     """
     first = picture.part((0, 0, 1, 1))
     take: _Take = _all_of
     name = "grey"
     if first.ndim == 3:
-        means, has_colours = _colours_of(picture, lambda share: tell(0.5 * share))
+        means, has_colours = _colours_of(picture, lambda share: report(0.5 * share))
         take, name = _choice(means, has_colours, channel, _NEAR_TIE * white_of(first) / 255)
     samples = np.empty(picture.shape, first.dtype)
     rows = len(samples)
     for left, top, right, bottom in picture.boxes():
         samples[top:bottom, left:right] = take(picture.part((left, top, right, bottom)))
-        tell(0.5 + 0.5 * bottom / rows)
+        report(0.5 + 0.5 * bottom / rows)
     return samples, name
 
 
@@ -71,7 +71,7 @@ def _luma(pixels: Samples) -> Samples:
 
 
 def _choice(means: FloatArray, has_colours: bool, channel: str, near: float) -> tuple[_Take, str]:
-    """Say how the channel asked for is taken of some pixels, and which one it is."""
+    """Choose the channel: give the function that extracts it, and its name."""
     if not has_colours:
         return _only(_GREEN), "grey"
     if channel == "luma":
@@ -86,7 +86,7 @@ def _only(index: int) -> _Take:
     return lambda pixels: cast("Samples", cv2.extractChannel(pixels, index))
 
 
-def _colours_of(picture: DecodedPicture, tell: Progress) -> tuple[FloatArray, bool]:
+def _colours_of(picture: DecodedPicture, report: Progress) -> tuple[FloatArray, bool]:
     """Give the means of red, green and blue, and whether they differ anywhere."""
     rows, columns = picture.shape
     sums, has_colours = np.zeros(3), False
@@ -94,9 +94,9 @@ def _colours_of(picture: DecodedPicture, tell: Progress) -> tuple[FloatArray, bo
         pixels = picture.part((left, top, right, bottom))
         mean = np.array(cv2.mean(pixels)[:3])
         sums += mean * (pixels.shape[0] * pixels.shape[1])
-        # Equal means are rare where there are colours, and soon found.
+        # The pixels are compared only where all means are equal, which is rare in colours.
         has_colours = has_colours or mean.min() < mean.max() or not _has_no_colours(pixels)
-        tell(bottom / rows)
+        report(bottom / rows)
     return sums / (rows * columns), has_colours
 
 

@@ -1,4 +1,4 @@
-"""Decode a picture of any kind, in the full depth of its file, and give it in parts."""
+"""Decode a picture in the full depth of its file, and convert it part by part."""
 
 import os
 import sys
@@ -22,16 +22,16 @@ Samples: TypeAlias = NDArray[np.uint8 | np.uint16]
 """8 bits or 16, white being the largest number."""
 
 Box: TypeAlias = tuple[int, int, int, int]
-"""The first column and row of a part of a picture, and the column and row after its last."""
+"""A rectangle of a picture: its first column and row, and the column and row after its last."""
 
 DECODED = 0.8
-"""Share of the work that is done when a picture is decoded, at the latest."""
+"""Share of the work that is done when a picture is decoded."""
 
 _GREY_LEVEL = 257
 """One grey level in samples of 16 bits: 65535 / 255."""
 
 _PART = 1 << 20
-"""Pixels that are converted at once: some megabytes."""
+"""Number of pixels that are converted at once: some megabytes."""
 
 _NATIVE, _SWAPPED = ("16L", "16B") if sys.byteorder == "little" else ("16B", "16L")
 
@@ -44,13 +44,13 @@ _OTHER_BYTE = {
 
 
 class DecodedPicture:
-    """A picture that has been decoded; an array of all its colours is never made.
+    """A decoded picture, whose colours are converted part by part to bound the memory.
 
     Parameters
     ----------
     opened
-        Opens the file's picture, not yet decoded; takes between which shares of the work it will
-        be decoded.
+        Function that opens the file's picture, not yet decoded; its arguments are the shares of the
+        work between which it will be decoded.
 
     Raises
     ------
@@ -64,8 +64,8 @@ class DecodedPicture:
         _load(self.picture)
         self._lower: ImageFile | None = None
         if is_deep_in_colours(self._raw_modes):
-            # OpenCV reads such files in one go, but writes what it thinks of a damaged one to
-            # stderr, and reads what is left of it; two readings by Pillow are worth that.
+            # OpenCV reads such files in one go, but prints the errors of damaged ones on stderr,
+            # reports no progress and cannot be cancelled: Pillow reads them twice instead.
             self._lower = opened(DECODED / 2, DECODED)
             _take_lower_bytes(self._lower)
             _load(self._lower)
@@ -82,7 +82,7 @@ class DecodedPicture:
         return self.picture.height, self.picture.width
 
     def boxes(self) -> Iterator[Box]:
-        """Give parts that cover the picture, line by line."""
+        """Give rectangles that cover the picture, from top to bottom."""
         rows, columns = self.shape
         across = min(columns, _PART)
         down = max(_PART // across, 1)
@@ -91,13 +91,13 @@ class DecodedPicture:
                 yield left, top, min(left + across, columns), min(top + down, rows)
 
     def part(self, box: Box) -> Samples:
-        """Give a part of the picture, transparent parts being black.
+        """Convert a rectangle of the picture to samples, transparent parts being black.
 
         Returns
         -------
         ndarray of uint8 or uint16, shape (rows, columns) or (rows, columns, 3)
-            Grey, or red, green and blue. 16 bits where the file has more than 8; numbers with a
-            fraction are grey levels, of which no number and minus infinity are 0.
+            Grey, or red, green and blue. 16 bits where the file has more than 8; floating-point
+            numbers are grey levels, NaN and minus infinity being 0.
         """
         part = self.picture.crop(box)
         if self._palette is not None:
@@ -111,7 +111,7 @@ class DecodedPicture:
         return _colours(part)
 
     def close(self) -> None:
-        """Let go of the decoded picture, whoever still holds this object."""
+        """Free the decoded picture, even while this object is referenced."""
         self.picture.close()
         if self._lower is not None:
             self._lower.close()
@@ -126,7 +126,7 @@ def _palette_of(picture: "PillowImage") -> Samples:
 
 
 def _colours(part: "PillowImage") -> Samples:
-    """Give what is of 8 bits."""
+    """Convert pixels of 8 bits, on black where they are transparent."""
     from PIL import Image
 
     shown = part
@@ -135,14 +135,14 @@ def _colours(part: "PillowImage") -> Samples:
         if shown.getchannel("A").getextrema() != (255, 255):
             backed = Image.new("RGBA", part.size, (0, 0, 0, 255))
             shown = Image.alpha_composite(backed, shown)
-    if shown.mode == "LAB":  # of which Pillow makes no other colours
+    if shown.mode == "LAB":  # which Pillow does not convert to RGB
         shown = shown.getchannel("L")
     grey = shown.mode in ("1", "L")
     return np.asarray(shown.convert("L" if grey else "RGB"))
 
 
 def _whole_numbers(part: "PillowImage", raw_modes: set[str]) -> Samples:
-    """Give whole numbers, of 16 bits however dark the picture, as samples."""
+    """Convert whole numbers to samples of 16 bits, however dark the picture."""
     values = np.asarray(part)
     if values.dtype.itemsize > 2:
         values = np.maximum(values, 0)
@@ -161,7 +161,7 @@ def _of_grey_levels(levels: Pixels) -> Samples:
 
 
 def _deep_colours(upper: "PillowImage", lower: "PillowImage") -> Samples:
-    """Put colours of 16 bits together from their upper and their lower bytes."""
+    """Combine colours of 16 bits from their upper and their lower bytes."""
     pixels = np.asarray(upper).astype(np.uint16)
     pixels <<= 8
     pixels |= np.asarray(lower)
@@ -188,7 +188,7 @@ def _take_lower_bytes(picture: "ImageFile") -> None:
 
 
 def _load(picture: "ImageFile") -> None:
-    """Decode a picture in silence."""
+    """Decode a picture without output of libtiff on stderr."""
     if picture.format == "TIFF":
         with _no_stderr():
             picture.load()
@@ -198,7 +198,7 @@ def _load(picture: "ImageFile") -> None:
 
 @contextmanager
 def _no_stderr() -> Iterator[None]:
-    """Let nobody write to stderr: libtiff prints each oddity of a file there, and asks nobody."""
+    """Redirect stderr to the null device: libtiff prints its warnings there."""
     try:
         kept = os.dup(2)
     except OSError:  # a program without a console has none

@@ -1,4 +1,4 @@
-"""What a camera noted in its photo, with nonsense left out."""
+"""Read a photo's EXIF data: exposure time, f-number, ISO, camera and orientation."""
 
 import math
 from collections.abc import Mapping
@@ -19,24 +19,24 @@ _SHUTTER_SPEED_APEX, _APERTURE_APEX = 0x9201, 0x9202
 _ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
 
 _ISO_OR_MORE = 65535
-"""What a camera notes in the 16 bits of the oldest tag when its ISO speed does not fit."""
+"""Value of the oldest tag, of 16 bits, where the ISO speed is larger."""
 
 _LONGEST_NAME = 60
 
 _FIRST_LYING = 5
-"""From this orientation on the camera's columns are stored as lines."""
+"""The first orientation in which the camera's columns are stored as lines."""
 
 
 @dataclass(frozen=True, slots=True)
 class CameraNotes:
-    """What a camera noted, None where it noted nothing that makes sense.
+    """A photo's EXIF data, None where a value is missing or out of range.
 
     Parameters
     ----------
     exposure_time, f_number, iso
         In SI units, within the range that a scene's parameter of that name has.
     camera
-        Its maker and model, on one line.
+        The camera's maker and model, on one line.
     """
 
     exposure_time: float | None = None
@@ -48,14 +48,14 @@ class CameraNotes:
 def camera_notes(picture: "PillowImage") -> CameraNotes:
     """Read a picture's EXIF tags (CIPA DC-008).
 
-    Where the exposure time or the f-number is missing, the APEX value that says the same is taken.
+    Where the exposure time or the f-number is missing, its APEX value is taken.
 
     Parameters
     ----------
     picture
-        Decoded: the tags of a PNG may lie behind its pixels.
+        The decoded picture: the tags of a PNG may follow its pixels.
     """
-    # A picture whose notes are damaged is a picture all the same.
+    # A picture can be read although its tags are damaged.
     tags: dict[int, Any] = {}
     with suppress(Exception):
         exif = picture.getexif()
@@ -72,7 +72,7 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
 
 
 def orientation_of(picture: "PillowImage") -> int:
-    """Give the EXIF orientation, 1 to 8, that is left to obey once a picture is decoded."""
+    """Give the EXIF orientation, 1 to 8, that a decoded picture still has."""
     orientation: object = 1
     with suppress(Exception):
         orientation = picture.getexif().get(_ORIENTATION)
@@ -80,12 +80,12 @@ def orientation_of(picture: "PillowImage") -> int:
 
 
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
-    """Say how what was stored in an EXIF orientation becomes what the camera saw.
+    """Give the steps that undo an EXIF orientation.
 
     Returns
     -------
     transpose, mirror_rows, mirror_columns
-        To be done in this order.
+        Whether each is needed, in this order.
     """
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)
@@ -104,7 +104,7 @@ def _iso(tags: Mapping[int, Any]) -> float | None:
 
 
 def _within(name: str, number: float | None) -> float | None:
-    """Give a number that a scene's parameter may have, None in place of any other."""
+    """Give a number within the range of a scene's parameter, None for any other."""
     if number is None:
         return None
     try:
@@ -114,7 +114,7 @@ def _within(name: str, number: float | None) -> float | None:
 
 
 def _number(value: Any) -> float | None:
-    """Read a number, or the first of some, as a float; None for anything else."""
+    """Read a number, or the first of several, as a float; None for anything else."""
     if isinstance(value, tuple):
         value = value[0] if value else None
     if value is None or isinstance(value, str | bytes):
@@ -140,7 +140,7 @@ def _text(value: Any) -> str:
     """Read a text as one line of printable characters of bounded length, empty for no text."""
     if not isinstance(value, str):
         return ""
-    # What is behind a NUL is no part of a text any more.
+    # A NUL ends a text.
     start = value.split("\0", 1)[0][: 8 * _LONGEST_NAME]
     line = " ".join("".join(c if c.isprintable() else " " for c in start).split())
     return line[:_LONGEST_NAME].strip()

@@ -1,4 +1,4 @@
-"""Open an image file of any kind, or say in one sentence why it cannot be read."""
+"""Open an image file, and word in one sentence why it cannot be read."""
 
 import logging
 import math
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.formats import format_and_factory
 from occ_model.photo.reading.limits import check_decoder, check_file_size, check_memory
-from occ_model.photo.reading.watched_file import Teller, WatchedFile
+from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     Opener: TypeAlias = Callable[[float, float], ImageFile]
 
 _BYTES_A_PIXEL, _BYTES_OF_NOTES = 8, 16_000_000
-"""Four channels of 16 bits, and what else an honest file of so many pixels may hold."""
+"""Four channels of 16 bits, and bytes for the metadata that a file may hold besides."""
 
 _PIXELS_A_BYTE = {"JPEG": 512, "PNG": 8 * 1032, "GIF": 8 * 4096 // 12}
-"""What a byte of a file can hold at most, of formats whose decoders make up what is missing.
+"""Largest number of pixels in a byte of a file, for formats whose decoders fill in missing data.
 
 A block of 8 x 8 pixels takes a bit of Huffman code; deflate shrinks to 1/1032 at best, and a pixel
 takes a bit; a code of LZW has 12 bits and stands for 4096 pixels.
@@ -36,7 +36,7 @@ _pillow_lock = threading.Lock()
 
 
 @contextmanager
-def open_picture(path: Path, max_pixels: int, tell: Teller) -> "Iterator[Opener]":
+def open_picture(path: Path, max_pixels: int, report: Reporter) -> "Iterator[Opener]":
     """Open an image file.
 
     Parameters
@@ -44,41 +44,41 @@ def open_picture(path: Path, max_pixels: int, tell: Teller) -> "Iterator[Opener]
     path
         The file.
     max_pixels
-        What a picture may have at most, by its header.
-    tell
-        Told of progress as the file is read; what it raises comes out of the ``with`` block.
+        Largest number of pixels of a picture, by its header.
+    report
+        Called with the progress as the file is read; what it raises leaves the ``with`` block.
 
     Yields
     ------
     callable
-        Gives the file's first picture, not yet decoded, at each call; takes between which two
-        shares of the work it will be decoded.
+        Gives the file's first picture, not yet decoded, at each call; its arguments are the shares
+        of the work between which it will be decoded.
 
     Raises
     ------
     PhotoError
-        There is no such file, it may not be read, it is no image or a damaged one, or too large.
-        Also in place of whatever is raised on decoding inside the ``with`` block.
+        There is no such file, it may not be read, it is no image, damaged or too large. Errors of
+        a decoder inside the ``with`` block become this error too.
     """
     try:
         _check_file(path, max_pixels)
-        with _pillow_ready(max_pixels), WatchedFile(path, tell) as file:
+        with _pillow_ready(max_pixels), WatchedFile(path, report) as file:
             yield lambda first, last: _first_picture(path, file, max_pixels, (first, last))
     except PhotoError:
         raise
     except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
-        # A decoder may have put an error of its own in place of what ended it.
-        if tell.ended_by is not None:
-            raise tell.ended_by from None
+        # A decoder may have replaced the exception that cancelled it by one of its own.
+        if report.ended_by is not None:
+            raise report.ended_by from None
         raise _refusal(path, error, max_pixels) from None
 
 
 def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
-    """Say why a file cannot be read."""
+    """Word why a file cannot be read."""
     from PIL import Image
 
     shown = one_line(str(path))
-    # Of a format that looks at the size on opening.
+    # Some formats check the size on opening.
     if isinstance(error, Image.DecompressionBombError):
         return PhotoError(f"{shown} has more than {_allowed(max_pixels)}")
     if isinstance(error, MemoryError):
@@ -89,10 +89,10 @@ def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
 
 @contextmanager
 def _pillow_ready(max_pixels: int) -> Iterator[None]:
-    """Have our limit in place of Pillow's, and no complaints about oddities in a readable file.
+    """Set the limit of pixels in Pillow, and suppress its warnings about readable files.
 
-    These are global, to Pillow and to Python: one photo at a time may change them, and all is as
-    it was when it has been read.
+    These settings are global, to Pillow and to Python: a lock lets one photo at a time change them,
+    and they are restored after it has been read.
     """
     from PIL import Image
 
@@ -102,7 +102,7 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
         warnings.simplefilter("ignore")
         log.addHandler(handler)
         pillows = Image.MAX_IMAGE_PIXELS
-        # Pillow refuses a picture of more than twice this many, and so hardly less than we do.
+        # Pillow refuses a picture of more than twice this number.
         Image.MAX_IMAGE_PIXELS = (max_pixels + 1) // 2
         try:
             yield
@@ -112,7 +112,7 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
 
 
 def _check_file(path: Path, max_pixels: int) -> None:
-    """Refuse what is no file with something in it: opening a pipe could wait for ever."""
+    """Refuse a path that is no regular file or an empty one: opening a pipe could block."""
     shown = one_line(str(path))
     try:
         status = path.stat()
@@ -124,7 +124,7 @@ def _check_file(path: Path, max_pixels: int) -> None:
         raise PhotoError(f"{shown} is a device, pipe or socket, not a photo.")
     if status.st_size == 0:
         raise PhotoError(f"{shown} is an empty file, not a photo.")
-    # Some decoders take a file into memory as a whole.
+    # Some decoders load the whole file into memory.
     largest = _BYTES_A_PIXEL * max_pixels + _BYTES_OF_NOTES
     if status.st_size > largest:
         raise PhotoError(
@@ -144,7 +144,7 @@ def _first_picture(
     file.watch(size, *shares)
     try:
         picture = factory(file)
-    except SyntaxError as error:  # Pillow's word for a header that makes no sense to it
+    except SyntaxError as error:  # Pillow's error for an invalid header
         problem = _damaged(error, "the file is damaged or of an unusual kind")
         raise PhotoError(f"{shown} cannot be read: {problem}.") from None
     width, height = picture.size
@@ -153,7 +153,7 @@ def _first_picture(
             f"{shown} has {width:,} x {height:,} pixels, {_count(width * height)}; "
             f"allowed: at most {_allowed(max_pixels)}"
         )
-    # A size that is wrong in the header would otherwise be read, in seconds, as so much black.
+    # A wrong size in the header would otherwise be decoded, in seconds, to black.
     if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
         raise PhotoError(
             f"{shown} cannot be read: the file is damaged ({size:,} bytes cannot hold "
@@ -167,7 +167,7 @@ def _first_picture(
 
 
 def _check_tiff(shown: str, picture: "ImageFile") -> None:
-    """Refuse what Pillow would read as something else without a word."""
+    """Refuse a TIFF that Pillow would decode wrongly without an error."""
     from PIL.TiffImagePlugin import BITSPERSAMPLE, PLANAR_CONFIGURATION, TiffImageFile
 
     if not _is_covered(picture):
@@ -182,14 +182,14 @@ def _check_tiff(shown: str, picture: "ImageFile") -> None:
 
 
 def _is_covered(picture: "ImageFile") -> bool:
-    """Whether the tiles of a TIFF, which lie on it before it is turned, reach its far corner."""
+    """Whether the tiles of a TIFF, before it is rotated, reach its last corner."""
     corners = [tile[1][2:] for tile in picture.tile if tile[1] is not None]
     reach = [max((corner[axis] for corner in corners), default=0) for axis in (0, 1)]
     return reach[0] * reach[1] >= picture.width * picture.height
 
 
 def _damaged(error: Exception, problem: str = "the file is damaged") -> str:
-    """Write what a decoder says, which may quote the file's bytes, as part of a sentence."""
+    """Write a decoder's message, which may quote the file's bytes, as part of a sentence."""
     words = re.sub(r"\s+", " ", "".join(c if c.isprintable() else " " for c in str(error)))
     words = words.strip().rstrip(".")[:120]
     return f"{problem} ({words})" if words else problem
@@ -200,7 +200,7 @@ def _allowed(max_pixels: int) -> str:
 
 
 def _count(pixels: int) -> str:
-    """Write a number of pixels, in millions if hundredths of them say it."""
+    """Write a number of pixels, in millions where two decimals suffice."""
     if pixels >= 1_000_000 and pixels % 10_000 == 0:
         return f"{pixels / 1e6:,.10g} million"
     return f"{pixels:,}"

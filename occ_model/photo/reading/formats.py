@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     Factory: TypeAlias = Callable[[IO[bytes]], ImageFile]
 
 _FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "QOI", "JPEG2000", "AVIF")
-"""What photos come in. Pillow reads more, and starts other programs for some of it."""
+"""The formats that are read. Pillow reads more, and starts other programs for some of them."""
 
 _HEIC_BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
 _ANY_HEIF_BRANDS = (b"mif1", b"msf1")
@@ -53,7 +53,7 @@ def format_and_factory(path: Path, file: IO[bytes]) -> "tuple[str, Factory]":
     for name in _FORMATS:
         factory, accepts = Image.OPEN.get(name, (None, None))
         if factory is not None and accepts is not None and accepts(start[:16]) is True:
-            # Not Pillow's own for JPEG: it fails where the list of further pictures is damaged.
+            # Pillow's own function for JPEG fails where the list of further pictures is damaged.
             return name, partial(_open, JpegImageFile if name == "JPEG" else factory)
     raise PhotoError(f"{one_line(str(path))} is not an image that can be read.")
 
@@ -70,7 +70,7 @@ def _is_heic(start: bytes) -> bool:
 
 
 def _heic_factory(path: Path) -> "Factory":
-    """Find what opens a HEIC photo, without entering it into Pillow's global list."""
+    """Give the function that opens a HEIC photo, without a change of Pillow's global list."""
     try:
         from pillow_heif import HeifImageFile
     except ImportError:

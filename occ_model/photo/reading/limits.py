@@ -1,4 +1,4 @@
-"""How large a photo of each format may be, so that reading it takes bounded memory and time."""
+"""Limit the size of a photo by its format, so that reading it takes bounded memory and time."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,10 +9,10 @@ if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
 
 _MOST_MEMORY = 950_000_000
-"""Bytes that reading a photo may take; numpy, OpenCV and the decoders' libraries are 150 MB more.
+"""Bytes of memory for reading a photo; numpy, OpenCV and the decoders' libraries take 150 MB more.
 
-A picture of 170 million pixels takes 4 bytes each of them while it is decoded, whatever its
-colours, and 1 for the channel that is taken.
+A picture of 170 million pixels takes 4 bytes for each of them while it is decoded, whatever its
+colours, and 1 for the channel.
 """
 
 _MOST_BYTES = {
@@ -23,42 +23,42 @@ _MOST_BYTES = {
     "AVIF": 50_000_000,
     "HEIF": 40_000_000,
 }
-"""What a file may have, of formats whose decoders take some seconds for so much."""
+"""Largest file in bytes, for formats whose decoders take some seconds for it."""
 
 _MOST_BYTES_OF_TIFF = 150_000_000
-"""The same of one that is compressed."""
+"""Largest file in bytes, for a compressed TIFF."""
 
 _MOST_BYTES_IN_PYTHON = 3_500_000
-"""The same of what Pillow decodes in Python: QOI, some BMP and PPM."""
+"""Largest file in bytes, for what Pillow decodes in Python: QOI, some BMP and PPM."""
 
 _DEEP_COLOURS = 2
-"""Pictures that are held at once of 16-bit colours: the upper and the lower bytes."""
+"""Pictures of 16-bit colours in memory at once: the upper and the lower bytes."""
 
 _LIBTIFF_COLOURS = 4
-"""Bytes of a pixel where libtiff itself turns colours of video into others."""
+"""Bytes of a pixel where libtiff itself converts YCbCr colours."""
 
 _BITS_PER_SAMPLE = 258
 _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
 def check_file_size(path: Path, file_format: str, size: int) -> None:
-    """Refuse a file that its decoder would be too slow for, before it is opened.
+    """Refuse a file that would take its decoder too long, before it is opened.
 
     Raises
     ------
     PhotoError
-        It has too many bytes.
+        The file has too many bytes.
     """
     _refuse_above(_MOST_BYTES.get(file_format, size), path, file_format, size)
 
 
 def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
-    """Refuse a file that its decoder would be too slow for, before anything of it is decoded.
+    """Refuse a file that would take its decoder too long, before any of it is decoded.
 
     Raises
     ------
     PhotoError
-        It has too many bytes.
+        The file has too many bytes.
     """
     from PIL import Image
 
@@ -79,23 +79,23 @@ def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
 
 
 def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header: int) -> None:
-    """Refuse a picture that would take too much memory, before anything of it is decoded.
+    """Refuse a picture that would take too much memory, before any of it is decoded.
 
     Parameters
     ----------
     path
         The file.
     picture
-        As opened, not yet decoded.
+        The picture as opened, not yet decoded.
     bytes_read
-        What was read of the file on opening it, which may all be kept.
+        Bytes read on opening the file, all of which may be kept in memory.
     scan_header
-        Bytes of the last part that was read: in a JPEG the header of its first scan.
+        Bytes of the last read: in a JPEG the header of its first scan.
 
     Raises
     ------
     PhotoError
-        It would.
+        It would take too much memory.
     """
     pixels = picture.width * picture.height
     decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
@@ -109,40 +109,40 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
 
 
 def is_deep_in_colours(raw_modes: set[str]) -> bool:
-    """Whether a file's samples, in Pillow's words, are colours of 16 bits."""
+    """Whether a file's samples, by their raw modes in Pillow, are colours of 16 bits."""
     return len(raw_modes) == 1 and all(
         mode.startswith(("RGB;16", "RGBA;16", "RGBX;16")) for mode in raw_modes
     )
 
 
 def raw_modes_of(picture: "ImageFile") -> set[str]:
-    """Give how the samples lie in the file, in Pillow's words."""
+    """Give the raw modes of a picture: Pillow's names of the layout of samples in a file."""
     arguments = [tile[3] for tile in picture.tile]
     firsts = [given[0] if isinstance(given, tuple) and given else given for given in arguments]
     return {first for first in firsts if isinstance(first, str)}
 
 
 def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
-    """Give the most memory that a pixel takes at once, until one channel of it is left."""
+    """Give the largest number of bytes for a pixel from decoding to its one channel."""
     deep_colours = is_deep_in_colours(raw_modes_of(picture))
     decoded = _bytes_decoded(picture.mode)
     if deep_colours:
         decoded *= _DEEP_COLOURS
     kept = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
-    # In the end the channel is turned, and held in whole grey levels besides.
+    # Finally the channel is transposed, and there is a copy in whole grey levels.
     turning = 5 if kept == 2 else 2
     return max(decoded + _bytes_beside(picture, scan_header), decoded + kept, turning)
 
 
 def _bytes_decoded(mode: str) -> int:
-    """Give what Pillow keeps a pixel in."""
+    """Give the bytes in which Pillow holds a pixel."""
     if mode in ("1", "L", "P"):
         return 1
     return 2 if mode.startswith("I;16") else 4
 
 
 def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
-    """Give what a format's decoder needs of its own for each pixel of the picture."""
+    """Give the bytes that a format's decoder allocates besides for each pixel."""
     bands = len(picture.getbands())
     kind = picture.format
     if kind == "JPEG":
@@ -152,7 +152,7 @@ def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
         return 0.0 if in_one_scan else 2 * _samples_a_pixel(layers)
     if kind == "JPEG2000":  # whole numbers of 32 bits, and samples of 16
         return 6 * bands
-    if kind == "TIFF":  # which Pillow turns by itself
+    if kind == "TIFF":  # which Pillow rotates itself
         tags = getattr(picture, "tag_v2", {})
         return 0.0 if tags.get(_ORIENTATION, 1) == 1 else _bytes_decoded(picture.mode)
     from PIL import Image
@@ -163,18 +163,18 @@ def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
 
 
 def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
-    """Give how many samples a JPEG has for each pixel, some of its colours being coarser."""
+    """Give the samples of a JPEG per pixel: colours may be subsampled."""
     widest = max((across for _, across, _, _ in layers), default=1)
     highest = max((down for _, _, down, _ in layers), default=1)
     return sum(across * down for _, across, down, _ in layers) / (widest * highest)
 
 
 def _bytes_of_a_strip(picture: "ImageFile") -> float:
-    """Give the size of the parts in which a TIFF is decoded: one may be all of it."""
+    """Give the bytes of the strips or tiles in which a TIFF is decoded: one may be the whole."""
     tags = getattr(picture, "tag_v2", None)
     if tags is None or picture.format != "TIFF":
         return 0.0
-    if len(picture.tile) == 1 and picture.tile[0][0] == "raw":  # read by and by
+    if len(picture.tile) == 1 and picture.tile[0][0] == "raw":  # read line by line
         return 0.0
     area = picture.width * min(int(tags.get(_ROWS_PER_STRIP, picture.height)), picture.height)
     if _TILE_WIDTH in tags and _TILE_LENGTH in tags:

@@ -1,4 +1,4 @@
-"""Read a photograph as samples of one channel whose columns are the scan axis."""
+"""Read a photograph: the samples of one channel, its columns being the scan axis."""
 
 import math
 from dataclasses import dataclass
@@ -16,16 +16,16 @@ from occ_model.photo.reading.channels import CHANNELS, take_channel, white_of
 from occ_model.photo.reading.decoding import DECODED, DecodedPicture, Samples
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.reading.file import open_picture
-from occ_model.photo.reading.watched_file import Progress, Teller
+from occ_model.photo.reading.watched_file import Progress, Reporter
 from occ_model.scene.argument_checks import check_choice, check_count
 
 __all__ = ["CHANNELS", "SCAN_AXES", "Photo", "column_means", "load_photo"]
 
 _USUAL = 0.97
-"""Share of the steps between neighbours that are not a panel's rims."""
+"""Share of the differences between neighbours that are not at a panel's edges."""
 
 SCAN_AXES = ("auto", "columns", "lines")
-"""Which axis of the file the rolling shutter scanned; ``"auto"`` takes the one with stripes."""
+"""The axis of the file that the rolling shutter scanned; ``"auto"``: the one across the stripes."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -41,18 +41,17 @@ class Photo:
     white
         The sample value of white: 255 or 65535.
     image : ndarray of uint8, shape (rows, columns)
-        The samples in whole grey levels; the very same array if they are of 8 bits.
+        The samples in whole grey levels; the same array if they are of 8 bits.
     profile : ndarray of float64, shape (columns,)
         Mean of each column's samples in grey levels.
     turned
         Whether the file's lines became the columns.
     channel
-        What was taken: ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"grey"`` of a photo
-        that has no colours.
+        ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"grey"`` for a photo without colours.
     exposure_time, f_number, iso
-        What the camera noted, in SI units, None where it noted nothing that makes sense.
+        From the EXIF data, in SI units; None where they are missing or out of range.
     camera
-        Its maker and model, None where it noted neither.
+        The camera's maker and model, None where both are missing.
     """
 
     path: Path
@@ -81,46 +80,46 @@ def load_photo(
     Parameters
     ----------
     path
-        A JPEG, PNG, TIFF, WebP, BMP, GIF, PPM, QOI, JPEG 2000 or AVIF file, or a HEIC file where
-        the extra ``heic`` is installed; of several pictures in it the first. Its EXIF orientation
-        is obeyed. Numbers with a fraction are grey levels, transparent parts are black.
+        An image file of one of the formats in :mod:`occ_model.photo.reading.formats`; of several
+        pictures the first is read. Its EXIF orientation is applied, transparent parts are black,
+        and floating-point samples are grey levels.
     scan_axis
         ``"columns"`` or ``"lines"`` of the file, or ``"auto"``.
     channel
-        ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"brightest"``: the colour with the
-        largest mean, in which a coloured LED shows.
+        ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"brightest"``: the largest mean.
     max_pixels
-        What the photo may have at most; the decoders take no more than the default, and some of
-        them less: reading a photo takes at most a gigabyte of memory.
+        Largest number of pixels. Some formats' decoders allow fewer: the memory is limited too.
     progress
-        Called with the share of the work that is done, from 0 to 1. What it raises ends the
-        reading and is raised here: as soon as more of the file is read or more pixels are
-        converted, which some formats' decoders (JPEG 2000, WebP, AVIF, HEIC, and libtiff) do not
-        come to before all is decoded.
-
-    Returns
-    -------
-    Photo
+        Called with the share of the work that is done, from 0 to 1. What it raises cancels the
+        reading, though JPEG 2000, WebP, AVIF, HEIC and compressed TIFF only after decoding.
 
     Raises
     ------
     PhotoError
         There is no such file, it may not be read, or it is no complete image of reasonable size.
     ParameterError
-        ``scan_axis`` or ``channel`` is none of these words, or ``max_pixels`` no number from 1.
+        ``scan_axis`` or ``channel`` is not one of these words, or ``max_pixels`` no number from 1.
     """
     check_choice("scan_axis", scan_axis, SCAN_AXES)
     check_choice("channel", channel, CHANNELS)
     check_count("max_pixels", max_pixels, 1)
+    file = _path(path)
+    report = Reporter(progress)
+    report(0.0)
+    return _loaded(file, _read(file, channel, scan_axis, int(max_pixels), report))
+
+
+def _path(path: str | Path) -> Path:
     try:
-        path = Path(path)
+        return Path(path)
     except TypeError:
         raise PhotoError(
             f"{shown(path)} is not the path of a photo; allowed: str or Path."
         ) from None
-    tell = Teller(progress)
-    tell(0.0)
-    samples, taken, turned, notes = _read(path, channel, scan_axis, int(max_pixels), tell)
+
+
+def _loaded(path: Path, read: tuple[Samples, str, bool, CameraNotes]) -> Photo:
+    samples, taken, turned, notes = read
     white = white_of(samples)
     return Photo(
         path=path,
@@ -143,7 +142,7 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     Parameters
     ----------
     photo
-        Its samples are taken, in the full depth of the file.
+        The photo; its samples are averaged in the full depth of the file.
     first_row, last_row
         The first row, and the one after the last.
 
@@ -168,20 +167,20 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
 
 
 def _read(
-    path: Path, channel: str, scan_axis: str, max_pixels: int, tell: Teller
+    path: Path, channel: str, scan_axis: str, max_pixels: int, report: Reporter
 ) -> tuple[Samples, str, bool, CameraNotes]:
-    """Read a file's samples of one channel with the scan axis as columns.
+    """Read the samples of one channel with the scan axis as columns.
 
-    Also what was taken, whether the lines became the columns, and what the camera noted.
+    The other results are the channel, whether the file's lines became the columns, and EXIF data.
     """
-    samples, taken, notes, orientation = _taken(path, channel, max_pixels, tell)
+    samples, taken, notes, orientation = _taken(path, channel, max_pixels, report)
     transpose, mirror_rows, mirror_columns = turns_of(orientation)
     turned = scan_axis == "lines" or (
         scan_axis == "auto" and _stripes_are_lines(samples, transpose)
     )
     if turned:
         transpose, mirror_rows, mirror_columns = not transpose, mirror_columns, mirror_rows
-    # Each step lets go of the array before it.
+    # Each step frees the array before it.
     if transpose:
         samples = cast("Samples", cv2.transpose(samples))
     if mirror_rows:
@@ -192,15 +191,15 @@ def _read(
 
 
 def _taken(
-    path: Path, channel: str, max_pixels: int, tell: Teller
+    path: Path, channel: str, max_pixels: int, report: Reporter
 ) -> tuple[Samples, str, CameraNotes, int]:
-    """Read a file's samples of one channel as they lie in it, and what the camera noted."""
-    with open_picture(path, max_pixels, tell) as opened:
+    """Read the samples of one channel as they are stored, with the EXIF data."""
+    with open_picture(path, max_pixels, report) as opened:
         decoded = DecodedPicture(opened)
         try:
             notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
             samples, taken = take_channel(
-                decoded, channel, lambda share: tell(DECODED + (1.0 - DECODED) * share)
+                decoded, channel, lambda share: report(DECODED + (1.0 - DECODED) * share)
             )
         finally:
             decoded.close()
@@ -214,16 +213,16 @@ def _in_grey_levels(samples: Samples) -> ByteArray:
 
 
 def _means(samples: Samples, axis: int) -> FloatArray:
-    """Average samples along an axis, many times faster than numpy does."""
+    """Average samples along an axis, many times faster than numpy."""
     sums = cv2.reduce(samples, axis, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
     means: FloatArray = np.asarray(sums, dtype=np.float64).ravel() / samples.shape[axis]
     return means
 
 
 def _stripes_are_lines(samples: Samples, lying: bool) -> bool:
-    """Whether the means of the lines differ more, from one to the next, than those of columns.
+    """Whether the means of lines differ more, from one to the next, than those of columns.
 
-    Lines and columns are those of the upright photo, of which ``samples`` may be lying.
+    Lines and columns are those of the upright photo, of which ``samples`` may be transposed.
     """
     axes = (1, 0) if lying else (0, 1)
     columns, lines = (_roughness(_means(samples, axis)) for axis in axes)
@@ -231,7 +230,7 @@ def _stripes_are_lines(samples: Samples, lying: bool) -> bool:
 
 
 def _roughness(means: FloatArray) -> float:
-    """Say how much neighbours differ, but for the greatest steps: those are the panel's rims."""
+    """Give the mean difference of neighbours, without the largest: those are a panel's edges."""
     steps = np.sort(np.abs(np.diff(means)))
     usual = steps[: math.ceil(_USUAL * len(steps))]
     return float(usual.mean()) if usual.size else 0.0

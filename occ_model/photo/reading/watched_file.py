@@ -1,4 +1,4 @@
-"""A file whose reading is told as it goes on, and can be ended."""
+"""A file that reports the progress of its reading, and whose reading can be cancelled."""
 
 import io
 from collections.abc import Callable
@@ -6,21 +6,21 @@ from pathlib import Path
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[float], object]
-"""Takes the share of the work that is done, from 0 to 1; ends the work by raising."""
+"""Called with the share of the work that is done, from 0 to 1; cancels the work by raising."""
 
 _STEP = 1 << 16
-"""Bytes after which progress is told again: what decoders ask for at once."""
+"""Bytes after which progress is reported again: decoders read as many at once."""
 
 
-class Teller:
-    """Tells of progress, and keeps what was raised to end the work.
+class Reporter:
+    """Reports progress, and keeps the exception that cancelled the work.
 
-    A decoder may take whatever is raised while it reads for a damaged file.
+    It is kept because a decoder may take any exception while it reads for a damaged file.
 
     Parameters
     ----------
     progress
-        Whom to tell, None for nobody.
+        Function to call, or None.
     """
 
     def __init__(self, progress: Progress | None) -> None:
@@ -28,7 +28,7 @@ class Teller:
         self.ended_by: BaseException | None = None
 
     def __call__(self, share: float) -> None:
-        """Tell which share of the work is done, from 0 to 1."""
+        """Report the share of the work that is done, from 0 to 1."""
         if self._progress is None:
             return
         try:
@@ -39,39 +39,39 @@ class Teller:
 
 
 class WatchedFile(io.BufferedReader):
-    """A file that is read.
+    """A file that reports the progress of its reading.
 
     Parameters
     ----------
     path
-        Where it is.
-    tell
-        Told of progress as the file is read.
+        The file's path.
+    report
+        Called with the progress as the file is read.
     """
 
-    def __init__(self, path: Path, tell: Teller) -> None:
+    def __init__(self, path: Path, report: Reporter) -> None:
         super().__init__(path.open("rb", buffering=0))
-        self._tell_share = tell
+        self._report = report
         self._from, self._to, self._size = 0.0, 0.0, 1
         self._next = _STEP
         self.total = 0
-        """Bytes read, also those that were read again."""
+        """Number of bytes read, including those read again."""
 
         self.last = 0
-        """Bytes that the last reading gave."""
+        """Number of bytes of the last read."""
 
     def watch(self, size: int, first: float, last: float) -> None:
-        """Tell from now on of progress between two shares, while ``size`` bytes are read."""
+        """Report from now on progress between two shares, while ``size`` bytes are read."""
         self._from, self._to, self._size = first, last, max(size, 1)
         self.total, self._next = 0, 0
 
     def read(self, size: int | None = -1, /) -> bytes:
-        """Read bytes, and tell of them."""
+        """Read bytes, and report the progress."""
         content = super().read(size)
         self.last = len(content)
         self.total += self.last
         if self.total >= self._next:
             self._next = self.total + _STEP
             done = min(self.total / self._size, 1.0)
-            self._tell_share(self._from + (self._to - self._from) * done)
+            self._report(self._from + (self._to - self._from) * done)
         return content

@@ -1,4 +1,4 @@
-"""The slowly varying levels that stripes swing between, under uneven light."""
+"""Estimate the slowly varying dark and bright levels of stripes under uneven light."""
 
 import cv2
 import numpy as np
@@ -8,27 +8,27 @@ from occ_model.arrays import FloatArray
 _MEAN_FREEDOM, _SWING_FREEDOM = 6, 4
 
 _LEAST_POWER = 0.05
-"""Share of the mean square below which a profile does not swing."""
+"""Share of the mean square to which a profile's local power is limited from below."""
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
-    """Give the low and the high level round each column.
+    """Give the low and the high level around each column.
 
-    A grey-scale opening takes bright stripes away, a closing dark ones; both are smoothed.
+    A grey-scale opening removes bright stripes, a closing dark ones; both are smoothed.
 
     Parameters
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
     width
-        Columns within which the stripes reach both levels.
+        Number of columns within which the stripes reach both levels.
 
     Returns
     -------
     low, high : ndarray of float64, shape (columns,)
     """
     width = max(3, min(width, 2 * len(profile) - 1)) | 1
-    # One row, given as such: a one-dimensional array means different shapes to OpenCV 4 and 5.
+    # As one row: OpenCV 4 and 5 give a one-dimensional array different shapes.
     line = profile[None, :]
     kernel = np.ones((1, width), dtype=np.uint8)
     levels = []
@@ -40,14 +40,14 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 
 
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
-    """Give polynomials that slowly varying levels are made of: Chebyshev's, which stay apart.
+    """Give Chebyshev polynomials, of which slowly varying levels are linear combinations.
 
     Parameters
     ----------
     count
-        Columns.
+        Number of columns.
     freedom
-        How many.
+        Number of polynomials.
 
     Returns
     -------
@@ -58,12 +58,12 @@ def smooth_shapes(count: int, freedom: int) -> FloatArray:
 
 
 def without_trend(profile: FloatArray) -> FloatArray:
-    """Take slow changes of a profile's mean and of its swing away, knowing nothing of its stripes.
+    """Remove slow changes of a profile's mean and swing, whatever its stripes.
 
     Returns
     -------
     ndarray of float64, shape as ``profile``
-        Of mean zero, and swinging by about one everywhere.
+        With mean 0 and a standard deviation of about 1 everywhere.
     """
     about = profile - _smooth(profile, _MEAN_FREEDOM)
     power = np.maximum(_smooth(about**2, _SWING_FREEDOM), _LEAST_POWER * float(np.mean(about**2)))

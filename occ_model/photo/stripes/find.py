@@ -1,7 +1,7 @@
-"""The stripes in a photo: where they are, the light on them, and when they repeat.
+"""Find the stripes in a photo: their region, their two levels, and their period.
 
-A rolling shutter makes the same stripes in every row that shows the panel. So the panel's rows are
-those that vary together, and its columns those between the first and the last stripe's edge.
+A rolling shutter makes the same stripes in every row that shows the panel. The panel's rows are
+those that vary together, and its columns lie between the first and the last stripe's edge.
 """
 
 import cv2
@@ -16,34 +16,34 @@ from occ_model.photo.stripes.period import repeat_period
 from occ_model.results import Region, Stripes
 
 _BANDS = 64
-"""Bands of rows whose means are compared with each other."""
+"""Number of bands of rows whose means are compared with each other."""
 
 _ALIKE = 0.25
-"""Share of the usual strength with which a row must show the common stripes."""
+"""Share of the median strength with which a row must show the common stripes."""
 
 _EDGE = 0.3
-"""Share of a steep edge's slope that makes an edge: less than a lens darkens the picture's rim."""
+"""Share of a steep edge's slope from which a slope is an edge, also where a lens darkens it."""
 
-_REACH = 4
-"""Columns within which a slope is looked for."""
+_SLOPE_COLUMNS = 4
+"""Number of columns over which a slope is measured."""
 
 _FURTHER = 1.6
-"""How much longer than the stripes' own a way between two edges leads out of the panel."""
+"""Ratio to the widest gap between edges within the panel from which a gap ends the panel."""
 
 _STEEP = 0.98
-"""Quantile of all slopes that is a steep edge's: the panel's own rim is steeper."""
+"""Quantile of all slopes that represents a steep edge: the panel's own rim is steeper."""
 
 _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
 
 _LEAST_COHERENCE = 0.2
-"""Share of what all bands vary by that must be common to them."""
+"""Smallest share of the variation of all bands that is common to them."""
 
 _FULL = 0.996
 """Share of white from which a sample counts as saturated."""
 
 _MOST_FULL = 0.8
-"""Share of the columns that may be white for the others to tell the stripes."""
+"""Largest share of white columns with which the other columns still show the stripes."""
 
 
 def find_stripes(photo: Photo) -> Stripes:
@@ -61,7 +61,7 @@ def find_stripes(photo: Photo) -> Stripes:
     Raises
     ------
     MatchError
-        There are none: the photo is flat or too narrow, or its rows do not vary together.
+        There are no stripes: the photo is flat or too narrow, or its rows do not vary together.
     """
     columns = photo.samples.shape[1]
     if columns < _LEAST_COLUMNS:
@@ -92,7 +92,7 @@ def find_stripes(photo: Photo) -> Stripes:
 
 
 def _striped_rows(photo: Photo) -> tuple[int, int]:
-    """Find the rows that vary together, by how much of the common stripes each band shows."""
+    """Find the rows that vary together, by the strength of the common stripes in each band."""
     rows, columns = photo.samples.shape
     bands = min(_BANDS, rows)
     means = cv2.resize(photo.samples, (columns, bands), interpolation=cv2.INTER_AREA)
@@ -119,7 +119,7 @@ def _striped_rows(photo: Photo) -> tuple[int, int]:
 
 
 def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the slopes that bands share most of, of length one, and each band's strength of them."""
+    """Give the most common slopes of the bands, of norm one, and their strength in each band."""
     # The leading pair of singular vectors, from the small matrix of the bands' products.
     _, vectors = np.linalg.eigh(slopes @ slopes.T)
     common = vectors[:, -1] @ slopes
@@ -129,10 +129,10 @@ def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outward: int) -> int:
-    """Find, within a band to either side, the row from which the stripes are shown."""
+    """Find the first or last row with stripes, within a band to either side of a row."""
     rows = len(photo.samples)
-    reach = -(-rows // _BANDS)
-    first, last = max(0, near - reach), min(rows, near + reach)
+    height = -(-rows // _BANDS)
+    first, last = max(0, near - height), min(rows, near + height)
     part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)
     strengths = np.diff(part, axis=1) @ common
     shows: list[int] = np.flatnonzero(strengths > 0.5 * typical).tolist()
@@ -142,15 +142,15 @@ def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outwa
 
 
 def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
-    """Find the columns from the first edge to the last, and the longest way between two edges."""
+    """Find the columns from the first edge to the last, and the widest gap between two edges."""
     slopes = _local_range(profile)
     steep = float(np.quantile(slopes, _STEEP))
     edges = np.flatnonzero(slopes > _EDGE * steep) if steep > 0.0 else np.zeros(0, np.int64)
     gaps = np.diff(edges)
-    # Noise beside the panel has no place among its stripes: it is further off than they are apart.
+    # Noise outside the panel is farther from its edges than they are from each other.
     inner = gaps[len(gaps) // 4 : len(gaps) - len(gaps) // 4]
     longest = int(_FURTHER * inner.max()) if inner.size else 0
-    far = np.flatnonzero(gaps > max(longest, _REACH))
+    far = np.flatnonzero(gaps > max(longest, _SLOPE_COLUMNS))
     before, after = far[far < len(gaps) // 4], far[far >= len(gaps) - len(gaps) // 4]
     edges = edges[
         int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
@@ -165,7 +165,7 @@ def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
 
 
 def _local_range(profile: FloatArray) -> FloatArray:
-    """Give by how much the few columns about each differ: more than noise does, on a slope."""
-    kernel = np.ones((1, _REACH), dtype=np.uint8)
+    """Give the range of values in the few columns around each: on a slope it exceeds the noise."""
+    kernel = np.ones((1, _SLOPE_COLUMNS), dtype=np.uint8)
     line = profile[None, :]
     return np.asarray((cv2.dilate(line, kernel) - cv2.erode(line, kernel))[0], dtype=np.float64)

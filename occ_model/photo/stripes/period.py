@@ -1,4 +1,4 @@
-"""After how many columns stripes repeat, and how surely."""
+"""Find the period of stripes in columns, with its uncertainty."""
 
 import numpy as np
 
@@ -6,23 +6,23 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
 
 _SHORTEST = 3
-"""Columns: anything faster is noise."""
+"""Shortest period in columns: anything shorter is noise."""
 
 _LEAST_ALIKE = 0.5
-"""Correlation with itself, one period on, below which nothing repeats."""
+"""Autocorrelation after one period below which nothing repeats."""
 
 _AS_GOOD = 0.06
-"""By how much the correlation after the shortest period may fall behind the best."""
+"""Difference from the best by which the autocorrelation after the shortest period may be lower."""
 
 _SEEN = 0.67
-"""Share of the columns that a period may be long: some of it must be seen twice."""
+"""Longest period as a share of the columns: part of it must be seen twice."""
 
 _HARMONICS = 24
 _STEPS = 8
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
-    """Find the shortest number of columns after which stripes repeat.
+    """Find the shortest period of stripes.
 
     Parameters
     ----------
@@ -32,15 +32,15 @@ def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
     Returns
     -------
     period, uncertainty : float
-        Columns, and the period's standard deviation; None where nothing repeats.
+        The period in columns, and its standard deviation; None where nothing repeats.
     """
     rough = _rough_period(flattened)
     return None if rough is None else _refined(flattened, rough)
 
 
 def _rough_period(flattened: FloatArray) -> float | None:
-    """Find the shortest lag after which the profile is as like itself as it gets."""
-    alike = self_likeness(flattened)
+    """Find the shortest lag whose autocorrelation is about the best."""
+    alike = autocorrelation(flattened)
     count = int(_SEEN * len(alike))
     negative = np.flatnonzero(alike[:count] < 0.0)
     start = max(_SHORTEST, int(negative[0]) if negative.size else _SHORTEST)
@@ -52,7 +52,7 @@ def _rough_period(flattened: FloatArray) -> float | None:
     )
     if peaks.size == 0:
         return None
-    # A short period's peak is missed by up to half a column: a parabola tells its height.
+    # The peak of a short period lies up to half a column off a lag: a parabola gives its height.
     before, here, after = alike[peaks - 1], alike[peaks], alike[peaks + 1]
     bend = np.minimum(before - 2.0 * here + after, -1e-12)
     aside = np.clip(0.5 * (before - after) / bend, -0.5, 0.5)
@@ -63,13 +63,13 @@ def _rough_period(flattened: FloatArray) -> float | None:
     return float(peaks[first] + aside[first])
 
 
-def self_likeness(values: FloatArray) -> FloatArray:
-    """Correlate values with themselves at every lag, each over the columns that both have.
+def autocorrelation(values: FloatArray) -> FloatArray:
+    """Give the autocorrelation at every lag, normalized over the columns that both parts have.
 
     Returns
     -------
     ndarray of float64, shape (columns,)
-        From -1 to 1, the first being 1; 0 where either part is flat.
+        From -1 to 1, the first being 1; 0 where either part is constant.
     """
     count = len(values)
     about = values - values.mean()
@@ -83,7 +83,7 @@ def self_likeness(values: FloatArray) -> FloatArray:
 
 
 def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
-    """Fit harmonics of the period, by Gauss-Newton steps."""
+    """Refine a period by a fit of its harmonics, in Gauss-Newton steps."""
     count = len(flattened)
     harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 6)))
     change = 0.1 * period / count  # small against a column at the last stripe
@@ -105,12 +105,12 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
 
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
-    """Give what harmonics of a period leave unexplained."""
+    """Give the residual of a fit of a period's harmonics."""
     count = len(flattened)
     turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
     waves = np.hstack([np.cos(turn), np.sin(turn)])
     shapes = smooth_shapes(count, 2)
-    # Of one strength all along: one that might vary would make up for a wrong period.
+    # Of constant amplitude: a varying one would compensate a wrong period.
     parts = np.hstack([shapes, waves])
     products = parts.T @ parts
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
@@ -118,10 +118,11 @@ def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArra
 
 
 def correlated_columns(residual: FloatArray) -> float:
-    """Say how many columns of what a fit leaves unexplained make one independent number.
+    """Give the number of columns of a fit's residual that count as one independent value.
 
-    1 + 2 times the sum of the autocorrelations up to the first that is not positive: what a model
-    does not know, such as a lens's blur, is alike in neighbouring columns, and says so once only.
+    1 + 2 times the sum of the autocorrelations up to the first that is not positive. Neighbouring
+    columns are not independent where an effect outside the model, such as a lens's blur, is alike
+    in them.
 
     Parameters
     ----------

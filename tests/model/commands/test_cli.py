@@ -18,7 +18,7 @@ SMALL = ("--set", "rows=300")
 
 
 class Outcome(NamedTuple):
-    """What a command returned and said."""
+    """The exit code and the output of a command."""
 
     code: int
     out: str
@@ -90,7 +90,7 @@ def test_a_scene_that_would_not_open_again_is_refused_before_anything_is_written
     refused = f"occ-model: {scene} has no ending of a scene file; use .toml.\n"
     rendered = command("render", *SMALL, "-o", picture, "--save-scene", scene)
     assert (rendered.code, rendered.err) == (2, refused)
-    # Said before the photo, which there is none, is looked for.
+    # Refused before the photo, which does not exist, is looked for.
     matched = command("match", picture, "--out", scene)
     assert (matched.code, matched.err) == (2, refused)
     assert list(tmp_path.iterdir()) == []

@@ -201,7 +201,7 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
         [*command, "--out", out],
         stderr=subprocess.PIPE,
         text=True,
-        # Whoever runs the tests in the background may have let them ignore Ctrl-C.
+        # A shell that runs the tests in the background may let them ignore Ctrl-C.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     deadline = time.monotonic() + 30
@@ -213,10 +213,10 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
     assert running.returncode == 130
     written = out.read_bytes().count(b",threshold,")
     *_, last = error.splitlines()
-    told = int(last.split()[3])
-    assert 5 <= told <= written <= told + 1 < 3901  # stopped just before it was counted, perhaps
+    count = int(last.split()[3])
+    assert 5 <= count <= written <= count + 1 < 3901  # perhaps stopped just before the count
     assert last == (
-        f"occ-model: stopped after {told} of 3901 points; they are in {out}, and the same command "
+        f"occ-model: stopped after {count} of 3901 points; they are in {out}, and the same command "
         "goes on from there."
     )
 

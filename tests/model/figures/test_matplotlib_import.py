@@ -110,7 +110,7 @@ def test_no_settings_file_named_elsewhere_reaches_a_figure(tmp_path: Path, plain
 def test_an_unknown_backend_and_a_folder_that_cannot_be_written_to_reach_no_figure(
     tmp_path: Path, plain: str
 ) -> None:
-    # Under a file no folder can be made, whoever tries.
+    # No user can create a folder under a file.
     taste(tmp_path / "file")
     nowhere = str(tmp_path / "file" / "folder")
     assert drawn(tmp_path, MPLBACKEND="nonsense", MPLCONFIGDIR=nowhere) == plain

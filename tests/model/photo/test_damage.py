@@ -207,7 +207,7 @@ def peak_kilobytes() -> int:
     for line in Path("/proc/self/status").read_text(encoding="ascii").splitlines():
         if line.startswith("VmHWM:"):
             return int(line.split()[1])
-    raise AssertionError("this system does not tell a process's peak memory")
+    raise AssertionError("this system does not give a process's peak memory")
 
 
 def assert_is_a_photo(photo: Photo) -> None:

@@ -101,10 +101,10 @@ def test_a_small_file_that_promises_much_takes_bounded_memory(tmp_path: Path, ki
     path.write_bytes(FILES[kind]())
     assert path.stat().st_size < 12_000_000
     command = [sys.executable, "-W", "error", "-c", _READ, str(path)]
-    told = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
-    outcome = json.loads(told.stdout)
+    finished = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
+    outcome = json.loads(finished.stdout)
     assert outcome["memory_mb"] < MOST_MEMORY_MB
-    assert told.stderr == ""
+    assert finished.stderr == ""
     assert (outcome["refusal"] == "") is (kind in ACCEPTED)
     if kind not in ACCEPTED:
         assert " GB of memory to be decoded; allowed: at most 0.95 GB, " in outcome["refusal"]
@@ -156,16 +156,16 @@ def test_what_progress_raises_ends_the_reading_and_comes_out_as_it_is(
     tmp_path: Path, name: str, after: float
 ) -> None:
     noise = np.random.default_rng(0).integers(0, 256, (1200, 1500, 3), dtype=np.uint8)
-    told: list[float] = []
+    shares: list[float] = []
 
     def stop(share: float) -> None:
-        told.append(share)
+        shares.append(share)
         if share >= after:
             raise Stopped
 
     with pytest.raises(Stopped):
         load_photo(saved(tmp_path, noise, name), progress=stop)
-    assert sum(share >= after for share in told) == 1
+    assert sum(share >= after for share in shares) == 1
 
 
 @pytest.mark.parametrize("name", ["a\nb.png", "a\x1b[31mb.png", "a\u202eb.png", "a\udcffb.png"])

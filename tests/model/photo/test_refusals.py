@@ -72,7 +72,7 @@ def test_a_photo_that_may_not_be_read_is_refused(
     path = tmp_path / "x.png"
     PICTURE.save(path)
 
-    def refuse(*_: object, **__: object) -> None:  # whoever runs the tests may read everything
+    def refuse(*_: object, **__: object) -> None:  # root may read everything
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(Path, "open", refuse)
@@ -194,7 +194,7 @@ def test_texts_in_a_png_that_grow_without_bound_are_refused(tmp_path: Path) -> N
 def test_more_bytes_than_its_pixels_could_need_are_refused(tmp_path: Path) -> None:
     PICTURE.save(tmp_path / "x.png")
     with (tmp_path / "x.png").open("r+b") as file:
-        file.truncate(10**10)  # which takes no room on the disk
+        file.truncate(10**10)  # a sparse file
     assert " has 10,000,000,000 bytes; allowed " in refusal(tmp_path / "x.png")
 
 

@@ -1,4 +1,4 @@
-"""Stripes are found where the panel is, with their period; where there are none it is said."""
+"""Stripes are found where the panel is, with their period; a photo without any is refused."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.projection import panel_corners
-from occ_model.photo.stripes.period import repeat_period, self_likeness
+from occ_model.photo.stripes.period import autocorrelation, repeat_period
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -58,7 +58,7 @@ def test_noise_has_no_period() -> None:
 
 @given(st.lists(st.floats(0.0, 255.0), min_size=2, max_size=50))
 def test_likeness_with_itself_is_at_most_one_and_one_at_no_lag(values: list[float]) -> None:
-    alike = self_likeness(np.array(values))
+    alike = autocorrelation(np.array(values))
     assert np.all(np.abs(alike) <= 1.0 + 1e-6)
     if np.ptp(values) > 1e-3:
         assert alike[0] == pytest.approx(1.0)

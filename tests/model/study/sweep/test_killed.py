@@ -1,4 +1,4 @@
-"""A sweep that was killed is continued, whoever of it lives on."""
+"""A sweep that was killed is continued, even while workers of it are alive."""
 
 import os
 import signal

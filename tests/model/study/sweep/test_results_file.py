@@ -88,10 +88,10 @@ def test_a_complete_file_is_read_and_nothing_is_measured(
 ) -> None:
     path = tmp_path / "r.csv"
     path.write_bytes(whole)
-    told: list[int] = []
-    assert run(scene, path, progress=lambda done, *_: told.append(done)) == table
+    counts: list[int] = []
+    assert run(scene, path, progress=lambda done, *_: counts.append(done)) == table
     assert measured == []
-    assert told == [6]
+    assert counts == [6]
     assert path.read_bytes() == whole
 
 
@@ -195,17 +195,17 @@ def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: P
     assert foreign.read_text() == "a,b\n1,2\n"
 
 
-@pytest.mark.parametrize("room", [0, 1, 3, 4.5])
+@pytest.mark.parametrize("space", [0, 1, 3, 4.5])
 def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
     scene: Scene,
     table: SweepTable,
     whole: bytes,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    room: float,
+    space: float,
 ) -> None:
     path, real = tmp_path / "r.csv", os.write
-    left = room
+    left = space
 
     def write(descriptor: int, text: memoryview) -> int:
         nonlocal left
@@ -220,8 +220,8 @@ def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
             run(scene, path)
     kept = path.read_bytes()
     assert kept == b"" or kept.endswith(b"\n")
-    assert kept.count(b"\n") == (0 if room < 1 else whole[: header_size(whole)].count(b"\n")) + (
-        2 * max(0, int(room) - 1 - (room == 4.5))
+    assert kept.count(b"\n") == (0 if space < 1 else whole[: header_size(whole)].count(b"\n")) + (
+        2 * max(0, int(space) - 1 - (space == 4.5))
     )
     assert run(scene, path) == table
 

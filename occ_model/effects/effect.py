@@ -61,7 +61,7 @@ class Effect(ABC):
         -------
         float
             Root mean square in grey levels, before contrast enhancement and rounding; never too
-            small, whichever other effects are there. 0 where the scene has not the effect.
+            small, whichever other effects are there. 0 where the scene does not have the effect.
         """
         return self._bound(view, observable) if self.is_present(view.scene) else 0.0
 

@@ -36,7 +36,7 @@ class Emission(OpticsEffect):
         order = scene.transmitter.lambertian_order
         x, y = view.corner_rays.T
         cosines = _cosine(scene, x, y)
-        # Where the plane is seen edge-on between the corners, the least is 0, at none of them.
+        # Where the panel's plane is seen edge-on between two corners, the least cosine is 0 there.
         is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())
         least = 0.0 if is_crossed else float(np.abs(cosines).min()) ** (order - 1.0)
         dark, bright = reachable_luminances(scene)

@@ -1,1 +1,1 @@
-"""From an image back to the code."""
+"""The receiver: from an image back to the code."""

@@ -1,4 +1,4 @@
-"""The receiver's door: an image or a profile in, the code or the reason why there is none out."""
+"""Decode an image or a profile: check it, locate the panel, run a decoder on the signal."""
 
 from dataclasses import replace
 from typing import Any
@@ -18,7 +18,7 @@ from occ_model.results import DecodeResult, Region
 from occ_model.scene.scene import Scene
 
 _LARGEST_LEVEL = 1e5
-"""Beyond any grey level, of whatever bit depth: a value that is none."""
+"""Largest value accepted as a grey level, above those of any bit depth."""
 
 
 def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
@@ -28,9 +28,9 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     ----------
     image : ndarray, shape (rows, columns) or (columns,)
         A grey image, columns being the scan axis: uint8, uint16 (scaled to 255) or floating point
-        (grey levels 0 to 255). One dimension is taken as a profile that needs no locating.
+        (grey levels 0 to 255). An array of one dimension is a profile: no panel is located.
     scene
-        What the receiver knows.
+        The parameters that the receiver knows.
     decoder
         A name from ``DECODERS``.
 
@@ -70,7 +70,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
 
 
 def _levels(image: NDArray[Any]) -> FloatArray:
-    """Give pixel values as grey levels 0 to 255, whatever type they are stored in."""
+    """Return pixel values of any type as grey levels 0 to 255."""
     levels = image.astype(np.float64)
     return levels / 257.0 if image.dtype == np.uint16 else levels
 

@@ -1,4 +1,4 @@
-"""What a decoder is."""
+"""The interface of a decoder."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,18 +10,17 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class Decoder:
-    """One way to read a code from a signal.
+    """A method to read a code from a signal.
 
     Parameters
     ----------
     name
-        What it is called by.
+        The identifier, as on the command line.
     title
-        What it is, in a few words.
+        A short description.
     read
-        Takes the signal, the mean grey level of each column, shape (columns,), and the scene, of
-        which it may use what a receiver knows; gives the result, to which the caller adds the
-        region.
+        Reads a signal, the mean grey level of each column, shape (columns,), with the parameters of
+        a scene that a receiver knows. The caller adds the region to the result.
     """
 
     name: str

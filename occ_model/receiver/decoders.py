@@ -1,4 +1,4 @@
-"""The decoders that there are."""
+"""The list of decoders by name, and the default."""
 
 from occ_model.errors import ParameterError, shown
 from occ_model.receiver.decoder import Decoder
@@ -18,7 +18,7 @@ def decoder_named(name: str) -> Decoder:
     Raises
     ------
     ParameterError
-        There is none of that name; the names there are stand in the message.
+        No decoder has that name; the message lists the known names.
     """
     if not isinstance(name, str) or name not in DECODERS:
         raise ParameterError(f"There is no decoder {shown(name)}; known: {', '.join(DECODERS)}.")

@@ -1,4 +1,4 @@
-"""Find the panel in an image, from its brightest pixels."""
+"""Locate the panel in an image by its brightest pixels."""
 
 import cv2
 import numpy as np
@@ -8,21 +8,21 @@ from occ_model.receiver.signal import otsu_split
 from occ_model.results import Location, Region
 
 _GRID = 512
-"""Contours are grown on a grid of at most this many cells a side: their growth needs no pixels."""
+"""Most cells a side of the grid that contours are grown on; they need not be as fine as pixels."""
 
 _SPECK = 0.04
-"""A cell with a smaller share of bright pixels holds a speck of noise, not part of a contour."""
+"""Least share of bright pixels in a cell of a contour; below it they are noise."""
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     """Find the rectangle round the panel, as the paper describes it.
 
-    The brightest pixels that cover ``bright_fraction`` of the area are taken; their contours are
-    grown until only one is left; its bounding rectangle is the region. Two things the paper leaves
-    open: a pixel darker than the image's Otsu threshold never counts as bright, since a panel far
-    away has fewer bright pixels than that share; and the rectangle is drawn round the bright
-    pixels in the grown contour, so that growing does not push it into the surroundings. The growth
-    itself, which says how far apart the contours lie, thus leaves the rectangle as it is.
+    The brightest pixels that cover ``bright_fraction`` of the area are selected; their contours are
+    grown until only one is left; its bounding rectangle is the region. The paper leaves two things
+    open. Here a pixel darker than the image's Otsu threshold never counts as bright, as a panel far
+    away has fewer bright pixels than that share. And the rectangle is that of the bright pixels in
+    the grown contour, which growth does not extend into the surroundings. The growth itself, a
+    measure of the distance between the contours, thus does not change the rectangle.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     cells = _above(share, 255 * _SPECK)
     if not cv2.hasNonZero(cells):
         cells = _above(share, 0)
-    if not cv2.hasNonZero(cells):  # too few for the smallest share above nothing
+    if not cv2.hasNonZero(cells):  # too few for any cell to have a share of 1/255
         return Location(_bounds(bright, Region(0, rows, 0, columns)), level, 1, 0)
     x, y, width, height = cv2.boundingRect(cells)
     scale_y, scale_x = rows / grid_size[1], columns / grid_size[0]
@@ -78,7 +78,7 @@ def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
     Parameters
     ----------
     counts : ndarray of int64, shape (256,)
-        How many pixels the image has of each grey level.
+        Pixels of each grey level in the image.
     bright_fraction
         Share of the pixels.
 
@@ -105,7 +105,7 @@ def _contours(cells: ByteArray) -> int:
 
 
 def _growth_to_one(cells: ByteArray) -> int:
-    """Find the smallest number of cells by which the contours grow into a single one."""
+    """Find the least growth in cells that merges the contours into one."""
 
     def is_one(reach: int) -> bool:
         kernel = np.ones((2 * reach + 1, 2 * reach + 1), dtype=np.uint8)
@@ -124,7 +124,7 @@ def _growth_to_one(cells: ByteArray) -> int:
 
 
 def _bounds(bright: ByteArray, within: Region) -> Region:
-    """Draw the rectangle round the bright pixels of a part of the image."""
+    """Return the bounding rectangle of the bright pixels in a part of the image."""
     part = bright[within.first_row : within.last_row, within.first_column : within.last_column]
     x, y, width, height = cv2.boundingRect(part)
     top, left = within.first_row + y, within.first_column + x

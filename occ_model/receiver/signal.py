@@ -10,7 +10,7 @@ from occ_model.results import Region
 _BINS = 256
 
 _WHOLE_ROWS = 2**23
-"""Rows whose sum of bytes an integer of 32 bits holds."""
+"""Most rows whose sum of bytes fits an integer of 32 bits."""
 
 
 def column_means(image: ByteArray, region: Region) -> FloatArray:
@@ -30,7 +30,7 @@ def column_means(image: ByteArray, region: Region) -> FloatArray:
 
 
 def why_flat(signal: FloatArray) -> str | None:
-    """Say in a sentence that a signal shows no stripes, None where it does."""
+    """Return a sentence if a signal is too flat to show stripes, else None."""
     swing = float(signal.max() - signal.min())
     if swing >= FLAT:
         return None
@@ -65,7 +65,7 @@ def otsu_split(counts: IndexArray) -> int | None:
 
 
 def otsu_threshold(signal: FloatArray) -> float:
-    """Find the grey level that parts ones from zeros in a signal that is not flat.
+    """Find the grey level that separates ones from zeros in a signal that is not flat.
 
     The histogram has 256 bins from the signal's smallest value to its largest.
     """

@@ -1,4 +1,4 @@
-"""What the model hands to whoever shows or stores it."""
+"""Result types of the model: pictures, plans, decodings, matches, studies."""
 
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs

@@ -1,4 +1,4 @@
-"""What an accuracy study measures."""
+"""Results of an accuracy study: time and error of each way to simulate."""
 
 from dataclasses import dataclass
 
@@ -8,31 +8,31 @@ ACCURACY_PARTS = {
     "path": "columns alone, whole pictures",
     "noise": "noise drawn, noise used again",
 }
-"""What an accuracy study compares, and how it is called."""
+"""The parts of an accuracy study, with their titles."""
 
 CHAINED_PARTS = ("integration", "effects")
-"""The parts whose points follow from each other, all but the last."""
+"""The parts whose points, all but the last, form a curve."""
 
 LEAST_ERROR = 1e-3
-"""Levels below which an error is drawn as this one: a thousandth of one is no error to anyone."""
+"""Least error in levels that is drawn; smaller ones are drawn as this one."""
 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyPoint:
-    """What one way of simulating costs in time, and how wrong it is.
+    """The time and the error of one way to simulate.
 
     Parameters
     ----------
     part
-        What is compared: a name from ``ACCURACY_PARTS``.
+        The part of the study: a name from ``ACCURACY_PARTS``.
     name
-        The way.
+        The way to simulate.
     seconds
-        Time that it takes.
+        Its time.
     error
-        How far it is from the best that is compared, in levels of the stretched profile.
+        Root mean square difference from the most exact way, in levels of the stretched profile.
     current
-        Whether the settings at hand are this way.
+        Whether the present settings simulate in this way.
     """
 
     part: str

@@ -1,4 +1,4 @@
-"""What a receiver finds, step by step."""
+"""Results of decoding: region, runs, chips, bits and code, step by step."""
 
 from dataclasses import dataclass, field
 
@@ -33,7 +33,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where a decoder found the panel, and how.
+    """The location of the panel in an image, and how it was found.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Location:
     contours
         How many contours the bright pixels formed.
     growth
-        By how many pixels they were grown until one was left.
+        Pixels by which they were grown until one was left.
     """
 
     region: Region
@@ -71,14 +71,14 @@ class Runs:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RunHistogram:
-    """How often each run length occurs among the whole runs of one value.
+    """Histogram of the lengths of whole runs of one value.
 
     Parameters
     ----------
     counts : ndarray of int64, shape (longest + 1,)
         Runs of each length in columns.
     split
-        The longest of the short runs by Otsu's threshold, None where all are alike.
+        The longest of the short runs by Otsu's threshold, None where all lengths are equal.
     """
 
     counts: IndexArray
@@ -87,7 +87,7 @@ class RunHistogram:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DecodeResult:
-    """What a decoder made of an image, step by step, as far as it came.
+    """The steps of a decoder on an image, up to the one that failed.
 
     Parameters
     ----------
@@ -98,9 +98,8 @@ class DecodeResult:
     code
         The code, None where ``failure`` says why.
     bits : ndarray of uint8
-        The bits read, the first sent first; empty where none were read. They can be there beside
-        a failure, when the chips break the line code.
-
+        The bits read, the first sent first; empty where none were read. They can be present with a
+        failure, when the chips break the line code.
     region
         The rectangle of the image that was read.
     location
@@ -108,7 +107,7 @@ class DecodeResult:
     signal : ndarray of float64, shape (columns of the region,)
         Mean of each column in grey levels.
     threshold
-        The grey level that parts ones from zeros.
+        The grey level that separates ones from zeros.
     runs
         The signal after the threshold, as runs.
     histograms
@@ -124,7 +123,7 @@ class DecodeResult:
     correlation
         Of the best code's forward model with the signal.
     confidence
-        How far the best code is ahead of the second best, 0 to 1.
+        Lead of the best code over the second best, 0 to 1.
     folded : ndarray of float64, shape (bins,)
         The signal folded over one packet.
     model : ndarray of float64, shape (bins,)

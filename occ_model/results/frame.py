@@ -1,4 +1,4 @@
-"""One simulated picture."""
+"""Result of a simulation: one picture."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Frame:
-    """One simulated picture and what it was made of.
+    """One simulated picture, with its scene, plan and profile.
 
     Parameters
     ----------
@@ -19,18 +19,17 @@ class Frame:
     image : ndarray of uint8, shape (rows, columns)
         The picture.
     plan
-        Which effects were simulated.
+        The effects simulated, and why.
     profile : ndarray of float64, shape (columns,)
         Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding;
         of a picture that is kept in a file, as it is read back. With column effects only it is the
         column's value itself, PV_sim; also in columns that do not show the panel.
     enhanced : ndarray of uint8, shape (columns,)
-        The column values after enhancement; as they stand in the image where that has column
-        effects only.
+        The column values after enhancement; those of the image where it has column effects only.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in the image, each as (column, row), in order round the panel.
     timings
-        Seconds that each stage took, an effect under its name, in the order they ran.
+        Seconds of each stage, an effect under its name, in the order of computation.
     """
 
     scene: Scene

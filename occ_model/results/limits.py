@@ -40,8 +40,7 @@ class RangeEnd:
     works
         The last value at which the decoder reads.
     fails
-        The first value beyond at which it does not; None where it reads to the end of what was
-        searched.
+        The first value beyond, at which it does not; None where it reads to the end of the search.
     """
 
     works: Trial
@@ -67,10 +66,10 @@ class WorkingRange:
     parameter
         Its name.
     searched
-        The lowest value that was tried, and the highest.
+        The lowest and the highest value tried.
     lowest, highest
-        The ends of the interval in which the decoder reads: the one that holds the scene's own
-        value, or lies nearest to it. None where it reads nowhere.
+        The ends of the interval in which the decoder reads: the one that contains the scene's own
+        value, or is nearest to it. None where it reads nowhere.
     failure
         None, or a sentence that says that it reads nowhere.
     best
@@ -94,7 +93,7 @@ class Limits:
     scene, decoder
         The scene, and the decoder's name.
     rate
-        Success rate in percent from which it counts as reading.
+        Least success rate in percent that counts as reading.
     images, seed
         Images at each value tried, and the seed of each.
     frequency, exposure

@@ -1,4 +1,4 @@
-"""What a photo shows, and the scene that explains it."""
+"""Results of matching a photo: its stripes, the scene that explains them, a comparison."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,13 +17,13 @@ class Stripes:
     Parameters
     ----------
     region
-        The rectangle of the photo that shows them.
+        The rectangle of the photo that they fill.
     profile : ndarray of float64, shape (columns of the region,)
         Mean of each column of the region, in grey levels.
     low, high : ndarray of float64, shape as ``profile``
-        The slowly varying levels that the stripes swing between.
+        The slowly varying dark and bright level of the stripes.
     period
-        Columns after which the stripes repeat; None where they do not within the region.
+        Columns after which the stripes repeat; None where they do not repeat in the region.
     period_uncertainty
         Its standard deviation in columns.
     saturated
@@ -51,23 +51,23 @@ class Match:
     Parameters
     ----------
     scene
-        The scene that was given, with what was found in the photo: its picture is the photo's.
+        The scene given, with the parameters found in the photo.
     stripes
-        The stripes that were matched; their levels are now those of the fit.
+        The stripes that were matched, with the levels of the fit.
     readout_time, switching_frequency, exposure_time, start_time, gamma
         The scene's, in SI units; ``start_time`` is that of the photo's first column.
     uncertainties
         Standard deviations of those that were estimated, in SI units, by name.
     pattern
-        The chips that were sent, from the start of a period.
+        The chips sent, from the start of a period.
     pattern_was_read
         Whether it was read from the photo.
     profile : ndarray of float64, shape (columns of the region,)
-        The aligned profile: what the fitted scene shows in the photo's light, in grey levels.
+        The aligned profile: that of the fitted scene in the photo's light, in grey levels.
     correlation
-        Of that profile with the photo's, both without the uneven light.
+        Correlation of that profile with the photo's, both without the uneven light.
     other_exposures
-        Other exposure times in seconds that explain the stripes as well, from the shortest.
+        Other exposure times in seconds that explain the stripes equally well, the shortest first.
     """
 
     scene: Scene
@@ -111,9 +111,9 @@ class Comparison:
     photo : ndarray of float64, shape (columns,)
         The photo's profile without its uneven light, in the simulation's grey levels.
     simulated : ndarray of float64, shape (columns,)
-        The simulation's columns there.
+        The simulation's profile in these columns.
     correlation
-        Of the two; 0 where one of them is flat.
+        Correlation of the two; 0 where one of them is flat.
     """
 
     first_column: int

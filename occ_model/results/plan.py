@@ -1,4 +1,4 @@
-"""Which effects are simulated, and why."""
+"""Result of planning: which effects are simulated, and why."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from occ_model.scene.simulation_settings import Observable
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What a plan does with one effect.
+    """The decision of a plan on one effect.
 
     Parameters
     ----------
@@ -19,8 +19,8 @@ class Decision:
         ``"column"``: it leaves all rows of the panel alike; ``"noise"``: alike but for independent
         noise; ``"image"``: not alike.
     bound
-        How much leaving it out can change what is observed, root mean square in levels of the
-        stretched profile. 0 where the scene has none of it.
+        Most change of the observable by leaving it out, root mean square in levels of the
+        stretched profile. 0 where the scene does not have the effect.
     included
         Whether it is simulated.
     forced
@@ -43,22 +43,21 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Which effects are simulated, and why.
+    """The effects that are simulated, and why.
 
     Parameters
     ----------
     tolerance
-        How much all that is left out may change what is observed, in levels of the stretched
-        profile.
+        Most change of the observable that is allowed by all effects left out, in levels of the
+        stretched profile.
     observable
-        What is observed: ``"image"`` or ``"profile"``.
+        The observable: ``"image"`` or ``"profile"``.
     decisions
         One for each effect, in the order that light travels.
     left_out
-        How much all that is left out, by the plan and not by the user, can change what is
-        observed: at most the tolerance.
+        Most change by the effects that the plan, not the user, leaves out: at most the tolerance.
     stretch
-        Levels of the stretched profile to one grey level.
+        Levels of the stretched profile per grey level.
     """
 
     tolerance: float

@@ -1,4 +1,4 @@
-"""What the explanations are made of: equations, an exposure, and the steps of an exploration."""
+"""Results for teaching: equations with numbers, a column's exposure, explorations."""
 
 from dataclasses import dataclass
 
@@ -33,11 +33,11 @@ class Equation:
     source
         Its number in the paper, or where else it is from.
     meaning
-        What it gives, in a few words, as HTML like a term's.
+        A short description of the result, as HTML like a term's.
     symbols, numbers
         Its right side in symbols and with the scene's numbers.
     result
-        What comes out, with its unit, or why nothing does.
+        The result with its unit, or why there is none.
     """
 
     source: str
@@ -65,11 +65,11 @@ class ExposureWindow:
     start, end
         When the exposure begins and ends.
     edges : ndarray of float64, shape (chips + 1,)
-        When the chips about it begin, and the last one ends.
+        Start of each chip around the exposure, and end of the last one.
     lit : ndarray of uint8, shape (chips,)
         Whether the LED is on in each.
     on_time
-        How long it is on within the exposure.
+        Time that the LED is on within the exposure.
     shortened
         Whether the exposure holds more chips than are drawn; these are its first ones.
     """
@@ -84,15 +84,15 @@ class ExposureWindow:
 
     @property
     def exposure_time(self) -> float:
-        """How long the column gathers light, in seconds."""
+        """Length of the exposure, in seconds."""
         return self.end - self.start
 
     @property
     def lit_parts(self) -> FloatArray:
-        """When the LED is on within the exposure: begins and ends, shape (parts, 2).
+        """Starts and ends of the times that the LED is on within the exposure, shape (parts, 2).
 
-        Chips that follow each other are parts of their own. Together they are the time on, unless
-        the drawing is shortened.
+        Each chip is a part of its own. Together they are the time on, unless the drawing is
+        shortened.
         """
         begins = np.maximum(self.edges[:-1], self.start)
         ends = np.minimum(self.edges[1:], self.end)
@@ -107,17 +107,17 @@ class Step:
     Parameters
     ----------
     text
-        What there is to see.
+        What to look at.
     question
         What to find out.
     answer
-        What one finds, for whoever wants to compare.
+        The answer, to compare with.
     scene
-        What the window shows.
+        The scene to show.
     pane
-        The pane that it is best seen in, empty for whichever is at the front.
+        The pane to show it in, empty for the current one.
     photo
-        The sample photo to open, by its name, empty for none.
+        Name of the sample photo to open, empty for none.
     """
 
     text: str
@@ -137,9 +137,9 @@ class Exploration:
     name
         The file's name.
     title
-        What it is about.
+        Its title.
     steps
-        One after the other.
+        Its steps, in order.
     """
 
     name: str

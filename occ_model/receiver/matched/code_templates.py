@@ -1,4 +1,4 @@
-"""The forward model of every code, in a form that all of them can be compared with at once."""
+"""Templates of all codes: the forward model of each, in a form that compares all at once."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,18 +11,18 @@ from occ_model.transmitter.packet import HEADER, packet_length, packets
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 BINS_PER_CHIP = 8
-"""How finely a packet is divided: an edge is known to a sixteenth of a chip."""
+"""Bins of a chip: an edge is known to a sixteenth of a chip."""
 
 _TONE_CODES = 256
-"""Codes that the distribution of lit fractions is taken from; more of them do not change it."""
+"""Codes that the distribution of lit fractions is computed from; more do not change it."""
 
 _ROUNDING = 1e-12
-"""Variance of a profile, in lit fractions squared, that is nothing but rounding."""
+"""Variance of a profile, in lit fractions squared, below which it is rounding error."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CodeTemplates:
-    """What a packet of each code looks like through an exposure.
+    """The profile of a packet of each code at an exposure time.
 
     A profile is a sum of the chips' responses: that of code c at bin b is the sum over its lit
     chips j of ``response[b - j * BINS_PER_CHIP]``. So a correlation with every code is one
@@ -35,10 +35,10 @@ class CodeTemplates:
     response : ndarray of float64, shape (bins,)
         Lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
     energy : ndarray of float64, shape (codes,)
-        Sum of the squares of each code's profile about its mean; infinite where that is nothing
-        but rounding, so that such a profile correlates with none.
+        Sum of the squares of each code's profile about its mean; infinite where that is rounding
+        error, so that such a profile correlates with no signal.
     levels : ndarray of float64, shape (bins,)
-        Lit fractions that the codes' profiles take: evenly spaced quantiles of all of them.
+        Lit fractions in the codes' profiles: evenly spaced quantiles of all of them.
     """
 
     bits: int
@@ -75,17 +75,17 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     levels = np.quantile(_profiles(some, bits, response), shares)
     templates = CodeTemplates(bits, response, _energies(bits, response), levels)
     for array in (templates.response, templates.energy, templates.levels):
-        array.flags.writeable = False  # it is kept, and given to everyone
+        array.flags.writeable = False  # it is cached and shared
     return templates
 
 
 def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:
     """Sum values over the chips that are lit, in each half of every packet.
 
-    A bit lights one of its two chips: the first where the level after it is 0, the second where
-    it is 1. A bit's chips depend on the bits before it, by the level that they leave; but they
-    depend on no other level than that after the bit itself. So the sum over a packet is that over
-    its first half, of which there are only 2^(bits / 2), and that over its second.
+    A bit lights one of its two chips: the first where the level after the bit is 0, the second
+    where it is 1. So a bit's chips depend on no level but the one after it, and the sum over a
+    packet is that over its first half, of which there are only 2^(bits / 2), plus that over its
+    second half.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArra
 
 
 def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
-    """Add to each sum, bit after bit, the values of the one chip and those of the other."""
+    """Add to each sum, bit after bit, the values of either chip."""
     for pair in pairs:
         sums = (sums[:, None] + pair).reshape(-1, sums.shape[1])
     return sums
@@ -119,7 +119,7 @@ def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
 
 @lru_cache(maxsize=4)
 def codes_by_levels(bits: int) -> IndexArray:
-    """Give the code whose bits leave these levels after them, the levels read as a binary number.
+    """Return the code with these levels after its bits, the levels read as a binary number.
 
     Returns
     -------
@@ -143,8 +143,8 @@ def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
 def _energies(bits: int, response: FloatArray) -> FloatArray:
     """Give each profile's sum of squares about its mean, from the response's autocorrelation.
 
-    It is the sum of the autocorrelation over all pairs of lit chips: of pairs within the first
-    half of a packet, within the second, and across.
+    It is the sum of the autocorrelation over all pairs of lit chips: within the first half of a
+    packet, within the second, and across.
     """
     period = packet_length(bits)
     spectrum = np.abs(np.fft.rfft(response)) ** 2

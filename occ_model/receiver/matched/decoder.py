@@ -1,8 +1,8 @@
-"""Beyond the paper: a decoder that knows the exposure and correlates with every code.
+"""The matched decoder: correlate the signal with the forward model of every code and phase.
 
-It knows the switching frequency, the exposure time and the readout time. The signal is folded over
-one packet and correlated with the forward model of every code at every phase. An exposure of
-several chips is no obstacle: each code still has a profile of its own.
+Beyond the paper, it knows the switching frequency, the exposure time and the readout time. The
+signal is folded over one packet first. An exposure of several chips is no obstacle: each code still
+has a profile of its own.
 """
 
 from dataclasses import replace
@@ -26,24 +26,24 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import bits_of, packet_length
 
 _LEAST_CORRELATION = 0.7
-"""A code whose profile explains less than half of the signal's variance explains nothing."""
+"""Least correlation of a code that is read: half of the signal's variance is explained."""
 
 _LEAST_CONFIDENCE = 0.05
-"""A code that leaves nearly as much unexplained as the second best was picked by chance."""
+"""Least confidence of a code that is read; below it the best code may be so by chance."""
 
 _LIKELY = 16
-"""Codes that are compared more closely."""
+"""Codes that are compared in the second, more exact step."""
 
 _AT_ONCE = 2**15
-"""Correlations, of codes at phases, that are held at once: they fit the processor's cache."""
+"""Correlations, of codes at phases, held at once: they fit the processor's cache."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code whose forward model is most like the signal.
 
-    The confidence is the share of what the second best code leaves unexplained that the best one
-    explains, 1 - (1 - r1^2) / (1 - r2^2), with r1 and r2 their correlations with the signal: 0
-    when both explain the same, 1 when the best explains everything.
+    With r1 and r2 the correlations of the best and the second best code with the signal, the
+    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same share of the variance,
+    1 where the best explains all of it.
 
     Parameters
     ----------
@@ -84,26 +84,26 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
     """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
     bins = period * BINS_PER_CHIP
-    # From whatever column the signal starts: the packet's phase is found, not known.
+    # The signal may start at any column, as the packet's phase is found, not known.
     phases = column_phases(scene, period, columns=len(signal))
     nearest = np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
     counts = np.bincount(nearest, minlength=bins)
     sums = np.bincount(nearest, signal, minlength=bins)
     seen = np.flatnonzero(counts)
-    # Where no column starts, the neighbours tell: a profile has no jumps.
+    # Bins without columns are interpolated: a profile has no jumps.
     return np.interp(np.arange(bins), seen, sums[seen] / counts[seen], period=bins)
 
 
 def _best_code(
     result: DecodeResult, folded: FloatArray, templates: CodeTemplates, bits: int
 ) -> DecodeResult:
-    """Compare the folded signal with every code, and with the most likely ones more closely."""
-    # What the camera did to the grey levels kept their order. So a bin's rank says which lit
-    # fraction it stands for, and no gamma or enhancement needs to be known.
+    """Compare the folded signal with every code, then with the most likely ones more exactly."""
+    # The camera keeps the order of grey levels. So a bin's rank gives its lit fraction, and neither
+    # gamma nor enhancement needs to be known.
     rank = folded.argsort(kind="stable").argsort()
     likely, shifts = most_likely(templates.levels[rank], templates)
     models = templates.profiles(likely)
-    # Each code has levels of its own, which say so more exactly than those of all codes.
+    # The levels of each code itself are more exact than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
     places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
     models = np.take_along_axis(models, places, axis=1)
@@ -154,7 +154,7 @@ def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
     ndarray of float64, shape (rows of ``first``, rows of ``second``)
     """
     columns, shape = first.shape[1], (len(first), len(second))
-    # Neighbours in memory are different sums, of which the processor takes several at a time.
+    # Neighbours in memory are different sums, which the processor adds several at a time.
     first, second = first.T[:, :, None].copy(), second.T[:, None].copy()
     step = max(1, _AT_ONCE // (shape[0] * shape[1]))
     sums = np.empty((min(step, columns), *shape))

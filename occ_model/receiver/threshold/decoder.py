@@ -13,16 +13,16 @@ from occ_model.results import DecodeResult, Runs
 from occ_model.scene.scene import Scene
 
 _SHORTEST_CHIP = 1.0
-"""Columns of a chip below which runs cannot tell how many chips they hold."""
+"""Columns of a chip below which run lengths do not give numbers of chips."""
 
 _FEWEST_RUNS = 3
-"""Whole runs below which nothing can be said about a chip's length."""
+"""Fewest whole runs from which a chip's length is estimated."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the code from a signal, knowing nothing of the scene but the number of bits.
+    """Read the code from a signal; of the scene only the number of bits is known.
 
-    Only for a raw pattern, whose runs tell no scale, the length of a chip is taken as known.
+    For a raw pattern, whose runs have no scale, the length of a chip is known too.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     Returns
     -------
     DecodeResult
-        With every step as far as it came; the region is the caller's to add.
+        With every step that was reached; the caller adds the region.
     """
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:
@@ -49,20 +49,9 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
             "come closer or raise the frequency.",
         )
-    nominal = scene.transmitter.switching_period / scene.camera.readout_time
-    if scene.transmitter.pattern and nominal < _SHORTEST_CHIP:
-        return replace(
-            result,
-            failure=f"A chip lasts {nominal:.2g} columns: runs of columns cannot tell how many "
-            "chips they hold.",
-        )
-    read = _read_chips(result, runs, whole, scene)
     if scene.transmitter.pattern:
-        return replace(
-            read,
-            failure=f"A raw chip pattern is sent, which holds no packets; {len(read.chips)} chips "
-            "were read.",
-        )
+        return _read_pattern(result, runs, whole, scene)
+    read = _read_chips(result, runs, whole, scene)
     framed = read_packet(read.chips, scene.transmitter.bits)
     return replace(
         read,
@@ -73,8 +62,25 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     )
 
 
+def _read_pattern(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
+    """Read the chips of a raw pattern, which holds no code."""
+    nominal = scene.transmitter.switching_period / scene.camera.readout_time
+    if nominal < _SHORTEST_CHIP:
+        return replace(
+            result,
+            failure=f"A chip lasts {nominal:.2g} columns: runs of columns cannot tell how many "
+            "chips they hold.",
+        )
+    read = _read_chips(result, runs, whole, scene)
+    return replace(
+        read,
+        failure=f"A raw chip pattern is sent, which holds no packets; {len(read.chips)} chips "
+        "were read.",
+    )
+
+
 def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
-    """Turn runs into chips; the first and last run count as far as the image shows them."""
+    """Convert runs to chips; of the first and last run only the part in the image counts."""
     histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
     if scene.transmitter.pattern:
         fit = fit_pattern(whole, scene.transmitter.switching_period / scene.camera.readout_time)

@@ -1,4 +1,4 @@
-"""From chips to headers, and from the chips between two headers to bits."""
+"""Framing: find headers among the chips, and read the bits between two of them."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ _HEADER_ONES = sum(HEADER)
 
 @dataclass(frozen=True, slots=True)
 class Framed:
-    """What the chips hold: headers, bits, and either a code or the reason why there is none."""
+    """The result of framing: headers, bits, and either a code or the reason for its absence."""
 
     headers: tuple[int, ...]
     bits: ByteArray

@@ -1,4 +1,4 @@
-"""Runs of ones and zeros, and the length of one chip that they tell of."""
+"""Run lengths of ones and zeros, and the length of one chip estimated from them."""
 
 from dataclasses import dataclass
 
@@ -15,16 +15,16 @@ _HEADER_RUNS = (3, 4)
 """Chips of the run of ones that holds a header: its own three, or four after a one."""
 
 _NO_HEADER = 0.1
-"""How much better, in chips, a fit must be that finds no header: the picture may show none."""
+"""Penalty in chips of a fit without a header, as the picture may show none."""
 
 _WIDENED = 0.05
-"""How much better, in chips, a pattern's fit must be for each chip that ones are wider by."""
+"""Penalty of a pattern's fit, in chips, for each chip of widening."""
 
 _WIDENINGS = 19
-"""How many differences between ones and zeros are tried where the framing tells nothing."""
+"""Widenings that are tried for a raw pattern, which has no framing."""
 
 _IMPROVEMENTS = 3
-"""Rounds of least squares at the most; they end when the whole numbers of chips stay."""
+"""Most rounds of least squares; they end when the whole numbers of chips no longer change."""
 
 
 def runs_of(binary: ByteArray) -> Runs:
@@ -49,16 +49,16 @@ def short_run(histogram: RunHistogram) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ChipFit:
-    """How run lengths turn into chips.
+    """The relation of run lengths to chips.
 
-    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros as much shorter
-    as ones are wider: a threshold off the middle moves every edge by the same amount.
+    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros
+    ``n * chip_length - widening``: a threshold off the middle moves every edge by the same amount.
     """
 
     chip_length: float
     widening: float
     misfit: float
-    """Root mean square distance from whole chips, and what else speaks against the fit."""
+    """Root mean square distance from whole chips, plus penalties."""
 
     def chips_in(self, runs: Runs) -> IndexArray:
         """Count the chips of every run, at least one each."""
@@ -71,16 +71,16 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     """Find the length of one chip from whole runs.
 
     The paper splits the histogram of the ones' run lengths, and that of the zeros', by Otsu's
-    threshold and takes the average of the short runs for one chip. That misreads a code whose
-    short runs are two chips long, such as 1023, and one whose single and double runs the split
-    leaves together. So the ones' short runs are tried as one chip and as two, the longest run of
-    ones, which holds the header, as three chips and as four, and the zeros' short runs as one chip
-    and as two: an odd number of bits, all of them 1, leave no single zero. Each trial is refined
-    by least squares. The one is taken whose runs lie nearest to whole chips, are no longer than
-    the framing allows, and hold a header.
+    threshold; the average of the short runs is one chip. That misreads a code whose short runs are
+    two chips long, such as 1023, and one whose single and double runs are on one side of the split.
+    So the ones' short runs are tried as one chip and as two, the longest run of ones, which holds
+    the header, as three chips and as four, and the zeros' short runs as one chip and as two (an odd
+    number of bits, all of them 1, leaves no single zero). Each trial is refined by least squares.
+    The best trial is the one whose runs are nearest to whole chips, no longer than the framing
+    allows, and include a header.
 
-    A widening may exceed a chip. A single chip of the other kind then vanishes, but a packet that
-    has none of those is read all the same.
+    A widening may exceed a chip. A single chip of the other kind then vanishes, but a packet
+    without such chips can still be read.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     one_length, one_chips, zero_chips = np.array(
         [(length, chips, zeros_in) for zeros_in in (1, 2) for length, chips in trials]
     ).T
-    # What a threshold off the middle takes from a run of ones it gives to one of zeros.
+    # A threshold off the middle shortens runs of ones by as much as it lengthens those of zeros.
     chip_length = (one_length + short_zero) / (one_chips + zero_chips)
     return _best_fit(runs, chip_length, one_length - one_chips * chip_length)
 
@@ -108,40 +108,40 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
 def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
     """Find the length of one chip of a raw pattern, near a length that is known.
 
-    Without packets nothing in the runs tells one chip from two, so that the scale must be known:
-    the switching period over the readout time. How much wider ones are than zeros is tried, the
-    smaller the likelier; where an enhancement has moved the threshold by more than half a chip,
-    the runs of one pattern can look like those of another.
+    Without packets the runs do not distinguish one chip from two, so the scale must be known: the
+    switching period over the readout time. Several widenings are tried, of which smaller ones are
+    likelier. Where an enhancement has moved the threshold by more than half a chip, the runs of one
+    pattern can equal those of another.
 
     Parameters
     ----------
     runs
         Runs that are not cut off by the region's edges, of both kinds.
     nominal
-        Columns that a chip should have.
+        Expected columns of a chip.
 
     Returns
     -------
     ChipFit
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
-    # A chip may not have drifted far from its length; a threshold is rarely far off the middle.
-    distrust = _WIDENED * np.abs(widening) / nominal
+    # A threshold is rarely far off the middle.
+    penalty = _WIDENED * np.abs(widening) / nominal
     chip_length = np.full(_WIDENINGS, nominal)
-    return _best_fit(runs, chip_length, widening, distrust, nominal=nominal)
+    return _best_fit(runs, chip_length, widening, penalty, nominal=nominal)
 
 
 def _best_fit(
     runs: Runs,
     chip_length: FloatArray,
     widening: FloatArray,
-    distrust: FloatArray | float = 0.0,
+    penalty: FloatArray | float = 0.0,
     nominal: float | None = None,
 ) -> ChipFit:
-    """Improve first guesses by least squares over the runs' whole chips, and take the best.
+    """Improve first guesses by least squares over the runs' whole chips, and return the best.
 
     All guesses, shape (guesses,), are improved at once, and equal runs are counted, not repeated.
-    With a ``nominal`` length, nearness to it decides in place of the framing.
+    With a ``nominal`` length, the distance from it counts in place of the framing.
     """
     kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
     values, lengths = kinds % 2, (kinds // 2).astype(np.float64)
@@ -166,7 +166,7 @@ def _best_fit(
             break
 
     residual = (lengths - sign * widening[:, None]) / chip_length[:, None] - n
-    misfit = distrust + np.sqrt((residual**2) @ repeats / repeats.sum())
+    misfit = penalty + np.sqrt((residual**2) @ repeats / repeats.sum())
     if nominal is not None:
         misfit += np.abs(chip_length / nominal - 1.0)
     else:

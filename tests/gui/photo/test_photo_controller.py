@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_controller import PhotoController, PhotoReading
-from occ_model.photo.reading.load import Photo
+from occ_model.photo.reading.load import Photo, load_photo
 
 Grey = NDArray[np.uint8]
 PATIENCE_S = 10.0
@@ -32,7 +32,7 @@ class Bench:
         self.controller = PhotoController([self])
         self.controller.opened.connect(self.opened.append)
         self.controller.failed.connect(self.failures.append)
-        self._load = occ.load_photo
+        self._load = load_photo
         self._qtbot = qtbot
 
     def _read(

@@ -73,7 +73,7 @@ def monkey(
     QGuiApplication.clipboard().clear()
 
 
-def test_random_actions_leave_no_exception_no_warning_and_no_memory(
+def test_random_actions_cause_no_exception_warning_or_leak(
     application: Application, monkey: Monkey, caplog: pytest.LogCaptureFixture
 ) -> None:
     if ACTIONS >= _LONG:

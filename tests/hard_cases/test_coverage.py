@@ -121,7 +121,7 @@ def normal(x: float) -> float:
     width=decades(0.05, 1e3),
     height=decades(0.05, 1e3),
 )
-def test_the_widest_blur_of_a_rectangle_is_the_product_of_two_normal_distributions(
+def test_the_widest_blur_of_a_rectangle_is_two_normal_integrals(
     blur: float, left: float, top: float, width: float, height: float
 ) -> None:
     ends = np.array([left, left + width, top, top + height]) * blur
@@ -137,7 +137,7 @@ def test_the_widest_blur_of_a_rectangle_is_the_product_of_two_normal_distributio
 
 
 @pytest.mark.parametrize("columns", [32_766, 32_768, 70_000, 200_000])
-def test_a_blurred_picture_wider_than_a_short_integer_is_right_everywhere(columns: int) -> None:
+def test_a_blur_of_more_columns_than_16_bits_hold_is_right(columns: int) -> None:
     # OpenCV counts the places of a transformed picture in 16 bits.
     ends = np.array([0.3, 0.9]) * columns
     outline = np.array([[ends[0], -99], [ends[1], -99], [ends[1], 99], [ends[0], 99]])

@@ -119,7 +119,7 @@ def corner_rays(scene: Scene) -> list[tuple[int, int, mpmath.matrix]]:
     focal=decades(1e-3, 2.0), exponent=st.one_of(decades(1e-18, 20.0), st.just(20.0)),
     rows=st.integers(1, 24), columns=st.integers(1, 48),
 )  # fmt: skip
-def test_vignetting_is_that_of_fifty_digits_at_the_corner_of_a_fisheye(
+def test_vignetting_at_a_fisheyes_corner_is_that_of_fifty_digits(
     focal: float, exponent: float, rows: int, columns: int
 ) -> None:
     scene = Scene().replace(
@@ -211,7 +211,7 @@ def exact_spread(effect: NoiseEffect, scene: Scene, value: float) -> mpmath.mpf:
     gain=st.one_of(st.just(0.0), decades(1e-12, 0.5)), well=decades(10.0, 1e9),
     bits=st.integers(4, 24), effect=st.sampled_from([SensorNoise(), FixedPattern()]),
 )  # fmt: skip
-def test_noise_spreads_as_in_fifty_digits_from_no_light_to_a_trillion_times_too_much(
+def test_noise_spreads_as_in_fifty_digits_at_any_light(
     light: float, iso: float, exposure: float, gamma: float, read_noise: float, gain: float,
     well: float, bits: int, effect: NoiseEffect,
 ) -> None:  # fmt: skip
@@ -240,7 +240,7 @@ def test_noise_spreads_as_in_fifty_digits_from_no_light_to_a_trillion_times_too_
     luminance=decades(1e-9, 1e12), iso=decades(1.0, 4e6),
     averaging=st.sampled_from(["light", "pixel-value"]),
 )  # fmt: skip
-def test_light_effects_left_out_change_no_more_than_their_bounds_at_any_scale(
+def test_left_out_light_effects_keep_their_bounds_at_any_scale(
     edge: float, exposure: float, depth: float, mains: float, frequency: float,
     readout: float, start: float, pattern: str, illuminance: float, luminance: float,
     iso: float, averaging: str,

@@ -24,7 +24,7 @@ HUGE: dict[str, dict[str, int]] = {
 
 @pytest.mark.parametrize("lens", [{}, {"point_spread": 1000.0, "radial_k1": 0.1}])
 @pytest.mark.parametrize("name", HUGE)
-def test_a_picture_that_would_fill_the_memory_is_refused_before_any_of_it_is_made(
+def test_a_picture_too_large_for_memory_is_refused_beforehand(
     name: str, lens: dict[str, float]
 ) -> None:
     scene = Scene().replace(**HUGE[name], **lens)
@@ -36,7 +36,7 @@ def test_a_picture_that_would_fill_the_memory_is_refused_before_any_of_it_is_mad
     assert peak < 1e6
 
 
-def test_the_widest_blur_of_the_widest_picture_takes_no_more_memory_than_a_narrow_one() -> None:
+def test_the_widest_blur_takes_no_more_memory_than_a_narrow_one() -> None:
     # A blur of 1e8 pixels once took a row of numbers for each pixel that it reaches to.
     scene = Scene().replace(
         rows=2, columns=200_000, focus_distance=0.001, equivalent_focal_length=2.0,

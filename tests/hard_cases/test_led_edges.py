@@ -77,7 +77,7 @@ def test_the_longest_patterns_lose_no_digits_to_long_edges(
 
 
 @cases(edge=decades(1e-300, 1e-3), exposure=decades(1e-3, 1e3), start=STARTS, pattern=PATTERNS)
-def test_an_edge_towards_nothing_moves_no_more_light_than_it_keeps_back(
+def test_a_vanishing_edge_moves_no_more_light_than_its_share(
     edge: float, exposure: float, start: float, pattern: str
 ) -> None:
     scene = edged(edge, exposure, start_time=start, pattern=pattern)
@@ -118,9 +118,7 @@ EDGES: dict[str, dict[str, float | str]] = {
 
 @pytest.mark.parametrize("start", [0.0, 1e9 - 1 / 7])
 @pytest.mark.parametrize("name", EDGES)
-def test_edged_light_of_a_hard_scene_is_that_of_rational_arithmetic(
-    name: str, start: float
-) -> None:
+def test_edged_light_of_hard_scenes_is_that_of_exact_arithmetic(name: str, start: float) -> None:
     scene = edged(0.0, 1.7, **({"start_time": start} | EDGES[name]))
     error = edge_error(scene)
     record(EDGED, WIDE, error)

@@ -125,16 +125,14 @@ def test_any_pose_and_lens_gives_a_picture_or_a_sentence(
 
 @pytest.mark.parametrize("blur", [0.0, 30.0, 1000.0])
 @pytest.mark.parametrize("k1", [-0.1, -0.19])
-def test_a_lens_that_folds_beyond_the_picture_is_not_refused_for_its_blur(
-    k1: float, blur: float
-) -> None:
+def test_a_lens_that_folds_outside_is_not_refused_for_its_blur(k1: float, blur: float) -> None:
     # Light from so far out takes part that the lens is looked at where it has long folded.
     scene = Scene().replace(**(SMALL | {"radial_k1": k1, "point_spread": blur, "distance": 0.02}))
     scene = scene.replace(focus_distance=0.001 if blur == 1000.0 else 0.0, f_number=0.5)
     assert (occ.render(scene, force=GEOMETRY).image > 0).all()
 
 
-def test_a_lens_bends_rays_and_points_of_the_picture_back_and_forth() -> None:
+def test_a_lens_bends_rays_and_image_points_back_and_forth() -> None:
     camera = Scene().replace(rows=3, columns=5).camera
     points = np.array([[0.0, 0.0], [4.0, 2.0], [1e9, -1e9]])
     np.testing.assert_allclose(image_points(image_rays(points, camera), camera), points, rtol=1e-14)

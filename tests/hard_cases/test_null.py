@@ -161,9 +161,7 @@ def half_way(scene: Scene) -> Scene:
 
 @pytest.mark.parametrize("method", ["equalization", "stretch", "none"])
 @pytest.mark.parametrize("off", [0.0, 1e-15, -1e-15, 1e-13])
-def test_values_half_way_between_two_levels_make_no_stripes_of_rounding(
-    off: float, method: str
-) -> None:
+def test_values_between_two_levels_make_no_rounding_stripes(off: float, method: str) -> None:
     # The columns differ by 1e-13 levels, about 100.5: rounded one by one they show 100 and 101.
     scene = null_scene(1, 136e-6, off, columns=600, rows=8, distance=0.1, code=5, bits=4)
     scene = half_way(scene.replace(enhancement=method))

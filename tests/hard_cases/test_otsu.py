@@ -87,7 +87,7 @@ def test_otsus_split_of_a_hard_histogram(name: str) -> None:
     assert shortfall(counts, expected) == 0.0
 
 
-def test_otsus_split_of_run_lengths_to_100000_columns_loses_nothing() -> None:
+def test_otsus_split_of_100000_run_lengths_loses_nothing() -> None:
     # The longest run is as long as the signal, the others are a few columns: 1e5 bins, ten filled.
     random = np.random.default_rng(3)
     for _ in range(20):

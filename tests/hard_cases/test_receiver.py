@@ -127,7 +127,7 @@ def test_any_image_is_read_or_refused_with_a_sentence(
     shift=st.floats(-1e3, 1e3),
     decoder=st.sampled_from(BOTH),
 )
-def test_a_code_is_read_whatever_its_grey_levels_are_multiplied_by(
+def test_a_code_is_read_at_any_scale_of_grey_levels(
     code: int, start: float, size: float, shift: float, decoder: str
 ) -> None:
     scene = Scene().replace(
@@ -177,7 +177,7 @@ SIGNALS: dict[str, np.ndarray] = {
 
 @pytest.mark.parametrize("decoder", BOTH)
 @pytest.mark.parametrize("name", SIGNALS)
-def test_a_hard_signal_is_read_or_said_to_be_unreadable(name: str, decoder: str) -> None:
+def test_a_hard_signal_is_read_or_refused_with_a_reason(name: str, decoder: str) -> None:
     signal = SIGNALS[name]
     for changes in ({}, {"pattern": "01"}, {"bits": 2, "code": 0}, {"readout_time": 10.0}):
         result = occ.decode(signal, Scene().replace(**changes), decoder)
@@ -197,7 +197,7 @@ def test_a_hundred_thousand_columns_are_read(decoder: str) -> None:
 
 
 @pytest.mark.parametrize("decoder", BOTH)
-def test_codes_of_sixteen_bits_in_a_hundred_thousand_columns_are_read(decoder: str) -> None:
+def test_codes_of_16_bits_in_100000_columns_are_read(decoder: str) -> None:
     # 65,536 codes at 288 phases: a table of them all would fill 150 GB with the columns.
     scene = Scene().replace(bits=16, code=0xBEEF, exposure_time=68e-6)
     profile = occ.column_profile(scene.replace(columns=100_000))
@@ -288,7 +288,7 @@ def test_chips_shorter_than_a_column_are_not_counted(frequency: float) -> None:
 
 
 @pytest.mark.parametrize("exposure", [24 / 8192, 1e3 + 1e-5, 1e6])
-def test_an_exposure_that_leaves_only_the_mean_is_said_to(exposure: float) -> None:
+def test_an_exposure_that_leaves_only_the_mean_is_refused(exposure: float) -> None:
     # Exactly a packet, or so many that the rest is lost in the last digits: all codes look alike.
     scene = Scene().replace(exposure_time=exposure, switching_frequency=8192.0)
     failure = occ.decode(SIGNALS["runs of all lengths"], scene, "matched").failure

@@ -145,7 +145,7 @@ def blocks_of(exposure: PixelExposure) -> Iterator[ExposedRows]:
     return exposure.rows(7, "reused")
 
 
-def test_profile_and_noise_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
+def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
     exposure, enhancement = exposed()
     chosen = np.array([0, 1, 1000, 1735, 3470, 3471])
     kept, total = [], 0.0
@@ -213,7 +213,7 @@ def test_wilsons_interval_is_that_of_fifty_digits(count: tuple[int, int], tail: 
     assert high == 1.0 or successes < trials
 
 
-def test_intervals_grow_narrower_with_every_tenfold_of_trials_to_the_last() -> None:
+def test_intervals_shrink_with_every_tenfold_of_trials() -> None:
     # A rate of a half: the width falls by the square root of ten, down to 1e-8.
     widths = [
         high - low for low, high in (wilson_interval(10**n // 2, 10**n) for n in range(1, 16))

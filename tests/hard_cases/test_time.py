@@ -74,7 +74,7 @@ def test_on_time_is_that_of_rational_arithmetic(
     frequency=FREQUENCIES,
     start=STARTS,
 )
-def test_on_time_of_whole_chips_and_packets_is_as_exact_an_ulp_either_side(
+def test_on_time_of_whole_packets_is_exact_an_ulp_either_side(
     whole: int, unit: int, ulps: int, frequency: float, start: float
 ) -> None:
     scene = timed(whole * unit, frequency, start_time=start)
@@ -137,7 +137,7 @@ def test_on_and_off_time_are_the_exposure(
     packets=st.integers(-(10**9), 10**9), chips=CHIPS, frequency=FREQUENCIES,
     start=signed_decades(1e-9, 1e3), pattern=PATTERNS,
 )  # fmt: skip
-def test_a_start_whole_packets_later_changes_nothing_beyond_rounding(
+def test_a_start_whole_packets_later_changes_only_rounding(
     packets: int, chips: float, frequency: float, start: float, pattern: str
 ) -> None:
     scene = timed(chips, frequency, start_time=start, pattern=pattern)
@@ -163,7 +163,7 @@ def test_a_start_whole_packets_later_changes_nothing_beyond_rounding(
     sign=st.sampled_from([-1, 1]),
     size=decades(1e-16, 1e-6),
 )  # fmt: skip
-def test_a_small_change_of_any_time_changes_the_on_time_by_no_more_than_its_share(
+def test_a_small_change_of_a_time_changes_on_time_by_its_share(
     chips: float,
     frequency: float,
     readout: float,
@@ -267,7 +267,7 @@ def test_on_time_of_a_hard_scene_is_that_of_rational_arithmetic(name: str) -> No
     assert error <= 1e-12
 
 
-def test_columns_a_packet_apart_and_exposures_of_packets_show_no_stripes_at_all() -> None:
+def test_exposures_of_whole_packets_show_no_stripes_at_all() -> None:
     for name in ("just three packets", "one packet a column"):
         scene = Scene().replace(columns=2000, start_time=1e9 / 7, **NAMED[name])
         assert np.ptp(occ.on_time(scene)) == 0.0

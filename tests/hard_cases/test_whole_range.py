@@ -60,7 +60,7 @@ def given_or_refused(make: Callable[[], Made]) -> Made | str:
 
 
 @cases(changes=CHANGES, observable=st.sampled_from(OBSERVABLES), tolerance=decades(1e-6, 1e6))
-def test_every_bound_of_any_scene_is_a_number_and_none_is_negative(
+def test_every_bound_of_any_scene_is_a_number_and_not_negative(
     changes: dict[str, float | int | str], observable: Observable, tolerance: float
 ) -> None:
     scene = Scene().replace(**changes)
@@ -83,7 +83,7 @@ def test_every_bound_of_any_scene_is_a_number_and_none_is_negative(
     changes=CHANGES, tolerance=st.sampled_from([0.0, 0.5, math.inf]),
     force=st.sampled_from([True, None]), noise=st.sampled_from(NOISE_SOURCES),
 )  # fmt: skip
-def test_a_picture_of_any_scene_has_pixels_and_a_profile_of_numbers(
+def test_any_scenes_picture_has_pixels_and_a_finite_profile(
     changes: dict[str, float | int | str], tolerance: float, force: bool | None, noise: NoiseSource
 ) -> None:
     scene = Scene().replace(**changes)

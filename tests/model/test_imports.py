@@ -42,13 +42,13 @@ def run(program: str) -> list[str]:
 
 
 @pytest.mark.parametrize("module", ["occ_model", "occ_model.cli"])
-def test_importing_the_model_imports_nothing_that_it_may_never_need(module: str) -> None:
+def test_importing_the_model_imports_nothing_unneeded(module: str) -> None:
     loaded = run(f"import sys, {module}; print(*sys.modules)")
     assert module in loaded
     assert {name.partition(".")[0] for name in loaded} & {*HEAVY, "occ_gui"} == set()
 
 
-def test_a_scene_is_simulated_and_decoded_where_none_of_that_is_installed() -> None:
+def test_a_scene_is_decoded_without_the_heavy_packages() -> None:
     assert run(BLOCK + USE) == ["718", "(300,", "3456)"]
 
 

@@ -135,7 +135,7 @@ def test_an_interruption_has_the_code_that_shells_give_it(
     assert capsys.readouterr().err == "occ-model: interrupted.\n"
 
 
-def test_nothing_slow_is_imported_before_interruptions_are_answered() -> None:
+def test_interruptions_are_answered_before_slow_imports() -> None:
     program = "import sys, occ_model.cli; print(*sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True

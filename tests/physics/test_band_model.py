@@ -42,7 +42,7 @@ def test_a_band_and_a_transition_make_a_chip(period: float, share: float, readou
     assert sum(occ.band_lengths(scene)) == pytest.approx(period / readout, rel=1e-9)
 
 
-def test_an_exposure_longer_than_the_period_is_refused_with_both_times() -> None:
+def test_an_exposure_beyond_the_period_is_refused_with_times() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3)
     with pytest.raises(occ.BandModelUndefined, match=r"136 µs.*100 µs"):
         occ.band_profile(scene)
@@ -61,7 +61,7 @@ def test_an_exposure_of_exactly_one_period_is_the_last_defined() -> None:
     readout=st.floats(1e-6, 2e-4),
     iso=st.floats(50.0, 10_000.0),
 )
-def test_the_charitable_reading_is_the_exact_profile_wherever_it_is_defined(
+def test_the_charitable_reading_is_exact_where_defined(
     share: float, code: int, start: float, readout: float, iso: float
 ) -> None:
     scene = Scene().replace(
@@ -76,7 +76,7 @@ def test_the_charitable_reading_is_the_exact_profile_wherever_it_is_defined(
     np.testing.assert_allclose(occ.band_profile(scene), occ.column_profile(scene), atol=1e-9)
 
 
-def test_the_literal_reading_gives_each_chip_and_each_change_whole_columns() -> None:
+def test_the_literal_reading_gives_chips_whole_columns() -> None:
     # h_c = 4, h_t = 3: one packet of 01 has two chips and two changes, 14 columns.
     scene = Scene().replace(
         pattern="01", switching_frequency=1e5, exposure_time=3e-6, readout_time=1e-6, columns=70
@@ -90,7 +90,7 @@ def test_the_literal_reading_gives_each_chip_and_each_change_whole_columns() -> 
     assert ((profile[4:7] > dark) & (profile[4:7] < bright)).all()
 
 
-def test_the_literal_reading_drifts_by_one_transition_at_every_pair_of_equal_chips() -> None:
+def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
     # 0011: four chips of seven columns are 28; read literally, 4 x 4 + 2 x 3 = 22.
     scene = Scene().replace(
         pattern="0011",

@@ -175,17 +175,17 @@ def excesses(name: str, around: Callable[[Set[str]], Set[str]], needed: Set[str]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_no_effect_alone_changes_the_papers_model_by_more_than_its_bound(name: str) -> None:
+def test_no_effect_alone_exceeds_its_bound_on_the_papers_model(name: str) -> None:
     assert excesses(name, lambda effects: set(), {name}) == []
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_no_effect_changes_the_complete_simulation_by_more_than_its_bound(name: str) -> None:
+def test_no_effect_exceeds_its_bound_on_the_full_simulation(name: str) -> None:
     assert excesses(name, lambda effects: effects - {FILE.name}, {name}) == []
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != FILE.name])
-def test_no_effect_changes_what_a_file_holds_by_more_than_its_bound(name: str) -> None:
+def test_no_effect_exceeds_its_bound_on_a_files_pixels(name: str) -> None:
     assert excesses(name, lambda effects: effects, {name, FILE.name}) == []
 
 
@@ -256,7 +256,7 @@ def test_a_picture_without_the_panel_has_its_surroundings_noise(
 
 
 @pytest.mark.parametrize("observable", OBSERVABLES)
-def test_a_lens_that_bends_the_panel_out_of_the_picture_does_something(
+def test_a_lens_that_bends_the_panel_out_of_view_has_an_effect(
     observable: Observable,
 ) -> None:
     scene = Scene().replace(

@@ -52,7 +52,7 @@ def exceeds(scene: Scene, name: str, observable: Observable) -> str:
 @pytest.mark.parametrize("observable", ["image", "profile"])
 @pytest.mark.parametrize("illuminance", [3e3, 4e5, 1e6])
 @pytest.mark.parametrize("name", MEANS)
-def test_bounds_hold_where_vignetting_brings_saturated_pixels_back(
+def test_bounds_hold_where_vignetting_undoes_saturation(
     name: str, illuminance: float, observable: Observable
 ) -> None:
     scene = Scene().replace(
@@ -73,7 +73,7 @@ def test_bounds_hold_where_vignetting_brings_saturated_pixels_back(
 @pytest.mark.parametrize("averaging", ["light", "pixel-value"])
 @pytest.mark.parametrize("luminance", [3e4, 1e5, 1e7])
 @pytest.mark.parametrize("name", MEANS)
-def test_bounds_hold_where_a_lit_panel_saturates_and_a_half_lit_one_does_not(
+def test_bounds_hold_where_only_the_fully_lit_panel_saturates(
     name: str, luminance: float, averaging: str, observable: Observable
 ) -> None:
     scene = Scene().replace(

@@ -104,7 +104,7 @@ def test_the_blur_of_a_disc_has_its_spread_along_each_axis() -> None:
     assert disc.std() == pytest.approx(2.0 / 4.0, rel=1e-3)  # a diameter of 2
 
 
-def test_a_panel_in_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
+def test_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
     focused = Scene().replace(focus_distance=1.2, distance=1.2)
     assert blur_of(focused) == 0.0
     assert Defocus().bound(paper_view_of(focused), "image") == 0.0

@@ -149,7 +149,7 @@ def test_a_lens_without_coefficients_is_nothing(pose: dict[str, float], enhancem
     np.testing.assert_array_equal(forced.image, bare.image)
 
 
-def test_a_lens_with_hardly_any_distortion_pictures_the_straight_panel() -> None:
+def test_next_to_no_distortion_pictures_the_straight_panel() -> None:
     scene = bent(radial_k1=1e-12, roll=0.4, distance=0.9)
     bare = occ.render(scene, tolerance=float("inf"))
     np.testing.assert_array_equal(occ.render(scene, force=ONLY).image, bare.image)
@@ -165,7 +165,7 @@ def test_a_lens_with_hardly_any_distortion_pictures_the_straight_panel() -> None
     ],
 )
 @pytest.mark.parametrize("distance", [0.05, 1.2, 50.0])
-def test_a_lens_that_folds_the_picture_is_refused_with_its_coefficients(
+def test_a_lens_that_folds_is_refused_with_its_coefficients(
     lens: dict[str, float], distance: float
 ) -> None:
     with pytest.raises(occ.ProjectionError) as refusal:

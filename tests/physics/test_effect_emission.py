@@ -65,7 +65,7 @@ def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
     assert own == pytest.approx((bright - dark) * math.cos(angle) ** (order - 1), rel=1e-5)
 
 
-def test_a_level_panel_is_darker_off_axis_by_the_cosine_of_the_ray() -> None:
+def test_a_level_panel_darkens_off_axis_by_the_rays_cosine() -> None:
     scene = steady()
     dark, bright = luminance_levels(scene)
     own = pictured_luminance(scene) - dark
@@ -88,7 +88,7 @@ def test_angles_of_yaw_and_ray_add_up(degrees: float) -> None:
         assert own[50, column] == pytest.approx(expected, rel=1e-5)
 
 
-def test_each_corner_is_seen_at_the_angle_between_its_normal_and_its_ray() -> None:
+def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
     scene = steady(yaw=0.4, pitch=-0.3, roll=0.5, distance=3.0, offset_x=0.2, panel_width=1.0)
     pose = scene.pose
 

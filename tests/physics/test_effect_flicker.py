@@ -81,7 +81,7 @@ def test_no_start_time_loses_the_phase(start: float) -> None:
         assert shares[column] == pytest.approx(integrated_share(scene, column), rel=0, abs=1e-13)
 
 
-def test_the_crest_is_at_phase_zero_and_the_trough_half_a_cycle_later() -> None:
+def test_the_crest_is_at_phase_0_and_the_trough_half_a_cycle_on() -> None:
     # 128 Hz: the columns, 1/32 of a cycle apart, start at exact binary times.
     scene = flickering(
         flicker_frequency=128.0, readout_time=2.0**-12, exposure_time=1e-9, columns=32

@@ -76,7 +76,7 @@ def test_at_a_high_iso_speed_the_pixel_value_ends_first() -> None:
 
 
 @pytest.mark.parametrize("iso", [5.0, 20.0, 40.0])
-def test_leaving_the_full_well_out_changes_no_more_than_its_bound(iso: float) -> None:
+def test_leaving_out_the_full_well_changes_at_most_its_bound(iso: float) -> None:
     scene = overexposed(iso=iso)
     change = occ.render(scene, tolerance=0, force=ONLY).profile - occ.column_profile(scene)
     bound = FullWell().bound(paper_view_of(scene), "profile")

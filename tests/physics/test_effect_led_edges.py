@@ -73,9 +73,7 @@ def test_edged_light_is_that_of_exact_arithmetic(edge: float, exposure: float) -
 
 @pytest.mark.parametrize("exposure", [0.01, 1.0, 3.3, 100.0])
 @pytest.mark.parametrize("edge", [0.05, 1.0, 1.9, 31.0])
-def test_edged_light_is_the_sharp_light_averaged_over_the_edge_time(
-    edge: float, exposure: float
-) -> None:
+def test_edged_light_is_sharp_light_averaged_over_the_edge(edge: float, exposure: float) -> None:
     scene = edged_scene(edge, exposure, columns=20)
     samples = round(400 + 20 * edge)
     before = (np.arange(samples) + 0.5) / samples * scene.transmitter.edge_time

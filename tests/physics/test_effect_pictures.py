@@ -57,7 +57,7 @@ def test_without_a_limit_the_picture_is_the_papers(scene: Scene, enhancement: st
     np.testing.assert_array_equal(frame.image, expected)
 
 
-def test_at_no_tolerance_every_effect_that_is_not_nothing_is_there(scene: Scene) -> None:
+def test_at_zero_tolerance_every_effect_present_is_included(scene: Scene) -> None:
     assert occ.render(whole(scene), tolerance=0).plan.included == NAMES
     assert set(occ.render(scene, tolerance=0).plan.included) == set(NOISE)
     for one, value in ALL.items():
@@ -80,9 +80,7 @@ def test_an_effect_is_switched_on_and_off_by_hand(scene: Scene, name: str) -> No
 
 
 @pytest.mark.parametrize("name", sorted(set(NAMES) - set(NOISE)))
-def test_an_effect_that_the_scene_has_none_of_changes_nothing_by_hand(
-    scene: Scene, name: str
-) -> None:
+def test_an_absent_effect_changes_nothing_when_switched_on(scene: Scene, name: str) -> None:
     bare = occ.render(scene, tolerance=math.inf)
     forced = occ.render(scene, tolerance=math.inf, force={name: True})
     assert forced.plan.included == (name,)
@@ -131,7 +129,7 @@ def test_the_profile_is_the_mean_of_the_panels_pixels(
     "changes",
     [{"illuminance": 0.0}, {"iso": 6400.0, "luminance": 370.0}],
 )
-def test_the_profile_is_the_mean_of_pixels_that_noise_drives_to_black_or_white(
+def test_the_profile_is_the_mean_of_noisy_clipped_pixels(
     scene: Scene, changes: dict[str, float]
 ) -> None:
     frame = occ.render(scene.replace(distance=0.05, **changes), tolerance=0)

@@ -112,7 +112,7 @@ def test_more_light_has_less_relative_noise() -> None:
     assert (np.diff(relative) < 0).all()
 
 
-def test_a_larger_pixel_has_less_relative_noise_at_the_same_picture() -> None:
+def test_a_larger_pixel_has_less_noise_at_the_same_level() -> None:
     scene = steady(100.0, iso=400.0)
     small, large = (
         occ.render(scene.replace(pixel_pitch=pitch), force=SHOT).image for pitch in (1e-6, 3e-6)
@@ -163,7 +163,7 @@ def test_the_noise_of_the_light_is_another_in_every_picture() -> None:
     assert np.corrcoef(first.ravel(), second.ravel())[0, 1] == pytest.approx(0, abs=0.04)
 
 
-def test_averaged_pictures_keep_the_fixed_pattern_and_lose_the_rest() -> None:
+def test_averaged_pictures_keep_only_the_fixed_pattern() -> None:
     scene = steady(500.0, gain_variation=0.03)
     force = SHOT | {"fixed-pattern": True}
     stack = [occ.render(scene, force=force, seed=seed).image / 1.0 for seed in range(40)]

@@ -25,7 +25,7 @@ HIGH_CONFIDENCE = 0.5
 
 
 @pytest.mark.parametrize("frequency", range(4000, 40001, 2000))
-def test_every_code_is_read_at_136_us_from_4_to_40_khz_with_a_grey_level_of_noise(
+def test_every_noisy_code_is_read_at_136_us_from_4_to_40_khz(
     frequency: int,
 ) -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=frequency, distance=1.0)
@@ -34,7 +34,7 @@ def test_every_code_is_read_at_136_us_from_4_to_40_khz_with_a_grey_level_of_nois
         assert success_rate(scene.replace(code=code), 2, "matched", seed=code) == 100.0
 
 
-def test_it_reads_where_one_packet_fits_and_says_so_where_none_does() -> None:
+def test_it_reads_a_single_packet_and_says_where_none_fits() -> None:
     scene = occ.load_preset("phone-136us").replace(distance=0.6)
     # 3456 columns of 8 us: at 1 kHz they last 27.6 chips, a packet has 24.
     assert success_rate(scene.replace(switching_frequency=1e3), 5, "matched") == 100.0
@@ -129,7 +129,7 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
 
 
 @pytest.mark.parametrize("exposure", _exposures(16))
-def test_no_code_of_sixteen_bits_that_correlates_better_is_left_out(exposure: Fraction) -> None:
+def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> None:
     rng = np.random.default_rng(16)
     templates = code_templates(16, exposure)
     sample = rng.integers(0, 2**16, 2000)
@@ -177,7 +177,7 @@ def test_codes_of_sixteen_bits_take_little_memory() -> None:
     assert peak < 2**23  # as numbers, the packets of all codes take 19 MB
 
 
-def test_confidence_is_near_one_for_a_clear_picture_and_near_none_for_noise() -> None:
+def test_confidence_is_near_1_when_clear_and_near_0_for_noise() -> None:
     scene = occ.load_preset("phone-136us")
     clear = occ.decode(occ.render(scene).image, scene, "matched")
     assert clear.confidence is not None
@@ -239,7 +239,7 @@ def test_pictures_without_a_code_give_a_sentence(image: np.ndarray) -> None:
 
 
 @pytest.mark.parametrize("packets", [1, 2, 1000])
-def test_an_exposure_of_whole_packets_is_told_from_a_picture_that_is_too_bad(packets: int) -> None:
+def test_an_exposure_of_whole_packets_differs_from_a_bad_picture(packets: int) -> None:
     scene = Scene().replace(switching_frequency=8192.0, exposure_time=packets * 24 / 8192)
     result = occ.decode(np.random.default_rng(1).normal(100, 9, 3000), scene, "matched")
     assert result.failure is not None

@@ -54,9 +54,7 @@ def test_phone_at_68_us_reads_everything_from_4_to_20_khz() -> None:
 
 
 @pytest.mark.parametrize(("preset", "last"), [("phone-136us", 14e3), ("tablet-122us", 16e3)])
-def test_twice_the_exposure_is_read_past_the_period_up_to_the_papers_last_frequency(
-    preset: str, last: float
-) -> None:
+def test_twice_the_exposure_is_read_up_to_the_papers_limit(preset: str, last: float) -> None:
     exposure = occ.load_preset(preset).camera.exposure_time
     assert exposure > 1 / last
     assert set(rates(preset, 4e3, last)) == {100.0}
@@ -64,9 +62,7 @@ def test_twice_the_exposure_is_read_past_the_period_up_to_the_papers_last_freque
 
 
 @pytest.mark.parametrize(("preset", "paper"), [("phone-136us", 14e3), ("tablet-122us", 16e3)])
-def test_detection_ceases_one_step_after_the_frequency_that_the_paper_names(
-    preset: str, paper: float
-) -> None:
+def test_detection_ends_one_step_after_the_papers_frequency(preset: str, paper: float) -> None:
     assert ceases_at(grid(preset), "threshold") == paper + 2e3
 
 

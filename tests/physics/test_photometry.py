@@ -60,9 +60,7 @@ def test_profile_is_the_weighted_mean_of_equation_3() -> None:
 
 
 @given(gamma=st.floats(1.0, 4.0), code=st.integers(0, 1023))
-def test_averaging_light_is_never_darker_than_averaging_pixel_values(
-    gamma: float, code: int
-) -> None:
+def test_averaging_light_is_never_darker_than_averaging_values(gamma: float, code: int) -> None:
     scene = Scene().replace(gamma=gamma, code=code, columns=200)
     by_light = occ.column_profile(scene.replace(averaging="light"))
     by_value = occ.column_profile(scene.replace(averaging="pixel-value"))
@@ -72,7 +70,7 @@ def test_averaging_light_is_never_darker_than_averaging_pixel_values(
         np.testing.assert_allclose(by_light, by_value, rtol=1e-12)
 
 
-def test_both_ways_of_averaging_agree_where_the_light_does_not_change() -> None:
+def test_both_ways_of_averaging_agree_in_constant_light() -> None:
     scene = Scene().replace(exposure_time=10e-6, switching_frequency=1e3)
     steady = (lit_fraction(scene) == 0.0) | (lit_fraction(scene) == 1.0)
     assert steady.mean() > 0.5

@@ -60,7 +60,7 @@ def test_a_camera_without_distortion_never_runs_that_stage(monkeypatch: pytest.M
     assert "defocus" in timings
 
 
-def test_an_edge_of_a_microsecond_counts_at_100_khz_and_not_at_2_khz() -> None:
+def test_an_edge_of_1_us_counts_at_100_khz_and_not_at_2_khz() -> None:
     # The same ramp touches one column in six at 2 kHz and all of them at 100 kHz, where the
     # stripes are fainter, too.
     scene = occ.load_preset("phone-136us").replace(edge_time=1e-6, distance=0.6)
@@ -70,7 +70,7 @@ def test_an_edge_of_a_microsecond_counts_at_100_khz_and_not_at_2_khz() -> None:
 
 
 @pytest.mark.parametrize("preset", ["phone-68us", "phone-136us", "tablet-61us", "tablet-122us"])
-def test_the_papers_scenes_call_for_nothing_but_the_sensors_noise(preset: str) -> None:
+def test_the_papers_scenes_need_sensor_noise_alone(preset: str) -> None:
     scene = occ.load_preset(preset)
     assert set(occ.plan(scene, 0.0).included) == {"fixed-pattern", "sensor-noise"}
     assert occ.plan(scene, 0.5, "profile").included == ()
@@ -79,7 +79,7 @@ def test_the_papers_scenes_call_for_nothing_but_the_sensors_noise(preset: str) -
 @pytest.mark.parametrize("light", [{}, {"edge_time": 2e-6, "flicker_depth": 0.3}])
 @pytest.mark.parametrize("decoder", DECODERS)
 @pytest.mark.parametrize("exposure", ["phone-68us", "phone-136us"])
-def test_profile_path_and_image_path_decode_alike_on_the_whole_grid(
+def test_profile_and_image_paths_decode_alike_on_the_whole_grid(
     exposure: str, decoder: str, light: dict[str, float]
 ) -> None:
     random = np.random.default_rng(1)

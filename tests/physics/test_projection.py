@@ -25,7 +25,7 @@ def test_a_level_panel_is_as_wide_as_similar_triangles_say() -> None:
     np.testing.assert_allclose(corners.mean(axis=0), centre)
 
 
-def test_26_mm_equivalent_frames_the_diagonal_that_photographers_know() -> None:
+def test_a_26_mm_equivalent_lens_frames_the_known_diagonal() -> None:
     camera = occ.load_preset("phone-136us").camera
     angle = 2 * math.atan(math.hypot(camera.rows, camera.columns) / 2 / camera.focal_length_pixels)
     assert math.degrees(angle) == pytest.approx(79.5, abs=0.1)
@@ -45,7 +45,7 @@ def test_an_offset_moves_the_panel_by_similar_triangles() -> None:
     np.testing.assert_allclose(shift, np.tile([focal * 0.25, -focal * 0.125], (4, 1)))
 
 
-def test_a_yawed_panel_shows_the_perspective_of_its_near_and_far_edge() -> None:
+def test_a_yawed_panel_has_the_perspective_of_its_edges() -> None:
     yaw, distance, width = math.radians(30), 1.5, 0.6
     scene = Scene().replace(yaw=yaw, distance=distance, panel_width=width)
     focal = scene.camera.focal_length_pixels
@@ -62,7 +62,7 @@ def test_a_roll_of_a_quarter_turn_exchanges_width_and_height() -> None:
     np.testing.assert_allclose(np.ptp(occ.panel_corners(scene), axis=0), upright[::-1])
 
 
-def test_a_panel_that_reaches_behind_the_camera_is_refused_with_the_distance() -> None:
+def test_a_panel_reaching_behind_the_camera_is_refused() -> None:
     scene = Scene().replace(distance=0.2, yaw=math.radians(80))
     with pytest.raises(occ.ProjectionError, match=r"200 mm|0\.2 m"):
         occ.render(scene)
@@ -102,7 +102,7 @@ def test_corners_a_million_images_away_still_give_whole_rows() -> None:
 
 
 @pytest.mark.parametrize("roll", [0.0, 0.3, -1.0])
-def test_inside_the_panel_every_row_carries_the_profile_and_outside_is_dark(roll: float) -> None:
+def test_panel_rows_carry_the_profile_and_outside_is_dark(roll: float) -> None:
     scene = Scene().replace(rows=300, columns=200, distance=1.5, roll=roll)
     frame = occ.render(scene, tolerance=np.inf)
     first, last = row_spans(frame.corners, 300, 200)
@@ -115,7 +115,7 @@ def test_inside_the_panel_every_row_carries_the_profile_and_outside_is_dark(roll
         assert (frame.image[row, b:] == surroundings).all()
 
 
-def test_surroundings_have_the_pixel_value_of_the_panel_when_dark() -> None:
+def test_surroundings_have_the_dark_panels_pixel_value() -> None:
     scene = Scene().replace(rows=100, columns=100, distance=5.0, illuminance=3000.0)
     frame = occ.render(scene.replace(enhancement="none"), tolerance=np.inf)
     dark = occ.column_profile(scene.replace(pattern="0"))

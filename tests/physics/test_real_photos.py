@@ -60,7 +60,7 @@ def test_the_frequency_comes_out_where_the_readout_is_known(led: occ.Photo) -> N
     assert match.switching_frequency == pytest.approx(2e3, rel=0.003)
 
 
-def test_the_square_wave_is_read_where_it_is_not_told(
+def test_the_square_wave_is_read_where_it_is_not_given(
     led: occ.Photo, square_wave: occ.Match
 ) -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
@@ -69,7 +69,7 @@ def test_the_square_wave_is_read_where_it_is_not_told(
     assert match.exposure_time == pytest.approx(square_wave.exposure_time, rel=0.05)
 
 
-def test_all_chips_are_read_without_being_told(stripes: occ.Match) -> None:
+def test_all_chips_are_read_without_being_given(stripes: occ.Match) -> None:
     assert stripes.pattern_was_read
     assert len(stripes.pattern) == len(STRIPES) == 21
     assert stripes.pattern in STRIPES + STRIPES

@@ -55,7 +55,7 @@ def test_a_sample_is_matched_by_its_scene(name: str) -> None:
     assert match.correlation > 0.98
 
 
-def test_the_code_of_a_sample_is_read_without_being_told() -> None:
+def test_the_code_of_a_sample_is_read_without_being_given() -> None:
     match = occ.match_photo(
         occ.load_photo(FOLDER / "packets-6khz.jpg"),
         occ.load_preset("phone-136us").replace(switching_frequency=6e3),

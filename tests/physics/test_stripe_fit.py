@@ -57,9 +57,7 @@ def test_gamma_comes_back_where_it_is_asked_for() -> None:
 
 
 @given(exposure=st.floats(0.05, 0.95), turns=st.integers(1, 3))
-def test_a_square_wave_looks_the_same_at_exposures_that_add_up_to_its_periods(
-    exposure: float, turns: int
-) -> None:
+def test_exposures_that_add_up_to_whole_periods_look_alike(exposure: float, turns: int) -> None:
     """Its moving average is a trapezoid whose ramps last the exposure up to the next period."""
     waveform = Waveform(np.array([1, 0], dtype=np.uint8))
     one = Timing(0.07, exposure, 0.3, 2.22).lit_fraction(waveform, 500)
@@ -83,7 +81,7 @@ IN_DAYLIGHT = 12_300.0
 """Lux at which the dark panel is at four fifths of the lit one's pixel value."""
 
 
-def test_the_exposures_that_explain_a_square_wave_as_well_are_named() -> None:
+def test_all_exposures_that_explain_a_square_wave_are_named() -> None:
     photo, scene = square_wave_photo(IN_DAYLIGHT)
     match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
     # Eight bits hold little of so faint stripes.

@@ -13,7 +13,7 @@ def running_integral(phases: Phases) -> np.ndarray:
     return lit_before[phases.chip] + CHIPS[phases.chip % len(CHIPS)] * phases.fraction
 
 
-def test_light_within_a_window_is_the_difference_of_two_running_integrals() -> None:
+def test_a_windows_light_is_the_difference_of_two_integrals() -> None:
     waveform = Waveform(CHIPS)
     starts = Phases(np.array([0, 0, 1, 2, 3]), np.array([0.0, 0.25, 0.5, 0.75, 0.125]))
     ends = Phases(starts.chip + 1, starts.fraction)

@@ -27,7 +27,7 @@ def test_pip_runs_only_for_extras_not_yet_there(start: ModuleType, visible: list
 
 
 @pytest.mark.usefixtures("ready_venv")
-def test_a_changed_project_is_installed_again_with_the_extras_it_had(
+def test_a_changed_project_is_installed_with_the_same_extras(
     start: ModuleType, visible: list[str]
 ) -> None:
     start.set_up("offscreen", ["test"])
@@ -36,7 +36,7 @@ def test_a_changed_project_is_installed_again_with_the_extras_it_had(
     assert [line.split()[-1] for line in visible] == [".[test]", ".[test]"]
 
 
-def test_a_stamp_of_another_project_python_or_folder_does_not_serve(
+def test_a_stamp_of_another_installation_does_not_serve(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     stamp = start.wanted_stamp("3.12", ["test"])

@@ -72,13 +72,13 @@ def test_the_script_keeps_to_syntax_that_an_old_python_reads(script: Path) -> No
         (["picture.png"], {}, ""),
     ],
 )
-def test_qt_platform_follows_arguments_then_qts_variable_then_displays(
+def test_the_platform_follows_arguments_then_qt_then_displays(
     start: ModuleType, arguments: list[str], environment: dict[str, str], platform: str
 ) -> None:
     assert start.qt_platform(arguments, environment) == platform
 
 
-def test_without_display_the_set_up_is_done_then_a_picture_is_offered(
+def test_without_a_display_the_set_up_runs_and_offers_a_picture(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for variable in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):

@@ -30,7 +30,7 @@ def script_of(start: ModuleType) -> Path:
 
 
 @pytest.mark.usefixtures("echoing_venv")
-def test_a_second_start_installs_nothing_and_prints_nothing_of_its_own(
+def test_a_second_start_installs_and_prints_nothing_of_its_own(
     start: ModuleType,
     run_captured: Callable[..., subprocess.CompletedProcess[str]],
     tmp_path: Path,
@@ -52,7 +52,7 @@ def test_what_the_set_up_runs_speaks_on_standard_error(
     assert capfd.readouterr() == ("", "from pip\n")
 
 
-def test_the_application_takes_the_place_of_the_script_with_its_arguments(
+def test_the_application_replaces_the_script_with_its_arguments(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     became: list[Sequence[str]] = []
@@ -101,7 +101,7 @@ def test_every_check_runs_and_any_failure_counts(
         assert f"words of {start.PROGRAMS / check.split()[0]}" in lines
 
 
-def test_a_check_beside_the_tests_keeps_its_output_until_they_have_ended(
+def test_other_checks_keep_their_output_until_the_tests_end(
     start: ModuleType,
     put_program: Callable[[Path, str], None],
     capfd: pytest.CaptureFixture[str],
@@ -132,7 +132,7 @@ def test_the_tests_use_every_core_that_this_process_may_use(
 
 
 @pytest.mark.parametrize(("given", "used"), [(None, "offscreen"), ("minimal", "minimal")])
-def test_the_checks_run_without_a_display_unless_told_otherwise(
+def test_the_checks_run_without_a_display_by_default(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, given: str | None, used: str
 ) -> None:
     monkeypatch.setenv("QT_QPA_PLATFORM", given or "")
@@ -192,7 +192,7 @@ def test_a_start_waits_while_another_sets_up_and_then_goes_on(
     assert output == "-m occ_gui --version\n"
 
 
-def test_ci_runs_the_checks_from_the_project_and_passes_their_exit_code_on(
+def test_ci_runs_the_checks_and_passes_their_exit_code_on(
     project_folder: Path,
     put_program: Callable[[Path, str], None],
     run_captured: Callable[..., subprocess.CompletedProcess[str]],

@@ -74,7 +74,7 @@ def test_a_font_in_the_home_folder_counts(
 
 
 @pytest.mark.parametrize("making_venv", [True, False])
-def test_a_python_without_ensurepip_needs_its_venv_package_only_to_make_a_venv(
+def test_only_making_a_venv_needs_pythons_venv_package(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, making_venv: bool
 ) -> None:
     monkeypatch.setattr(start, "loads", lambda library: True)
@@ -95,7 +95,7 @@ def test_a_python_without_ensurepip_needs_its_venv_package_only_to_make_a_venv(
         (1000, ["sudo"], 1, False, None),
     ],
 )
-def test_sudo_is_used_when_it_asks_nothing_or_there_is_a_terminal_to_ask_on(
+def test_sudo_is_used_without_a_question_or_with_a_terminal(
     start: ModuleType,
     monkeypatch: pytest.MonkeyPatch,
     user: int,
@@ -138,7 +138,7 @@ def test_only_missing_packages_are_installed_after_a_fresh_list(
 
 
 @pytest.mark.parametrize(("programs", "sudo"), [(["apt-get"], ""), (["apt-get", "sudo"], "sudo ")])
-def test_without_the_right_to_install_the_line_to_run_by_hand_is_named(
+def test_without_rights_the_line_to_run_by_hand_is_named(
     start: ModuleType,
     monkeypatch: pytest.MonkeyPatch,
     visible: list[str],
@@ -166,7 +166,7 @@ def test_without_apt_get_the_missing_libraries_are_named(
     assert visible == []
 
 
-def test_a_failed_update_of_the_list_does_not_stop_the_installation(
+def test_a_failed_update_of_the_list_still_installs(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     on_path(monkeypatch, "apt-get")

@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-
         ("echo 3 11; exit 1", ""),
     ],
 )
-def test_a_venv_serves_when_its_python_answers_with_a_supported_version(
+def test_a_venv_serves_when_its_python_is_supported(
     start: ModuleType, put_program: Callable[[Path, str], None], body: str, version: str
 ) -> None:
     put_program(start.PYTHON, body)
@@ -77,7 +77,7 @@ def test_a_venv_without_pip_does_not_serve(start: ModuleType) -> None:
     assert start.venv_version() == ""
 
 
-def test_making_a_venv_replaces_what_was_there_and_marks_it_finished(
+def test_making_a_venv_replaces_the_old_and_marks_it_finished(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     start.VENV.mkdir()
@@ -103,7 +103,7 @@ def test_a_failed_making_says_so_and_leaves_the_venv_marked(
     assert start.UNFINISHED.exists()
 
 
-def test_a_link_in_place_of_the_venv_is_replaced_and_its_target_kept(
+def test_a_link_in_the_venvs_place_is_replaced_not_its_target(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     kept = tmp_path / "target" / "kept"

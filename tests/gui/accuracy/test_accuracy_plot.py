@@ -40,7 +40,7 @@ def names(plot: AccuracyPlot) -> list[str]:
     return [p.name for scatter in plot.scatters.values() for p in scatter.data["data"]]
 
 
-def test_each_point_stands_at_its_time_and_error_with_its_parts_marker(plot: AccuracyPlot) -> None:
+def test_each_point_is_at_its_time_and_error_with_its_marker(plot: AccuracyPlot) -> None:
     measure(plot)
     for part, scatter in plot.scatters.items():
         of_part = [point for point in POINTS if point.part == part]
@@ -58,7 +58,7 @@ def test_the_settings_at_hand_are_ringed(plot: AccuracyPlot) -> None:
     assert [10**y for y in ys] == pytest.approx([LEAST_ERROR, 0.5])
 
 
-def test_all_points_are_in_view_and_the_way_there_is_told(plot: AccuracyPlot) -> None:
+def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> None:
     measure(plot, POINTS[:3])
     assert plot.title.toolTip().endswith("measuring… 3 of 7")
     measure(plot)
@@ -92,13 +92,13 @@ def test_points_measured_before_the_scene_moved_are_called_so(plot: AccuracyPlot
     assert plot.title.toolTip().endswith(": of the previous scene")
 
 
-def test_why_nothing_was_measured_is_said(plot: AccuracyPlot) -> None:
+def test_why_nothing_was_measured_is_shown(plot: AccuracyPlot) -> None:
     plot.show_study_begun()
     plot.show_study_failed("The panel is behind the camera.")
     assert plot.title.toolTip().endswith("The panel is behind the camera.")
 
 
-def test_the_steps_of_the_effects_are_numbered_and_named_where_there_is_room(
+def test_the_effects_steps_are_numbered_and_named_where_they_fit(
     plot: AccuracyPlot,
 ) -> None:
     measure(plot)

@@ -31,7 +31,7 @@ def choose(qtbot: QtBot, application: Application, effect: str, key: Qt.Key) -> 
     qtbot.keyClick(application.accuracy.table.switches[effect], key)
 
 
-def test_an_effect_that_a_slider_calls_for_is_marked_and_said_with_its_cost(
+def test_an_effect_included_by_a_slider_is_marked_with_its_cost(
     in_front: Application, user: User
 ) -> None:
     assert not row(in_front, "led-edges").included
@@ -103,7 +103,7 @@ def test_observable_and_noise_are_chosen(qtbot: QtBot, in_front: Application, us
 
 
 @pytest.mark.parametrize("text", ["-1", "little"])
-def test_a_wrong_tolerance_is_refused_with_a_sentence_and_the_field_shows_what_holds(
+def test_a_wrong_tolerance_is_refused_and_the_field_restored(
     qtbot: QtBot, in_front: Application, user: User, text: str
 ) -> None:
     field = in_front.accuracy.tolerance.field
@@ -116,7 +116,7 @@ def test_a_wrong_tolerance_is_refused_with_a_sentence_and_the_field_shows_what_h
     assert field.lineEdit().text() == "0.5 levels"
 
 
-def test_the_frames_time_and_the_effects_share_are_told(in_front: Application) -> None:
+def test_the_frames_time_and_the_effects_share_are_shown(in_front: Application) -> None:
     assert in_front.accuracy.summary.toolTip().startswith("Frame ")
     assert "of which effects" in in_front.accuracy.summary.toolTip()
 
@@ -127,7 +127,7 @@ def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Applicatio
     assert all(control.accessibleName() and control.toolTip() for control in controls)
 
 
-def test_in_front_and_at_rest_the_study_is_made_and_ends_when_the_scene_moves(
+def test_the_study_runs_in_front_and_ends_when_the_scene_changes(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(controller, "IDLE_MS", 1)

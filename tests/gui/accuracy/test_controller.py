@@ -107,9 +107,7 @@ def test_nothing_is_measured_while_nobody_looks(bench: Bench, qtbot: QtBot) -> N
 
 
 @pytest.mark.parametrize("what", ["scene", "settings"])
-def test_a_change_cancels_the_study_at_once_and_the_next_is_of_what_is_now(
-    bench: Bench, what: str
-) -> None:
+def test_a_change_cancels_the_study_and_the_next_is_of_it(bench: Bench, what: str) -> None:
     bench.controller.set_seen(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
@@ -139,7 +137,7 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench) -> No
     assert bench.pane.received[-1] == "finished"
 
 
-def test_what_has_been_measured_is_not_measured_again_when_shown_again(bench: Bench) -> None:
+def test_measured_points_are_not_measured_again_when_shown_again(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.allow(TOTAL)
     bench.wait_for("finished")

@@ -55,7 +55,7 @@ def test_a_row_says_bound_decision_time_and_reason(table: EffectTable, frame: Fr
     assert cell(table, "fixed-pattern", TIME) == "0"
 
 
-def test_what_the_scene_has_none_of_is_grey_and_out_and_costs_nothing(table: EffectTable) -> None:
+def test_an_absent_effect_is_grey_excluded_and_costs_nothing(table: EffectTable) -> None:
     assert [cell(table, "jpeg", column) for column in (BOUND, DECISION, TIME)] == [
         "none", "○ out", "",
     ]  # fmt: skip
@@ -76,9 +76,7 @@ def test_what_has_just_been_switched_is_tinted_and_called_new(
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is None
 
 
-def test_only_rows_that_differ_are_drawn_again_and_no_switch_is_made_anew(
-    table: EffectTable, frame: Frame
-) -> None:
+def test_only_rows_that_differ_are_drawn_again(table: EffectTable, frame: Frame) -> None:
     drawn: list[int] = []
     table.effects.dataChanged.connect(lambda first, _: drawn.append(first.row()))
     switches = dict(table.switches)

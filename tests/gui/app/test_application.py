@@ -34,7 +34,7 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture(
     assert not np.array_equal(grey_picture(application.image), before)
 
 
-def test_a_number_typed_arrives_in_the_profile_and_the_band_models_sentence(
+def test_a_typed_number_reaches_the_profile_and_the_band_model(
     application: Application, user: User
 ) -> None:
     application.settings.set_tolerance(math.inf)
@@ -72,7 +72,7 @@ def test_a_drag_of_a_slider_is_undone_as_one_step(
     assert application.store.scene == small_scene
 
 
-def test_a_preset_is_loaded_shown_and_no_longer_shown_once_edited(
+def test_a_loaded_preset_is_shown_until_the_scene_is_edited(
     application: Application, user: User
 ) -> None:
     preset = application.controls.preset
@@ -146,7 +146,7 @@ def test_nothing_of_an_application_outlives_it(qtbot: QtBot, small_scene: Scene)
     assert [widget for widget in QApplication.topLevelWidgets() if widget not in before] == []
 
 
-def test_closing_while_a_simulation_runs_lets_nothing_arrive_in_the_closed_window(
+def test_closing_during_a_simulation_delivers_nothing_afterwards(
     application: Application,
 ) -> None:
     arrived: list[int] = []

@@ -27,7 +27,7 @@ def test_an_open_photo_stands_in_the_title_until_it_is_closed(
     assert not close.isEnabled()
 
 
-def test_the_menu_turns_the_photo_and_lays_it_over_the_simulation(
+def test_the_menu_turns_the_photo_and_overlays_the_simulation(
     application: Application, user: User, photo_file: Path
 ) -> None:
     application.open_photo(photo_file)
@@ -40,7 +40,7 @@ def test_the_menu_turns_the_photo_and_lays_it_over_the_simulation(
     assert not application.image.photo.isVisible()
 
 
-def test_the_photos_profile_is_drawn_beside_the_simulations_with_what_is_left(
+def test_the_photos_profile_is_drawn_beside_the_simulations(
     application: Application, user: User, photo_file: Path
 ) -> None:
     assert not application.profile.residual.isVisible()

@@ -21,7 +21,7 @@ BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
     ("name", "text", "shown"),
     [("exposure_time", "soon", 68e-6), ("distance", "-3 m", 1.2), ("bits", "3", 10)],
 )
-def test_a_bad_value_is_answered_by_a_sentence_and_the_picture_stays(
+def test_a_bad_value_gives_a_sentence_and_the_picture_stays(
     application: Application, user: User, small_scene: Scene, name: str, text: str, shown: float
 ) -> None:
     results: list[object] = []
@@ -34,7 +34,7 @@ def test_a_bad_value_is_answered_by_a_sentence_and_the_picture_stays(
     assert results == []
 
 
-def test_a_scene_without_a_picture_says_why_and_the_last_picture_stays(
+def test_a_scene_without_a_picture_says_why_and_the_last_stays(
     application: Application,
     user: User,
     grey_picture: Callable[[QWidget], NDArray[np.uint8]],
@@ -46,7 +46,7 @@ def test_a_scene_without_a_picture_says_why_and_the_last_picture_stays(
     assert np.array_equal(grey_picture(application.image), before)
 
 
-def test_the_sentence_goes_as_soon_as_the_scene_has_a_picture_again(
+def test_the_sentence_goes_once_the_scene_has_a_picture_again(
     application: Application, user: User
 ) -> None:
     application.store.change(**BEHIND_THE_CAMERA)
@@ -55,7 +55,7 @@ def test_the_sentence_goes_as_soon_as_the_scene_has_a_picture_again(
     assert user.message == ""
 
 
-def test_a_scene_without_a_picture_that_was_passed_through_leaves_no_sentence(
+def test_an_intermediate_scene_without_a_picture_leaves_no_text(
     application: Application, user: User
 ) -> None:
     application.store.change(**BEHIND_THE_CAMERA)
@@ -64,9 +64,7 @@ def test_a_scene_without_a_picture_that_was_passed_through_leaves_no_sentence(
     assert user.message == ""
 
 
-def test_a_refusal_is_forgotten_with_the_next_change_however_it_is_made(
-    application: Application, user: User
-) -> None:
+def test_a_refusal_disappears_with_the_next_change(application: Application, user: User) -> None:
     user.enter("distance", "-3 m")
     user.enter("distance", "2 m")
     assert user.message == ""
@@ -78,14 +76,14 @@ def test_a_refusal_is_forgotten_with_the_next_change_however_it_is_made(
     assert user.message == ""
 
 
-def test_a_refusal_is_forgotten_when_the_value_that_holds_is_typed(user: User) -> None:
+def test_a_refusal_disappears_when_the_current_value_is_typed(user: User) -> None:
     user.enter("distance", "-3 m")
     assert user.message
     user.enter("distance", "1.2 m")
     assert user.message == ""
 
 
-def test_what_was_opened_is_still_said_when_its_picture_is_there(
+def test_the_opened_file_is_named_until_after_its_picture(
     application: Application, user: User, tmp_path: Path, small_scene: Scene
 ) -> None:
     path = tmp_path / "mine.toml"

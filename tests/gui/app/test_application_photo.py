@@ -59,7 +59,7 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     assert docks["photo"].visibleRegion().isEmpty()
 
 
-def test_the_reading_of_a_photo_is_shown_with_a_way_out_until_it_has_ended(
+def test_reading_a_photo_shows_progress_and_a_cancel_button(
     application: Application, user: User, taken: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go_on = threading.Event()
@@ -86,7 +86,7 @@ def test_the_reading_of_a_photo_is_shown_with_a_way_out_until_it_has_ended(
     assert application.photo_wiring.matching.match is None
 
 
-def test_a_match_finds_the_cameras_readout_time_and_one_step_applies_it(
+def test_a_match_finds_the_readout_time_and_one_step_applies_it(
     matched: Application, user: User, small_scene: Scene
 ) -> None:
     assert matched.store.scene == small_scene
@@ -101,7 +101,7 @@ def test_a_match_finds_the_cameras_readout_time_and_one_step_applies_it(
     assert matched.store.scene == small_scene
 
 
-def test_after_applying_the_simulated_picture_lies_on_the_photo_pixel_on_pixel(
+def test_an_applied_match_lies_on_the_photo_pixel_by_pixel(
     matched: Application, user: User
 ) -> None:
     corner = matched.photo_wiring.placements.placement
@@ -127,7 +127,7 @@ def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> Non
     assert matched.profile.residual.numbers.toolTip() != told
 
 
-def test_moving_the_photo_by_hand_moves_it_in_picture_fields_and_profile_until_reset(
+def test_moving_the_photo_moves_it_in_every_pane_until_reset(
     matched: Application, user: User
 ) -> None:
     before = matched.photo_wiring.placements.placement
@@ -145,7 +145,7 @@ def test_moving_the_photo_by_hand_moves_it_in_picture_fields_and_profile_until_r
     assert matched.photo_wiring.placements.placement == before
 
 
-def test_a_photo_that_shows_no_stripes_is_answered_by_a_sentence_everywhere(
+def test_a_photo_without_stripes_gives_a_sentence_everywhere(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     path = tmp_path / "flat.png"
@@ -161,7 +161,7 @@ def test_a_photo_that_shows_no_stripes_is_answered_by_a_sentence_everywhere(
     assert user.message == ""
 
 
-def test_what_a_match_needs_is_offered_with_a_photo_and_what_uses_it_with_a_match(
+def test_match_actions_are_enabled_with_a_photo_or_a_match(
     application: Application, user: User, taken: Path
 ) -> None:
     actions = application.window.actions_by_name
@@ -190,7 +190,7 @@ def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
 
 
 @pytest.mark.photos
-def test_of_a_real_camera_that_saw_a_led_of_1_khz_the_readout_time_is_measured(
+def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
     application: Application, user: User, photos: Path
 ) -> None:
     application.open_photo(photos / "led_1khz_frame.png")

@@ -81,7 +81,7 @@ def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
     assert (tmp_path / "w.png").is_file()
 
 
-def test_a_photo_that_cannot_be_matched_is_answered_in_a_sentence(tmp_path: Path) -> None:
+def test_a_photo_that_cannot_be_matched_gives_a_sentence(tmp_path: Path) -> None:
     flat = tmp_path / "flat.png"
     Image.new("L", (100, 60), 90).save(flat)
     ended = occ_gui("--screenshot", tmp_path / "w.png", "--photo", flat, "--match")
@@ -114,7 +114,7 @@ def test_the_ways_of_showing_a_photo_are_those_of_the_window() -> None:
     assert OVERLAYS == MODES
 
 
-def test_the_first_picture_is_shown_without_importing_what_is_slow(tmp_path: Path) -> None:
+def test_the_first_picture_is_shown_without_slow_imports(tmp_path: Path) -> None:
     picture = tmp_path / "window.png"
     ended = run("-c", COLD_START, picture)
     assert (ended.returncode, ended.stderr) == (0, "")
@@ -130,7 +130,7 @@ def test_a_photo_that_is_missing_is_answered_in_a_sentence(tmp_path: Path) -> No
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_picture_that_cannot_be_written_is_answered_in_a_sentence(tmp_path: Path) -> None:
+def test_a_picture_that_cannot_be_written_gives_a_sentence(tmp_path: Path) -> None:
     ended = occ_gui("--screenshot", tmp_path)
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
@@ -199,7 +199,7 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
         assert option in told
 
 
-def test_a_scene_without_a_picture_is_answered_in_a_sentence_and_no_file(tmp_path: Path) -> None:
+def test_a_scene_without_a_picture_gives_a_sentence_and_no_file(tmp_path: Path) -> None:
     picture = tmp_path / "window.png"
     behind = ["--set", "distance=0.1m", "--set", "yaw=70deg"]
     ended = subprocess.run(
@@ -228,7 +228,7 @@ def test_without_a_display_a_screenshot_is_offered(
     "named",
     [{"QT_QPA_PLATFORM": "xcb", "DISPLAY": ":59999"}, {"QT_QPA_PLATFORM": "none such"}],
 )
-def test_a_display_that_does_not_answer_is_answered_in_a_sentence(named: dict[str, str]) -> None:
+def test_a_display_that_does_not_answer_gives_a_sentence(named: dict[str, str]) -> None:
     here = {k: v for k, v in ENVIRONMENT.items() if k not in DISPLAYS}
     ended = subprocess.run(
         [sys.executable, "-m", "occ_gui"],

@@ -21,7 +21,7 @@ from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_model.scene.scene import Scene
 
 
-def test_save_asks_for_a_file_once_and_the_title_marks_what_is_not_saved(
+def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[str] = []
@@ -152,7 +152,7 @@ def test_the_palette_jumps_to_every_parameter(application: Application, qtbot: Q
     assert focused is application.controls.main_rows()["f_number"].field
 
 
-def test_the_status_line_tells_column_row_and_level_under_the_mouse(
+def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     application: Application, qtbot: QtBot
 ) -> None:
     pane = application.image.simulation
@@ -199,7 +199,7 @@ def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> No
     assert messages == []
 
 
-def test_at_the_sliders_end_iso_stops_with_a_sentence_and_comes_back(held: Any) -> None:
+def test_iso_stops_at_its_limit_with_a_sentence_and_comes_back(held: Any) -> None:
     store, editor, messages = held
     light = product(store)
     editor.edit("exposure_time", 1e-9, new_gesture())
@@ -209,7 +209,7 @@ def test_at_the_sliders_end_iso_stops_with_a_sentence_and_comes_back(held: Any) 
     assert product(store) == pytest.approx(light, rel=1e-12)
 
 
-def test_brightness_that_is_chosen_otherwise_is_the_one_that_is_held(held: Any) -> None:
+def test_a_brightness_set_by_hand_is_the_one_that_is_held(held: Any) -> None:
     store, editor, _ = held
     editor.edit("iso", 400.0, new_gesture())
     editor.edit("exposure_time", 50e-6, new_gesture())

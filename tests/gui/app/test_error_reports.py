@@ -56,7 +56,7 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
     assert works(application, user)
 
 
-def test_an_exception_that_comes_again_and_again_is_told_of_once(reports: ErrorReports) -> None:
+def test_a_repeated_exception_is_reported_once(reports: ErrorReports) -> None:
     messages: list[str] = []
     reports.reported.connect(messages.append)
     for _ in range(50):
@@ -78,7 +78,7 @@ def test_an_exception_in_a_thread_is_a_sentence(
     assert works(application, user)
 
 
-def test_an_exception_in_the_simulation_is_a_sentence_and_the_last_picture_stays(
+def test_an_exception_in_the_simulation_keeps_the_last_picture(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = application.image.simulation.level_at(10, 10)
@@ -136,7 +136,7 @@ def test_painting_goes_on_after_a_guarded_exception(monkeypatch: pytest.MonkeyPa
     assert seen == [ZeroDivisionError]
 
 
-def test_what_was_before_takes_exceptions_again_once_the_window_is_gone(
+def test_the_previous_hook_is_restored_when_the_window_closes(
     qtbot: QtBot,
 ) -> None:
     before = (sys.excepthook, threading.excepthook)
@@ -147,7 +147,7 @@ def test_what_was_before_takes_exceptions_again_once_the_window_is_gone(
 
 
 @pytest.mark.parametrize("content", ["format = 99\n", "format = 'new'\n[camera]\nlens = 3\n"])
-def test_a_scene_file_of_a_newer_version_is_refused_and_the_scene_stays(
+def test_a_scene_file_of_a_newer_version_is_refused(
     application: Application, user: User, tmp_path: Path, content: str
 ) -> None:
     path = tmp_path / "newer.toml"
@@ -160,7 +160,7 @@ def test_a_scene_file_of_a_newer_version_is_refused_and_the_scene_stays(
     assert works(application, user)
 
 
-def test_a_disk_that_is_full_while_saving_leaves_the_old_file_and_says_so(
+def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "scene.toml"

@@ -22,7 +22,7 @@ class Cycle:
         self.freed_on.append(threading.current_thread())
 
 
-def test_a_worker_that_allocates_frees_nothing_and_the_window_does(qtbot: QtBot) -> None:
+def test_garbage_is_freed_by_the_window_and_never_by_a_worker(qtbot: QtBot) -> None:
     owner = QObject()
     collector = GarbageCollector(owner)
     Cycle.freed_on.clear()

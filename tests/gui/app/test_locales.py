@@ -91,7 +91,7 @@ def locales(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ("numbers", "point"),
     [("C", "."), ("tr_TR.UTF-8", ","), ("fa_IR.UTF-8", "."), ("ar_EG.UTF-8", ".")],
 )
-def test_the_window_starts_where_the_capital_of_i_has_a_dot_and_writes_numbers_as_anywhere(
+def test_the_window_writes_numbers_alike_in_any_locale(
     locales: Path, tmp_path: Path, numbers: str, point: str
 ) -> None:
     own = {name: value for name, value in os.environ.items() if not name.startswith(("LC_", "LAN"))}
@@ -109,7 +109,7 @@ def test_the_window_starts_where_the_capital_of_i_has_a_dot_and_writes_numbers_a
     ]  # fmt: skip
 
 
-def test_no_property_of_qt_is_set_by_a_keyword_that_begins_with_i() -> None:
+def test_no_property_of_qt_is_set_by_a_keyword_starting_with_i() -> None:
     # PySide finds the setter by the capital of its first letter, which depends on the locale.
     given = [
         f"{path.name}: {call}"

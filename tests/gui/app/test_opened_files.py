@@ -73,7 +73,7 @@ def test_what_was_opened_is_listed_at_the_next_start(
     assert listed == [[], ["mine.toml"]]
 
 
-def test_a_recent_file_that_has_gone_is_told_and_dropped(
+def test_a_missing_recent_file_is_reported_and_removed(
     application: Application, user: User, photo_file: Path
 ) -> None:
     application.open_photo(photo_file)
@@ -103,7 +103,7 @@ def test_a_dropped_photo_and_scene_are_opened(
     assert application.window.windowTitle().startswith("stripes.png")
 
 
-def test_what_was_dropped_but_is_not_shown_is_told(
+def test_dropped_files_that_are_not_shown_are_reported(
     application: Application, user: User, photo_file: Path, taken: Path
 ) -> None:
     application.window.dropped.emit([photo_file, taken])
@@ -120,7 +120,7 @@ def test_what_is_nothing_usable_is_answered_by_a_sentence(
     assert ("computer" in user.message) == (what == "nothing")
 
 
-def test_a_dropped_file_that_is_no_photo_is_answered_by_a_sentence(
+def test_a_dropped_file_that_is_no_photo_gives_a_sentence(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     path = tmp_path / "letter.txt"

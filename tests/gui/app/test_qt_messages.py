@@ -30,7 +30,7 @@ def test_a_message_keeps_its_level_and_its_words(logged: pytest.LogCaptureFixtur
     ]
 
 
-def test_what_a_platform_without_windows_says_of_every_window_is_no_warning(
+def test_a_platforms_note_on_every_window_is_no_warning(
     logged: pytest.LogCaptureFixture,
 ) -> None:
     qWarning(HARMLESS)

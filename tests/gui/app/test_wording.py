@@ -8,7 +8,7 @@ from occ_model.scene.parameters import PARAMETERS, quantity
 
 
 @pytest.mark.parametrize("name", ["switching_frequency", "iso", "f_number"])
-def test_a_value_out_of_range_is_told_by_its_label(name: str) -> None:
+def test_a_value_out_of_range_is_named_by_its_label(name: str) -> None:
     declared = quantity(name)
     with pytest.raises(ParameterError) as caught:
         declared.check(1e30)

@@ -67,9 +67,7 @@ def test_the_result_arrives_and_before_it_how_far_the_work_was(qtbot: QtBot, ben
     assert bench.failures == []
 
 
-def test_cancelled_work_ends_at_its_next_step_and_nothing_of_it_arrives(
-    qtbot: QtBot, bench: Bench
-) -> None:
+def test_cancelled_work_ends_at_its_next_step_without_a_result(qtbot: QtBot, bench: Bench) -> None:
     bench.task.start(1)
     assert bench.begun.wait(PATIENCE_S)
     bench.task.cancel()
@@ -100,7 +98,7 @@ def test_a_refusal_of_the_model_arrives_as_its_sentence(qtbot: QtBot, bench: Ben
     assert bench.results == []
 
 
-def test_a_mistake_of_ours_is_a_sentence_and_goes_to_the_log(
+def test_an_internal_error_is_a_sentence_and_is_logged(
     qtbot: QtBot, bench: Bench, caplog: pytest.LogCaptureFixture
 ) -> None:
     with caplog.at_level(logging.ERROR):

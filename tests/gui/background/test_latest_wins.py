@@ -69,7 +69,7 @@ def finish(qtbot: QtBot, bench: Bench) -> Callable[[], None]:
     return let_go_and_wait
 
 
-def test_of_a_burst_the_first_and_the_last_are_computed_and_shown(
+def test_the_first_and_last_of_a_burst_are_computed_and_shown(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
     bench.submit_and_hold(1)
@@ -97,7 +97,7 @@ def test_a_request_made_by_who_is_shown_a_result_is_computed(
     assert bench.results == ["result of first", "result of follow-up"]
 
 
-def test_work_runs_on_another_thread_and_results_arrive_on_the_windows(
+def test_work_runs_on_another_thread_and_results_on_the_windows(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
     bench.submit_and_hold(1)
@@ -124,7 +124,7 @@ def test_a_refusal_arrives_as_its_sentence(bench: Bench, finish: Callable[[], No
         (MemoryError(), "The test of the runner failed: MemoryError."),
     ],
 )
-def test_a_mistake_of_ours_arrives_as_a_sentence_and_the_runner_goes_on(
+def test_an_internal_error_is_a_sentence_and_the_runner_goes_on(
     bench: Bench,
     finish: Callable[[], None],
     mistake: Exception,
@@ -139,7 +139,7 @@ def test_a_mistake_of_ours_arrives_as_a_sentence_and_the_runner_goes_on(
     assert "Traceback" in caplog.text
 
 
-def test_the_runner_is_idle_only_when_nothing_is_at_work_or_waiting(
+def test_the_runner_is_idle_when_nothing_runs_or_waits(
     bench: Bench, qtbot: QtBot, finish: Callable[[], None]
 ) -> None:
     assert bench.runner.is_idle
@@ -153,7 +153,7 @@ def test_the_runner_is_idle_only_when_nothing_is_at_work_or_waiting(
     assert idle_after == [2]
 
 
-def test_stopping_waits_for_the_running_work_and_forgets_what_waits(bench: Bench) -> None:
+def test_stopping_waits_for_running_work_and_drops_the_rest(bench: Bench) -> None:
     bench.submit_and_hold(1)
     bench.runner.submit(2)
     release = threading.Timer(0.05, bench.go_on.set)

@@ -82,9 +82,7 @@ def test_work_runs_on_one_other_thread(bench: Bench) -> None:
     assert threading.get_ident() not in bench.threads
 
 
-def test_a_cancelled_run_ends_at_the_item_it_is_at_and_nothing_of_it_arrives(
-    bench: Bench, qtbot: QtBot
-) -> None:
+def test_a_cancelled_run_ends_at_its_current_item(bench: Bench, qtbot: QtBot) -> None:
     bench.runner.start("a")
     bench.allow()
     bench.wait_for(1)
@@ -98,7 +96,7 @@ def test_a_cancelled_run_ends_at_the_item_it_is_at_and_nothing_of_it_arrives(
     assert [made for made in bench.made if str(made).startswith("a")] == ["a 0", "a 1"]
 
 
-def test_an_item_that_was_on_its_way_when_cancelled_does_not_arrive(bench: Bench) -> None:
+def test_an_item_in_flight_when_cancelled_is_not_delivered(bench: Bench) -> None:
     bench.allow(3)
     bench.runner.start("a")
     while len(bench.made) < 3:  # without letting the window receive anything
@@ -125,7 +123,7 @@ def test_a_newer_start_cancels_the_older(bench: Bench) -> None:
         ("mistake", "The test of the runner failed: RuntimeError: out of luck."),
     ],
 )
-def test_an_error_arrives_as_a_sentence_after_the_items_before_it(
+def test_an_error_is_a_sentence_after_the_items_before_it(
     bench: Bench, request_: str, sentence: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     bench.allow(2)
@@ -146,7 +144,7 @@ def test_an_error_of_a_cancelled_run_does_not_arrive(bench: Bench) -> None:
     assert bench.ends == ["finished"]
 
 
-def test_stopping_waits_for_the_item_at_work_and_nothing_arrives_any_more(bench: Bench) -> None:
+def test_stopping_waits_for_the_item_and_delivers_nothing(bench: Bench) -> None:
     bench.runner.start("a")
     assert bench.at_work.wait(PATIENCE_S)
     release = threading.Timer(0.05, bench.allow)

@@ -57,9 +57,7 @@ def test_wrong_places_are_those_received_otherwise_than_sent(
 
 
 @pytest.mark.parametrize("bit", [0, 1])
-def test_a_wrong_bit_differs_from_a_right_one_of_the_same_value_in_grey_print(
-    picture: Picture, bit: int
-) -> None:
+def test_a_wrong_bit_differs_from_a_right_one_in_grey_print(picture: Picture, bit: int) -> None:
     right = picture([bit], [bit])
     wrong = picture([1 - bit], [bit])
     below = slice(right.shape[0] // 2, None)  # the row of the received bits
@@ -75,9 +73,7 @@ def test_a_right_bit_looks_as_it_was_sent(picture: Picture, bit: int) -> None:
 
 
 @pytest.mark.parametrize("bit", [0, 1])
-def test_what_was_received_does_not_change_how_the_sent_bits_look(
-    picture: Picture, bit: int
-) -> None:
+def test_received_bits_do_not_change_how_the_sent_ones_look(picture: Picture, bit: int) -> None:
     right, wrong, missing = (picture([bit], received) for received in ([bit], [1 - bit], []))
     above = slice(0, right.shape[0] // 2)
     assert np.array_equal(right[above], wrong[above])

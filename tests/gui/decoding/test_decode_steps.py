@@ -63,7 +63,7 @@ def test_the_signal_and_its_threshold_are_drawn(signal_plot: SignalPlot, paper: 
     assert signal_plot.threshold.value() == decoded.threshold
 
 
-def test_every_chip_that_is_one_lies_under_columns_above_the_threshold(
+def test_every_one_chip_lies_under_columns_above_the_threshold(
     signal_plot: SignalPlot, paper: Snapshot
 ) -> None:
     decoded = paper.decoded
@@ -102,7 +102,7 @@ def test_the_level_axis_has_no_numbers_where_only_the_chips_lie(signal_plot: Sig
     assert all(float(text) == value for value, text in texts.items() if value >= 0)
 
 
-def test_a_decoder_that_folds_shows_the_folded_signal_beside_its_model(
+def test_a_folding_decoder_shows_the_folded_signal_and_its_model(
     signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
 ) -> None:
     signal_plot.show_result(paper.decoded, paper.packet_columns)

@@ -28,7 +28,7 @@ def texts(view: DecodeView) -> set[str]:
     return {label.text() for label in view.findChildren(QLabel) if label.isVisible()}
 
 
-def test_a_code_read_right_is_said_so(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+def test_a_code_read_right_is_marked(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     view.show_snapshot(snapshot_of(code=718))
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert not view.reason.isVisible()
@@ -46,7 +46,7 @@ def test_wrong_bits_are_counted(view: DecodeView, snapshot_of: SnapshotOf) -> No
     assert not view.reason.isVisible()
 
 
-def test_a_failure_is_said_with_its_reason(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+def test_a_failure_is_shown_with_its_reason(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(switching_frequency=500.0, distance=5.0)
     assert snapshot.decoded.failure
     view.show_snapshot(snapshot)
@@ -74,7 +74,7 @@ def test_a_raw_pattern_has_no_bits_to_compare(view: DecodeView, snapshot_of: Sna
     assert view.strip.isVisible()
 
 
-def test_what_was_measured_is_told_with_its_units(
+def test_measured_values_are_shown_with_their_units(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     decoded = DecodeResult(
@@ -110,7 +110,7 @@ def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf)
         assert label.height() >= label.heightForWidth(label.width())
 
 
-def test_each_decoder_has_a_tab_that_tells_whether_it_read_the_code(
+def test_each_decoders_tab_shows_whether_it_read_the_code(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
@@ -120,7 +120,7 @@ def test_each_decoder_has_a_tab_that_tells_whether_it_read_the_code(
     assert shown == ["threshold ✗", "matched ✓"]
 
 
-def test_the_decoder_that_was_chosen_stays_chosen_and_shows_its_own_result(
+def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     view.show_snapshot(snapshot_of())

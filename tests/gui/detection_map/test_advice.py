@@ -76,7 +76,7 @@ def advised(
     return application
 
 
-def test_the_sentences_hold_value_bits_interval_and_what_lies_beyond(small_scene: Scene) -> None:
+def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) -> None:
     lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
     assert lines[1] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 200 of 200 bits "
@@ -95,7 +95,7 @@ def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
     assert "from 1.17 ms what is lit throughout is white" in lines[5]
 
 
-def test_where_nothing_is_read_the_models_own_sentence_is_said(small_scene: Scene) -> None:
+def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) -> None:
     best = Trial(2e3, 120, 200, 53.1, 66.5)
     ranges = [
         WorkingRange(name, searched, None, None, "The model's sentence.", best)
@@ -123,7 +123,7 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     assert "exposure of 1.17 ms what is lit throughout is white" in shell
 
 
-def test_every_decoder_is_asked_and_each_edge_has_its_way(advised: Application) -> None:
+def test_every_decoder_is_searched_and_each_end_has_a_button(advised: Application) -> None:
     advice = advised.detection.advice
     titles = [text for text in advice.sentences() if text.startswith("The ")]
     for decoder in DECODERS:
@@ -149,7 +149,7 @@ def test_a_destination_button_changes_the_scene_in_one_step(
     assert advised.store.scene == before
 
 
-def test_a_refusal_of_the_model_is_said(
+def test_a_refusal_of_the_model_is_shown(
     qtbot: QtBot, advised: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.undo()

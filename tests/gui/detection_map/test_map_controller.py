@@ -116,7 +116,7 @@ def test_the_lattice_spans_both_sliders(bench_of: Callable[..., Bench]) -> None:
     assert (found.y_values[0], found.y_values[-1]) == (0.2, 5.0)
 
 
-def test_a_coarse_map_comes_first_and_every_point_is_measured_once_a_number_of_images(
+def test_a_coarse_map_comes_first_and_no_point_is_repeated(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -193,7 +193,7 @@ def test_a_click_sets_both_parameters_and_is_one_step(bench_of: Callable[..., Be
     assert bench.scenes.scene == before
 
 
-def test_the_point_under_the_mouse_is_told_with_its_wilson_interval(
+def test_the_point_at_the_mouse_has_its_wilson_interval(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -223,7 +223,7 @@ def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., 
     assert bench.pane.facts.note
 
 
-def test_image_effects_are_left_out_said_and_taken_in_when_asked(
+def test_image_effects_are_left_out_with_a_note_until_chosen(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
@@ -239,7 +239,7 @@ def test_image_effects_are_left_out_said_and_taken_in_when_asked(
     assert (settings.force, settings.path) == ({}, "auto")
 
 
-def test_a_failure_is_said_and_the_last_map_stays(bench_of: Callable[..., Bench]) -> None:
+def test_a_failure_is_shown_and_the_last_map_stays(bench_of: Callable[..., Bench]) -> None:
     bench = bench_of()
     before = bench.look()
 

@@ -68,7 +68,7 @@ def view(qtbot: QtBot, small_scene: Scene) -> MapView:
     return view
 
 
-def test_a_known_point_is_drawn_over_all_cells_near_it_until_finer_ones_come() -> None:
+def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:
     rates = rates_of({0: (10, 10)})
     x, _ = rates.owners()
     assert (x[:3, :3] == 0).all()
@@ -106,7 +106,7 @@ def test_arrows_and_enter_do_what_the_mouse_does(qtbot: QtBot, view: MapView) ->
     assert picked == [pointed[-1]]
 
 
-def test_what_the_model_refuses_is_hatched_and_looks_like_no_rate(
+def test_refused_points_are_hatched_and_look_like_no_rate(
     view: MapView, grey_picture: Picture
 ) -> None:
     view.show_map(whole((10, 10), refused=(45,)))
@@ -136,7 +136,7 @@ def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
     assert view.plots.bar.accessibleName().startswith("Difference")
 
 
-def test_rates_grow_lighter_evenly_and_differences_from_their_middle() -> None:
+def test_rates_get_evenly_lighter_differences_from_the_middle() -> None:
     steps = to_colours(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
     light = steps.astype(float) @ np.array([0.2126, 0.7152, 0.0722])
     assert (np.diff(light) > 0).all()
@@ -174,7 +174,7 @@ def test_every_axis_has_numbers_within_its_slider_and_a_title(name: str) -> None
     assert axis_title(quantity(name))
 
 
-def test_the_status_says_values_rate_bits_and_interval_or_why_there_are_none(
+def test_the_status_shows_rate_bits_and_interval_or_why_not(
     view: MapView,
 ) -> None:
     counts = (("threshold", 45, 78.6, 95.7),)

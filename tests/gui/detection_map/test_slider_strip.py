@@ -136,7 +136,7 @@ def test_a_strip_begins_and_ends_where_the_handle_does(application: Application)
         assert strip.height() == 6
 
 
-def test_good_and_bad_positions_look_different_and_unknown_ones_like_none(
+def test_good_bad_and_unknown_positions_look_different(
     application: Application, grey_picture: Callable[..., Any]
 ) -> None:
     strip = application.slider_strips.strips["iso"]

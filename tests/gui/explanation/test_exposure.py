@@ -60,7 +60,7 @@ def test_a_column_in_the_dark_has_no_time_on(plot: ExposurePlot, small_scene: Sc
     assert "LED on for 0 s (0 %)" in plot.sentence.text()
 
 
-def test_what_is_not_drawn_is_told(plot: ExposurePlot, small_scene: Scene) -> None:
+def test_what_is_not_drawn_is_named(plot: ExposurePlot, small_scene: Scene) -> None:
     scene = small_scene.replace(exposure_time=1.0)
     window = exposure_window(scene, 5)
     plot.show_window(window, 9.0)
@@ -108,7 +108,7 @@ def controller(pane: Pane, bare_snapshot_of: SnapshotOf) -> ExposureController:
     return controller
 
 
-def test_the_level_told_is_that_of_the_profile(
+def test_the_level_shown_is_that_of_the_profile(
     controller: ExposureController, pane: Pane, bare_snapshot_of: SnapshotOf
 ) -> None:
     profile = bare_snapshot_of().frame.profile
@@ -215,7 +215,7 @@ def test_a_number_typed_chooses_and_holds_a_column(seen: Application, qtbot: QtB
     assert not exposure.hold.isChecked()
 
 
-def test_the_mark_is_in_the_profile_only_while_the_exposure_is_seen(
+def test_the_profiles_mark_stays_while_the_exposure_is_visible(
     seen: Application, qtbot: QtBot
 ) -> None:
     picker: ColumnPicker = seen.learning.explanation.picker

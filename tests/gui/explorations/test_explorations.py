@@ -47,7 +47,7 @@ def test_each_pane_that_a_step_names_is_a_dock() -> None:
     assert named <= set(PANES)
 
 
-def test_a_step_sets_its_scene_as_one_step_shows_its_pane_and_its_question(
+def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
     application: Application, guide: ExplorationView, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
     exploration = explorations()[0]
@@ -64,7 +64,7 @@ def test_a_step_sets_its_scene_as_one_step_shows_its_pane_and_its_question(
     assert application.store.scene == small_scene
 
 
-def test_the_answer_is_shown_on_demand_and_hidden_again_by_the_next_step(
+def test_the_answer_is_shown_on_demand_until_the_next_step(
     guide: ExplorationView, user: User
 ) -> None:
     guide.choices[0].click()
@@ -118,7 +118,7 @@ def test_progress_is_kept_and_what_is_done_is_ticked(
     user.wait_until_idle()
 
 
-def test_a_sample_photo_is_opened_kept_while_it_is_wanted_and_closed_afterwards(
+def test_a_sample_photo_is_open_only_while_steps_need_it(
     application: Application, guide: ExplorationView, user: User, qtbot: QtBot
 ) -> None:
     opened: list[str] = []
@@ -148,7 +148,7 @@ def test_a_photo_of_the_users_own_stays_open(
     assert application.window.actions_by_name["close_photo"].isEnabled()
 
 
-def test_what_a_student_finds_with_the_photos_is_what_the_answers_say(
+def test_the_photos_give_the_numbers_that_the_answers_state(
     application: Application, guide: ExplorationView, user: User
 ) -> None:
     guide.choices[4].click()
@@ -165,7 +165,7 @@ def test_what_a_student_finds_with_the_photos_is_what_the_answers_say(
     assert application.controls.code.number.value() == 345
 
 
-def test_explorations_that_cannot_be_read_are_answered_in_a_sentence(
+def test_explorations_that_cannot_be_read_give_a_sentence(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     def fail() -> None:
@@ -178,7 +178,7 @@ def test_explorations_that_cannot_be_read_are_answered_in_a_sentence(
     assert guide.choices == []
 
 
-def test_a_photo_that_is_missing_is_told(
+def test_a_missing_photo_is_reported(
     application: Application,
     guide: ExplorationView,
     user: User,
@@ -190,7 +190,7 @@ def test_a_photo_that_is_missing_is_told(
     user.wait_until_idle()
 
 
-def test_the_explorations_come_with_room_to_be_read_and_keep_what_the_user_gives_them(
+def test_the_explorations_pane_opens_readable_and_keeps_its_size(
     application: Application, guide: ExplorationView, qtbot: QtBot
 ) -> None:
     window = application.window

@@ -26,7 +26,7 @@ def export(application: Application, user: User, name: str, path: Path) -> str:
     return str(user.message)
 
 
-def test_what_is_shown_is_exported_with_its_scene_settings_version_and_date_inside(
+def test_an_export_holds_its_scene_settings_version_and_date(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     for name in ("picture", "profile", "decoding-threshold", "decoding-matched"):
@@ -112,7 +112,7 @@ def test_a_figure_is_copied_with_its_scene(application: Application, user: User)
     assert user.message == "Copied the figure."
 
 
-def test_the_figure_that_is_copied_is_that_of_the_pane_at_the_front(
+def test_the_copied_figure_is_that_of_the_pane_in_front(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
     application.profile.enhanced.setFocus()
@@ -167,7 +167,7 @@ def test_an_unknown_ending_is_refused(application: Application, user: User, tmp_
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
+def test_a_disk_full_midway_leaves_no_part_of_any_figure(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     written: list[Path] = []
@@ -193,7 +193,7 @@ def test_a_disk_that_is_full_half_way_leaves_nothing_of_any_figure(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_write_protected_figure_is_not_replaced_nor_any_other_then(
+def test_a_write_protected_figure_stops_the_export_of_all(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     application.desktop.export.export_all(tmp_path)
@@ -208,7 +208,7 @@ def test_a_write_protected_figure_is_not_replaced_nor_any_other_then(
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == dict.fromkeys(files, b"kept")
 
 
-def test_a_mistake_of_ours_while_drawing_is_a_sentence_and_the_next_export_works(
+def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(_job: object) -> None:
@@ -239,7 +239,7 @@ def test_exports_that_come_quickly_are_all_written(
         ("figure", "", "figure.png"),
     ],
 )
-def test_the_ending_comes_from_the_name_or_from_the_kind_that_is_chosen(
+def test_the_ending_comes_from_the_name_or_the_chosen_format(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     chosen: str, kind: str, written: str,
 ) -> None:  # fmt: skip

@@ -57,7 +57,7 @@ def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path) -> None:
     assert not list(tmp_path.glob("*.toml"))
 
 
-def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
+def test_a_full_disk_is_reported_once_each_time_it_fills(
     begin: Begin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     autosave = begin(tmp_path)
@@ -80,9 +80,7 @@ def test_a_full_disk_is_told_of_once_and_again_after_it_had_room(
     autosave.end()
 
 
-def test_a_folder_that_cannot_be_made_is_told_of_and_the_window_works(
-    begin: Begin, tmp_path: Path
-) -> None:
+def test_a_folder_that_cannot_be_made_is_reported(begin: Begin, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     autosave = begin(tmp_path / "file" / "folder")
     messages: list[str] = []

@@ -170,7 +170,7 @@ def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path,
     "error",
     [RecursionError("too deep"), ValueError("9" * 5000), AttributeError("get"), KeyError(1)],
 )
-def test_explorations_that_cannot_be_read_are_told_of(
+def test_unreadable_explorations_are_reported(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
     def fail() -> None:

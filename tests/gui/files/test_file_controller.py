@@ -83,9 +83,7 @@ def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
     assert bench.store.undo_stack.count() == 0
 
 
-def test_a_scene_that_cannot_be_written_says_so_and_leaves_nothing(
-    bench: Bench, tmp_path: Path
-) -> None:
+def test_an_unwritable_scene_gives_a_sentence_and_no_file(bench: Bench, tmp_path: Path) -> None:
     for path in (tmp_path, tmp_path / "nowhere" / "scene.toml"):
         bench.files.save_scene(path)
         assert str(path) in bench.status_message[-1]
@@ -102,7 +100,7 @@ def test_a_scene_is_not_saved_where_it_would_not_open_again(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_scene_file_of_another_name_is_opened_and_saved_to_a_new_one(
+def test_an_opened_scene_file_is_saved_under_a_new_name(
     bench: Bench, tmp_path: Path, qtbot: QtBot
 ) -> None:
     path = tmp_path / "scene.txt"
@@ -128,7 +126,7 @@ def test_a_saved_picture_is_exactly_the_one_shown(
     assert np.array_equal(written, shown.frame.image)
 
 
-def test_a_picture_that_cannot_be_written_says_so_and_leaves_nothing(
+def test_an_unwritable_picture_gives_a_sentence_and_no_file(
     bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
 ) -> None:
     bench.files.show_snapshot(snapshot_of())
@@ -167,7 +165,7 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     assert opened.args[0].path == photo_file
 
 
-def test_the_dialogs_offer_the_pictures_that_can_be_written_and_read(
+def test_the_dialogs_offer_the_formats_that_can_be_used(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     offered: list[str] = []

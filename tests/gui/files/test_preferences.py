@@ -26,7 +26,7 @@ def remember(file: Path, *paths: Path) -> None:
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 5])
-def test_what_was_opened_is_remembered_at_the_next_start_the_latest_first(
+def test_opened_files_are_listed_at_the_next_start_latest_first(
     file: Path, tmp_path: Path, count: int
 ) -> None:
     paths = [tmp_path / f"{place}, ä.png" for place in range(count)]
@@ -50,7 +50,7 @@ def test_only_so_many_are_remembered(tmp_path: Path) -> None:
     assert preferences.files[0].name == str(MOST_RECENT + 2)
 
 
-def test_every_change_is_told_and_nothing_else(tmp_path: Path) -> None:
+def test_every_change_is_emitted_and_nothing_else(tmp_path: Path) -> None:
     preferences, told = Preferences(), []
     preferences.changed.connect(lambda: told.append(preferences.files))
     preferences.add(tmp_path / "a")

@@ -62,7 +62,7 @@ def names(application: Application) -> list[str]:
     return [combo.itemText(place) for place in range(combo.count())]
 
 
-def test_rubbish_in_the_folder_does_not_keep_the_window_from_starting(
+def test_the_window_starts_in_spite_of_rubbish_among_presets(
     application: Application,
 ) -> None:
     assert names(application) == [*occ.presets(), "rubbish: cannot be read"]
@@ -90,7 +90,7 @@ def test_whatever_stands_in_a_preset_the_others_can_be_used(
     assert "good" in names(application)
 
 
-def test_a_file_that_cannot_be_read_is_replaced_only_if_the_user_says_so_and_can_be_deleted(
+def test_an_unreadable_preset_is_replaced_on_request_only(
     matched: Application, user: User, answer: Answer, own: Path
 ) -> None:
     answer("rubbish", False)
@@ -101,7 +101,7 @@ def test_a_file_that_cannot_be_read_is_replaced_only_if_the_user_says_so_and_can
     assert "rubbish: cannot be read" not in names(matched)
 
 
-def test_a_saved_match_is_listed_after_the_programs_presets_and_loaded(
+def test_a_saved_match_is_listed_last_and_can_be_loaded(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("my phone", False)
@@ -117,7 +117,7 @@ def test_a_saved_match_is_listed_after_the_programs_presets_and_loaded(
     assert matched.controls.preset.currentText() == "my phone"
 
 
-def test_the_preset_that_the_scene_is_stays_shown_when_another_is_saved(
+def test_the_shown_preset_stays_shown_when_another_is_saved(
     matched: Application, user: User, answer: Answer
 ) -> None:
     shown = user.choose_next_preset()
@@ -169,7 +169,7 @@ def test_a_deleted_preset_is_listed_no_more(
     assert user.message == "There is no preset of your own."
 
 
-def test_a_preset_that_has_gone_is_answered_by_a_sentence_and_listed_no_more(
+def test_a_missing_preset_gives_a_sentence_and_leaves_the_list(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("mine", False)

@@ -203,7 +203,7 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
 
 
 @pytest.mark.parametrize("fresh", [False, True])
-def test_the_scene_of_a_crash_is_one_undo_away_from_one_that_was_asked_for(
+def test_undo_restores_the_crashs_scene_behind_a_requested_one(
     start: Start, tmp_path: Path, small_scene: Scene, fresh: bool
 ) -> None:
     lost, asked = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)

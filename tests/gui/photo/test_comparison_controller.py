@@ -104,7 +104,7 @@ def test_the_photo_is_drawn_as_it_is_until_its_stripes_are_found(
     assert bench.comparison.correlation != 0.0
 
 
-def test_what_is_compared_is_the_photo_without_its_uneven_light_from_its_region_on(
+def test_the_photo_is_compared_flattened_and_from_its_region_on(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
@@ -122,7 +122,7 @@ def test_what_is_compared_is_the_photo_without_its_uneven_light_from_its_region_
         assert (bench.last.first_column, bench.last.scale) == (placement.column, placement.scale)
 
 
-def test_every_simulation_is_compared_and_the_stripes_are_searched_for_once(
+def test_stripes_are_searched_once_for_all_comparisons(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.controller.show_photo(photo)
@@ -150,7 +150,7 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
         assert bench.comparison.simulated[0] == profile[first]
 
 
-def test_where_there_are_no_stripes_the_sentence_says_so_and_the_photo_is_drawn(
+def test_without_stripes_the_photo_is_drawn_with_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.stripes = refuse
@@ -162,7 +162,7 @@ def test_where_there_are_no_stripes_the_sentence_says_so_and_the_photo_is_drawn(
     assert bench.last.raw is photo.profile
 
 
-def test_a_photo_moved_beside_the_picture_is_answered_by_a_sentence(
+def test_a_photo_moved_beside_the_picture_gives_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.controller.show_snapshot(snapshot_of())
@@ -212,7 +212,7 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
     assert bench.comparison is not None
 
 
-def test_where_the_simulation_has_no_stripes_there_is_nothing_to_compare(
+def test_a_simulation_without_stripes_is_not_compared(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.controller.show_photo(photo)

@@ -99,7 +99,7 @@ def bench(
     bench.controller.stop()
 
 
-def test_a_match_is_told_from_its_beginning_to_what_it_found(bench: Bench) -> None:
+def test_a_match_is_announced_from_its_start_to_its_result(bench: Bench) -> None:
     bench.start()
     assert bench.events == ["begun", 0.0, 0.5, bench.controller.match]
     assert bench.used == [bench.controller.match]
@@ -228,9 +228,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "own"
 
 
-def test_a_saved_match_says_what_was_measured_from_which_photo_when_and_how_surely(
-    bench: Bench, own: Path
-) -> None:
+def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, own: Path) -> None:
     received: list[str] = []
     bench.controller.saved.connect(received.append)
     bench.start(sent="square", square_frequency=1000.0)
@@ -247,9 +245,7 @@ def test_a_saved_match_says_what_was_measured_from_which_photo_when_and_how_sure
     assert "pattern" not in preset.sources
 
 
-def test_what_was_known_is_that_of_the_match_and_not_of_what_is_chosen_by_now(
-    bench: Bench, own: Path
-) -> None:
+def test_a_saved_match_records_the_inputs_it_was_made_with(bench: Bench, own: Path) -> None:
     bench.start(estimate="readout_time")
     bench.refusal = "No."
     bench.start(estimate="switching_frequency")

@@ -16,7 +16,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
 
 
-def test_everything_that_the_model_can_be_asked_for_can_be_chosen(view: PhotoView) -> None:
+def test_every_option_of_the_models_match_can_be_chosen(view: PhotoView) -> None:
     sent = [view.form.sent.itemData(place) for place in range(view.form.sent.count())]
     estimates = [view.form.estimate.itemData(p) for p in range(view.form.estimate.count())]
     assert set(sent) == {*PATTERN_SOURCES, "square"}
@@ -39,7 +39,7 @@ def test_the_button_asks_for_a_match_as_it_is_chosen(
     assert asked == [MatchChoice(), MatchChoice("square", 1500.0, "switching_frequency", True)]
 
 
-def test_a_frequency_is_asked_for_where_a_square_wave_was_sent_and_nowhere_else(
+def test_a_frequency_is_asked_for_only_with_a_square_wave(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_photo(photo)
@@ -48,7 +48,7 @@ def test_a_frequency_is_asked_for_where_a_square_wave_was_sent_and_nowhere_else(
         assert view.form.square.isVisible() == (key == "square")
 
 
-def test_what_is_known_beside_the_estimate_is_told(
+def test_what_is_known_beside_the_estimate_is_shown(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_photo(photo)
@@ -79,9 +79,7 @@ def test_what_is_known_can_be_entered_where_it_is_asked_for(
     assert received == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
 
 
-def test_a_match_of_what_is_no_longer_known_is_told_from_one_that_is(
-    view: PhotoView, photo: Photo, match: Match
-) -> None:
+def test_a_match_of_outdated_inputs_is_marked(view: PhotoView, photo: Photo, match: Match) -> None:
     view.show_photo(photo)
     scene = occ.Scene().replace(switching_frequency=2e3)
     view.show_scene(scene)
@@ -108,7 +106,7 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
     assert view.form.start.hasFocus()
 
 
-def test_a_frequency_that_cannot_be_is_refused_and_the_last_one_stays(
+def test_an_impossible_frequency_is_refused_and_the_last_stays(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_photo(photo)
@@ -120,7 +118,7 @@ def test_a_frequency_that_cannot_be_is_refused_and_the_last_one_stays(
     assert view.form.choice().square_frequency == SQUARE_FREQUENCY.default
 
 
-def test_while_a_match_runs_its_progress_and_a_way_out_take_the_buttons_place(
+def test_a_running_match_shows_progress_and_a_cancel_button(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_photo(photo)

@@ -17,7 +17,7 @@ from occ_model.scene.parameters import PARAMETERS
 READOUT = PARAMETERS["readout_time"]
 
 
-def test_what_was_found_stands_with_its_uncertainty_in_the_units_of_the_screen(
+def test_results_stand_with_uncertainty_in_the_screens_units(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:
     view.show_photo(photo)
@@ -32,7 +32,7 @@ def test_what_was_found_stands_with_its_uncertainty_in_the_units_of_the_screen(
     assert view.result.values["pattern"].toolTip() == "1001 (read)"
 
 
-def test_a_blinking_led_is_told_by_its_cycles_too(
+def test_a_blinking_led_is_described_by_its_cycles_too(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:
     view.show_photo(photo)
@@ -65,7 +65,7 @@ def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, matc
         (8e-6, 1e-30, "8.000000000000 ± 0.000000000000 µs"),
     ],
 )
-def test_a_value_is_written_as_far_as_its_uncertainty_leaves_it_sure(
+def test_a_value_has_the_digits_that_its_uncertainty_allows(
     value: float, spread: float | None, text: str
 ) -> None:
     assert isinstance(READOUT, Quantity)

@@ -82,14 +82,14 @@ def other_file(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_photo_is_read_shown_and_told(bench: Bench, photo_file: Path, stripes: Grey) -> None:
+def test_a_photo_is_read_shown_and_announced(bench: Bench, photo_file: Path, stripes: Grey) -> None:
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes)
     assert bench.opened == bench.shown
     assert bench.failures == []
 
 
-def test_a_photo_that_cannot_be_read_tells_why_and_the_last_stays(
+def test_an_unreadable_photo_says_why_and_the_last_stays(
     bench: Bench, photo_file: Path, tmp_path: Path
 ) -> None:
     bench.open(photo_file)
@@ -119,7 +119,7 @@ def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
     assert bench.shown == [None]
 
 
-def test_progress_is_told_from_the_beginning_to_the_end(bench: Bench, photo_file: Path) -> None:
+def test_progress_is_shown_from_start_to_end(bench: Bench, photo_file: Path) -> None:
     received: list[object] = []
     bench.controller.begun.connect(lambda: received.append("begun"))
     bench.controller.progressed.connect(received.append)
@@ -128,7 +128,7 @@ def test_progress_is_told_from_the_beginning_to_the_end(bench: Bench, photo_file
     assert (received[0], received[1], received[-2], received[-1]) == ("begun", 0.0, 1.0, "ended")
 
 
-def test_a_cancelled_reading_is_given_up_at_once_and_the_last_photo_stays(
+def test_a_cancelled_reading_ends_and_the_last_photo_stays(
     bench: Bench, photo_file: Path, other_file: Path, stripes: Grey, qtbot: QtBot
 ) -> None:
     bench.open(photo_file)
@@ -184,7 +184,7 @@ def test_the_scan_axis_chosen_while_a_photo_is_read_holds_for_it(
     assert np.array_equal(bench.image, stripes.T)
 
 
-def test_after_a_failure_another_scan_axis_turns_the_photo_that_stayed(
+def test_after_a_failure_another_scan_axis_turns_the_kept_photo(
     bench: Bench, photo_file: Path, tmp_path: Path, stripes: Grey
 ) -> None:
     bench.open(photo_file)
@@ -212,7 +212,7 @@ def coloured_file(tmp_path: Path) -> Path:
     return path
 
 
-def test_another_channel_is_taken_of_the_open_photo_and_of_the_next(
+def test_another_channel_applies_to_this_photo_and_the_next(
     bench: Bench, coloured_file: Path, photo_file: Path
 ) -> None:
     bench.open(coloured_file)
@@ -225,7 +225,7 @@ def test_another_channel_is_taken_of_the_open_photo_and_of_the_next(
     assert bench.image.max() == 20
 
 
-def test_how_photos_are_read_is_told_at_every_change(bench: Bench) -> None:
+def test_how_photos_are_read_is_emitted_at_every_change(bench: Bench) -> None:
     received: list[object] = []
     bench.controller.reading_changed.connect(received.append)
     bench.controller.scan_along("lines")

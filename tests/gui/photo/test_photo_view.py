@@ -12,7 +12,7 @@ from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
 from occ_model.results import Match
 
 
-def test_without_a_photo_there_is_a_way_to_open_one(view: PhotoView, qtbot: QtBot) -> None:
+def test_without_a_photo_a_button_opens_one(view: PhotoView, qtbot: QtBot) -> None:
     assert not view.form.isVisible()
     (button,) = [b for b in view.findChildren(type(view.form.start)) if b.isVisible()]
     with qtbot.waitSignal(view.open_asked):
@@ -42,7 +42,9 @@ def test_a_photo_without_notes_offers_none(view: PhotoView, photo: Photo) -> Non
     assert not view.facts.use_settings.isEnabled()
 
 
-def test_using_the_photos_settings_is_told(view: PhotoView, photo: Photo, qtbot: QtBot) -> None:
+def test_using_the_photos_settings_emits_a_signal(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
     view.show_photo(replace(photo, iso=400.0))
     with qtbot.waitSignal(view.facts.settings_asked):
         qtbot.mouseClick(view.facts.use_settings, Qt.MouseButton.LeftButton)
@@ -97,7 +99,7 @@ def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
     assert not form.reset.isEnabled()
 
 
-def test_a_field_that_is_changed_moves_the_photo_and_leaves_the_others_digits(
+def test_a_changed_field_moves_the_photo_and_keeps_other_digits(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     received: list[Placement] = []
@@ -111,7 +113,7 @@ def test_a_field_that_is_changed_moves_the_photo_and_leaves_the_others_digits(
     assert received == [Placement(862.237123, 10.0, 1.0)]
 
 
-def test_moving_by_mouse_and_resetting_are_told(
+def test_moving_by_mouse_and_resetting_emit_signals(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_photo(photo)

@@ -81,7 +81,7 @@ def test_the_mean_is_taken_along_rows_too(screen: Screen, fine_stripes: Grey) ->
     assert np.abs(picture - 127.5).max() <= 3
 
 
-def test_what_is_enlarged_along_one_axis_is_still_averaged_along_the_other(
+def test_one_axis_is_averaged_while_the_other_is_enlarged(
     screen: Screen, fine_stripes: Grey
 ) -> None:
     screen.item.set_image(fine_stripes[:2])
@@ -155,7 +155,7 @@ def test_a_new_image_takes_the_place_of_the_last(screen: Screen, fine_stripes: G
     assert set(np.unique(inner(screen.shown(200, HEIGHT, whole))).tolist()) == {9}
 
 
-def test_only_the_visible_part_is_averaged_and_only_when_the_view_changes(
+def test_only_the_visible_part_is_averaged_when_the_view_changes(
     screen: Screen, fine_stripes: Grey, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sizes: list[tuple[int, ...]] = []

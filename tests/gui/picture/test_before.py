@@ -90,7 +90,7 @@ def test_a_gesture_that_comes_back_to_where_it_began_goes_on(
     assert pane.shown == [first]
 
 
-def test_a_picture_that_comes_late_is_the_one_before_if_the_gesture_began_at_it(
+def test_a_late_picture_of_the_gestures_start_is_the_one_before(
     store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
 ) -> None:
     first, late, now = snapshot_of(), snapshot_of(iso=300.0), snapshot_of(iso=500.0)
@@ -153,7 +153,7 @@ def picture(pane: PicturePane) -> Grey:
     return rows[rows.shape[0] // 2, : image.width()].copy()
 
 
-def test_the_picture_before_is_left_of_the_line_and_the_one_now_right_of_it(
+def test_the_old_picture_is_left_of_the_line_the_new_one_right(
     qtbot: QtBot,
     pane_with_wipe: tuple[PicturePane, BeforeWipe],
     snapshot_of: SnapshotOf,
@@ -188,7 +188,7 @@ def test_a_wipe_that_is_off_draws_and_takes_nothing(
     assert wipe.picture.boundingRect().isEmpty()
 
 
-def test_a_wipe_that_is_asked_for_before_anything_has_changed_shows_nothing(
+def test_a_wipe_before_any_change_shows_nothing(
     pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
 ) -> None:
     _, wipe = pane_with_wipe

@@ -57,7 +57,7 @@ def test_the_region_is_drawn_round_the_pixels_that_were_read(
     assert not item.isVisible()
 
 
-def test_the_picture_is_shown_with_a_pixel_of_it_at_its_row_and_column(
+def test_each_pixel_is_shown_at_its_row_and_column(
     view: ImageView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of()
@@ -77,7 +77,7 @@ def test_without_a_photo_the_simulation_stands_alone(
     assert len(pictures(view.simulation)) == 1
 
 
-def test_a_photo_stands_beside_the_simulation_and_goes_when_closed(
+def test_an_open_photo_stands_beside_the_simulation(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -90,9 +90,7 @@ def test_a_photo_stands_beside_the_simulation_and_goes_when_closed(
     assert not view.photo.isVisible()
 
 
-def test_the_caption_tells_when_the_photos_lines_are_shown_as_columns(
-    view: ImageView, photo: Photo
-) -> None:
+def test_the_caption_says_when_lines_are_shown_as_columns(view: ImageView, photo: Photo) -> None:
     view.show_photo(photo)
     assert "lines" not in view.photo.caption.toolTip()
     view.show_photo(replace(photo, turned=True))
@@ -116,7 +114,7 @@ def test_a_photo_over_the_simulation_lies_where_it_is_placed(
         assert over.boundingRect() == QRectF(left, top, *size)
 
 
-def test_closing_the_photo_takes_it_away_from_over_the_simulation(
+def test_closing_the_photo_removes_it_from_the_simulation(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -128,7 +126,7 @@ def test_closing_the_photo_takes_it_away_from_over_the_simulation(
     assert not view.opacity.isVisible()
 
 
-def test_the_opacity_slider_goes_from_the_simulation_to_the_photo(
+def test_the_opacity_slider_fades_from_simulation_to_photo(
     view: ImageView,
     snapshot_of: SnapshotOf,
     photo: Photo,
@@ -148,7 +146,7 @@ def test_the_opacity_slider_goes_from_the_simulation_to_the_photo(
     assert totals[0] < totals[1] < totals[2]
 
 
-def test_a_result_of_the_same_size_leaves_the_view_where_the_user_put_it(
+def test_a_result_of_the_same_size_keeps_the_users_view(
     view: ImageView, snapshot_of: SnapshotOf
 ) -> None:
     view.show_snapshot(snapshot_of())

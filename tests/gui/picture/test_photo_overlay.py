@@ -67,7 +67,7 @@ def test_a_blended_photo_hides_as_much_as_it_is_opaque(screen: Screen, opacity: 
     assert np.abs(screen.shown()[5:-5, 5:-5] - (60 + 140 * opacity)).max() <= 2
 
 
-def test_split_shows_the_simulation_above_the_line_and_the_photo_below(screen: Screen) -> None:
+def test_split_shows_the_simulation_above_and_the_photo_below(screen: Screen) -> None:
     screen.overlay.set_photo(even(200))
     screen.overlay.set_mode("split")
     assert screen.overlay.line.value() == pytest.approx(SIDE / 2, abs=1)
@@ -78,7 +78,7 @@ def test_split_shows_the_simulation_above_the_line_and_the_photo_below(screen: S
         assert (shown[place + 5 : -5, 5:-5] == 200).all()
 
 
-def test_the_line_stays_where_it_was_dragged_until_another_photo_comes(screen: Screen) -> None:
+def test_the_dragged_line_stays_until_another_photo_comes(screen: Screen) -> None:
     screen.overlay.set_photo(even(200))
     screen.overlay.set_mode("split")
     screen.overlay.line.setValue(30)
@@ -111,7 +111,7 @@ def test_the_difference_follows_the_simulation_and_ends_at_white(screen: Screen)
 
 
 @pytest.mark.parametrize("placement", [Placement(), Placement(0.25, 0.0), Placement(3.0, 2.0)])
-def test_alike_pictures_differ_by_nothing_however_fine_their_stripes(
+def test_equal_pictures_have_no_difference_however_fine(
     screen: Screen, placement: Placement
 ) -> None:
     stripes = np.where(np.arange(3 * SIDE) % 5 < 2, 20, 220).astype(np.uint8)
@@ -157,7 +157,7 @@ def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) ->
     assert not frame.isVisible()
 
 
-def test_moving_and_scaling_the_frame_tells_where_the_photo_is_to_lie(screen: Screen) -> None:
+def test_dragging_the_frame_reports_the_photos_new_place(screen: Screen) -> None:
     received: list[Placement] = []
     screen.overlay.placed.connect(received.append)
     screen.overlay.set_photo(even(200, 50, 80))

@@ -17,7 +17,7 @@ def store(received: list[Placement]) -> PlacementStore:
     return store
 
 
-def test_what_suits_holds_and_is_told_once(
+def test_an_allowed_value_is_taken_and_emitted_once(
     store: PlacementStore, received: list[Placement]
 ) -> None:
     store.suggest(Placement(3.0, 4.0))
@@ -50,7 +50,7 @@ def test_reset_goes_back_to_what_suits_by_now(
     assert received == []
 
 
-def test_moving_by_hand_to_where_it_is_is_told_since_it_now_stays(
+def test_moving_by_hand_to_the_same_place_still_counts(
     store: PlacementStore, received: list[Placement]
 ) -> None:
     store.move(Placement())

@@ -65,7 +65,7 @@ def test_only_inputs_that_differ_are_listed_in_units_of_display(
     assert all("Allowed" in row.meaning for row in pane.pinned.inputs)
 
 
-def test_values_that_look_alike_are_written_with_all_their_digits(
+def test_values_that_look_alike_are_written_with_all_digits(
     pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(distance=1.2000000001))
@@ -73,7 +73,7 @@ def test_values_that_look_alike_are_written_with_all_their_digits(
     assert a != b
 
 
-def test_an_empty_pattern_and_another_tolerance_are_told_in_words(
+def test_an_empty_pattern_and_another_tolerance_are_worded(
     pins: PinController, pane: Pane, snapshot_of: SnapshotOf, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, snapshot_of(), bare_snapshot_of(pattern="10"))
@@ -143,7 +143,7 @@ def texts(table: QTableWidget) -> list[list[str]]:
     return rows
 
 
-def test_the_view_asks_for_what_is_missing_and_then_lists_and_draws(
+def test_the_view_requests_what_is_missing_then_lists_and_draws(
     view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
 ) -> None:
     assert "as A" in view.hint.text()
@@ -180,7 +180,7 @@ def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
     assert view.table.rowCount() > 0
 
 
-def test_states_are_pinned_by_key_compared_and_gone_back_to_in_one_step(
+def test_states_are_pinned_compared_and_restored_in_one_step(
     qtbot: QtBot, application: Application, user: User, small_scene: Scene
 ) -> None:
     window, compare = application.window, application.learning.compare

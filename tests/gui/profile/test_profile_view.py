@@ -72,7 +72,7 @@ def test_the_band_model_is_drawn_where_it_is_defined(
     assert "band model" in legend_texts(view)
 
 
-def test_where_the_band_model_is_undefined_a_sentence_takes_its_place(
+def test_where_the_band_model_is_undefined_a_sentence_says_so(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -84,7 +84,7 @@ def test_where_the_band_model_is_undefined_a_sentence_takes_its_place(
     assert "band model" not in legend_texts(view)
 
 
-def test_a_photo_that_cannot_be_compared_is_drawn_as_it_is_with_the_reason_and_taken_away(
+def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -101,7 +101,7 @@ def test_a_photo_that_cannot_be_compared_is_drawn_as_it_is_with_the_reason_and_t
     assert "photo" not in legend_texts(view)
 
 
-def test_a_compared_photo_is_drawn_in_the_simulations_levels_with_the_rest_under_it(
+def test_a_compared_photo_is_drawn_in_simulated_levels(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -118,7 +118,7 @@ def test_a_compared_photo_is_drawn_in_the_simulations_levels_with_the_rest_under
     assert high > 3.0
 
 
-def test_the_rest_stands_under_the_profiles_column_by_column_however_either_is_moved(
+def test_the_residual_follows_the_profiles_columns_when_moved(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -147,7 +147,7 @@ def test_a_first_photo_does_not_move_the_columns_in_view(
         assert plot.viewRange()[0] == pytest.approx(before)
 
 
-def test_after_enhancement_shows_the_pictures_values_and_the_threshold(
+def test_after_enhancement_shows_picture_levels_and_threshold(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     snapshot = snapshot_of()
@@ -197,7 +197,7 @@ def test_the_packets_that_the_button_names_are_those_in_view(
     assert last - first == pytest.approx(snapshot.packet_columns, rel=0.05)
 
 
-def test_two_packets_are_in_view_until_the_whole_panel_is_asked_for(
+def test_two_packets_are_in_view_until_the_panel_is_chosen(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     snapshot = snapshot_of()
@@ -211,7 +211,7 @@ def test_two_packets_are_in_view_until_the_whole_panel_is_asked_for(
     assert not button(view, "2 packets").isChecked()
 
 
-def test_moving_the_plot_by_hand_ends_the_following_and_a_click_resumes_it(
+def test_moving_the_plot_ends_following_and_a_click_resumes_it(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -228,7 +228,7 @@ def test_moving_the_plot_by_hand_ends_the_following_and_a_click_resumes_it(
     assert columns_in_view(view) == pytest.approx(followed)
 
 
-def test_where_the_panel_is_out_of_the_picture_all_columns_are_in_view(
+def test_with_no_panel_in_the_picture_all_columns_are_in_view(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(offset_x=50.0)
@@ -239,7 +239,7 @@ def test_where_the_panel_is_out_of_the_picture_all_columns_are_in_view(
 
 
 @pytest.mark.parametrize("changes", [{"offset_x": 50.0}, {"columns": 1}, {"distance": 900.0}])
-def test_a_panel_hardly_or_not_in_the_picture_leaves_a_range_to_look_at(
+def test_a_panel_at_the_pictures_rim_leaves_a_range_to_look_at(
     view: ProfileView, snapshot_of: SnapshotOf, changes: dict[str, float]
 ) -> None:
     view.show_snapshot(snapshot_of(**changes))
@@ -248,5 +248,5 @@ def test_a_panel_hardly_or_not_in_the_picture_leaves_a_range_to_look_at(
     assert drawn(view.simulation)[0]
 
 
-def test_before_any_result_the_legend_names_no_line_that_is_not_there(view: ProfileView) -> None:
+def test_before_any_result_the_legend_is_empty_but_for_its_lines(view: ProfileView) -> None:
     assert set(legend_texts(view)) <= {"simulation"}

@@ -82,9 +82,7 @@ def test_every_entry_is_a_gesture_of_its_own(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "101", "10110011101", "1011001112", "code"])
-def test_wrong_bits_are_refused_with_a_sentence_and_the_code_shown_again(
-    bench: Bench, text: str
-) -> None:
+def test_wrong_bits_are_refused_and_the_code_shown_again(bench: Bench, text: str) -> None:
     bench.enter_bits(text)
     (sentence,) = bench.refused
     assert repr(text) in sentence

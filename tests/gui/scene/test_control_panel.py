@@ -45,7 +45,7 @@ def test_the_main_sliders_stand_on_the_first_page(panel: ControlPanel) -> None:
     assert all(isinstance(row, QuantityRow) for row in first.rows.values())
 
 
-def test_what_governs_effects_stands_on_a_page_of_its_own_in_the_order_given(
+def test_effects_parameters_have_a_page_of_their_own_in_order(
     panel: ControlPanel,
 ) -> None:
     assert tuple(panel.panels["Effects"].rows) == EFFECTS
@@ -58,7 +58,7 @@ def test_every_control_has_a_name_and_a_tooltip(panel: ControlPanel) -> None:
     assert nameless == []
 
 
-def test_every_row_names_its_parameter_and_tells_the_allowed_range(panel: ControlPanel) -> None:
+def test_every_row_names_its_parameter_and_its_allowed_range(panel: ControlPanel) -> None:
     for page in panel.panels.values():
         for name, row in page.rows.items():
             controls = entry_controls(row)
@@ -133,7 +133,7 @@ def test_presets_are_explained_by_their_titles(panel: ControlPanel) -> None:
     assert tips == [title for _, title in PRESETS]
 
 
-def test_other_presets_take_the_place_of_the_last_ones_and_tell_nothing(
+def test_other_presets_replace_the_last_ones_without_a_signal(
     panel: ControlPanel,
 ) -> None:
     told: list[str] = []

@@ -59,7 +59,7 @@ def test_showing_a_value_tells_nothing(qtbot: QtBot, name: str) -> None:
     assert told.refused == []
 
 
-def test_a_whole_number_is_told_when_its_typing_ends(qtbot: QtBot) -> None:
+def test_a_whole_number_is_emitted_when_its_typing_ends(qtbot: QtBot) -> None:
     told = Told("bits", qtbot)
     assert isinstance(told.row, CountRow)
     declared = PARAMETERS["bits"]
@@ -83,7 +83,7 @@ def test_quick_steps_of_a_whole_number_are_one_gesture(qtbot: QtBot) -> None:
     assert len({gesture for _, _, gesture in told.edits}) == 1
 
 
-def test_a_choice_is_told_by_its_word(qtbot: QtBot) -> None:
+def test_a_choice_is_emitted_by_its_word(qtbot: QtBot) -> None:
     told = Told("averaging", qtbot)
     assert isinstance(told.row, ChoiceRow)
     words = [told.row.field.itemText(place) for place in range(told.row.field.count())]
@@ -92,7 +92,7 @@ def test_a_choice_is_told_by_its_word(qtbot: QtBot) -> None:
     assert told.values == ["light"]
 
 
-def test_a_pattern_is_told_without_its_spaces_and_rubbish_refused(qtbot: QtBot) -> None:
+def test_a_pattern_is_sent_without_spaces_and_rubbish_refused(qtbot: QtBot) -> None:
     told = Told("pattern", qtbot)
     assert isinstance(told.row, PatternRow)
     qtbot.keyClicks(told.row.field, "0101 0011")

@@ -98,7 +98,7 @@ def test_a_plain_number_is_read_in_the_unit_that_is_shown(
         ("reflectance", "1.5"),
     ],
 )
-def test_what_cannot_be_is_refused_by_name_and_the_last_value_shown_again(
+def test_an_impossible_value_is_refused_and_the_last_restored(
     qtbot: QtBot, name: str, text: str
 ) -> None:
     field = Field(name, qtbot)
@@ -111,7 +111,7 @@ def test_what_cannot_be_is_refused_by_name_and_the_last_value_shown_again(
     assert (field.edit.value(), field.edit.text()) == (before, shown)
 
 
-def test_one_refusal_is_told_once_though_enter_and_leaving_both_end_the_editing(
+def test_a_refusal_is_emitted_once_for_enter_and_leaving(
     qtbot: QtBot,
 ) -> None:
     field = Field("exposure_time", qtbot)
@@ -121,7 +121,7 @@ def test_one_refusal_is_told_once_though_enter_and_leaving_both_end_the_editing(
 
 
 @pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
-def test_leaving_a_field_untouched_tells_nothing_and_rounds_nothing(
+def test_leaving_an_untouched_field_emits_and_rounds_nothing(
     qtbot: QtBot, declared: Quantity
 ) -> None:
     field = Field(declared.name, qtbot)
@@ -133,7 +133,7 @@ def test_leaving_a_field_untouched_tells_nothing_and_rounds_nothing(
     assert field.edit.value() == third
 
 
-def test_showing_a_value_tells_nothing_and_drops_what_was_half_typed(qtbot: QtBot) -> None:
+def test_showing_a_value_emits_nothing_and_drops_typed_text(qtbot: QtBot) -> None:
     field = Field("exposure_time", qtbot)
     field.type("99")
     field.edit.set_value(68e-6)

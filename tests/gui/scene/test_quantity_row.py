@@ -51,7 +51,7 @@ def test_the_slider_ends_at_the_declared_range(qtbot: QtBot, declared: Quantity)
 
 
 @pytest.mark.parametrize("declared", LOGARITHMIC, ids=lambda declared: declared.name)
-def test_the_middle_of_a_logarithmic_slider_is_the_geometric_mean(
+def test_a_logarithmic_sliders_middle_is_the_geometric_mean(
     qtbot: QtBot, declared: Quantity
 ) -> None:
     told = Told(declared.name, qtbot)
@@ -177,7 +177,7 @@ def test_rubbish_in_a_field_is_refused_by_the_row(qtbot: QtBot) -> None:
     assert row.slider.value() == position
 
 
-def test_the_wheel_scrolls_the_page_until_a_control_has_been_chosen(qtbot: QtBot) -> None:
+def test_the_wheel_scrolls_the_page_until_a_control_is_chosen(qtbot: QtBot) -> None:
     told = Told("iso", qtbot)
     told.row.show()
     slider = told.row.slider

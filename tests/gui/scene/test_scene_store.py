@@ -23,7 +23,7 @@ def told(store: SceneStore) -> list[Scene]:
     return scenes
 
 
-def test_a_change_is_told_with_the_new_scene(
+def test_a_change_is_emitted_with_the_new_scene(
     store: SceneStore, told: list[Scene], small_scene: Scene
 ) -> None:
     store.change(iso=200.0, distance=2.0)
@@ -41,7 +41,7 @@ def test_a_change_is_told_with_the_new_scene(
         ({"shutter": 1.0}, "shutter"),
     ],
 )
-def test_what_cannot_be_is_refused_with_a_sentence_and_changes_nothing(
+def test_an_impossible_value_is_refused_and_changes_nothing(
     qtbot: QtBot,
     store: SceneStore,
     told: list[Scene],
@@ -59,7 +59,7 @@ def test_what_cannot_be_is_refused_with_a_sentence_and_changes_nothing(
     assert store.undo_stack.count() == 0
 
 
-def test_an_equal_scene_is_no_step_and_is_not_told(
+def test_an_equal_scene_is_no_step_and_not_emitted(
     store: SceneStore, told: list[Scene], small_scene: Scene
 ) -> None:
     store.change(iso=small_scene.camera.iso)
@@ -115,7 +115,7 @@ def test_a_gesture_goes_on_after_passing_where_it_began(
     assert store.scene == small_scene
 
 
-def test_undo_and_redo_walk_back_and_forth_over_exactly_the_same_scenes(
+def test_undo_and_redo_give_exactly_the_same_scenes(
     store: SceneStore, told: list[Scene], small_scene: Scene
 ) -> None:
     store.change(exposure_time=1 / 3 * 1e-4)

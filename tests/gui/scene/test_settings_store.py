@@ -22,11 +22,11 @@ def told() -> Told:
     return Told()
 
 
-def test_noise_is_reused_at_first_and_the_rest_is_the_models_default(told: Told) -> None:
+def test_noise_is_reused_at_first_and_else_defaults_hold(told: Told) -> None:
     assert told.store.settings == SimulationSettings(noise="reused")
 
 
-def test_each_change_is_told_once_and_leaves_the_rest(told: Told) -> None:
+def test_each_change_is_emitted_once_and_leaves_the_rest(told: Told) -> None:
     told.store.set_tolerance(2.0)
     told.store.set_observable("profile")
     told.store.set_noise("exact")
@@ -38,7 +38,7 @@ def test_each_change_is_told_once_and_leaves_the_rest(told: Told) -> None:
     assert len(told.changes) == 6
 
 
-def test_what_holds_already_is_not_told(told: Told) -> None:
+def test_a_setting_that_holds_already_is_not_emitted(told: Told) -> None:
     told.store.set_tolerance(told.store.settings.tolerance)
     told.store.set_observable("image")
     told.store.set_noise("reused")
@@ -46,7 +46,7 @@ def test_what_holds_already_is_not_told(told: Told) -> None:
     assert told.changes == []
 
 
-def test_settings_that_were_told_never_change(told: Told) -> None:
+def test_settings_once_emitted_never_change(told: Told) -> None:
     told.store.force("jpeg", True)
     before = told.changes[0]
     told.store.force("jpeg", False)

@@ -74,7 +74,7 @@ def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None
     assert bench.failures == []
 
 
-def test_every_change_of_the_settings_ends_with_a_picture_made_by_them(bench: Bench) -> None:
+def test_every_change_of_settings_ends_with_a_picture_of_them(bench: Bench) -> None:
     bench.settings.set_tolerance(50.0)
     bench.settings.set_observable("profile")
     bench.settings.force("jpeg", True)
@@ -95,9 +95,7 @@ def test_undo_shows_the_scene_before(bench: Bench, small_scene: Scene) -> None:
     assert bench.scenes[-1] == small_scene
 
 
-def test_all_views_are_shown_the_same_results_and_then_it_is_told(
-    bench: Bench, qtbot: QtBot
-) -> None:
+def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: QtBot) -> None:
     counts: list[int] = []
     bench.controller.snapshot_shown.connect(lambda _: counts.append(len(bench.views[1].shown)))
     with qtbot.waitSignal(bench.controller.snapshot_shown) as shown:
@@ -106,7 +104,7 @@ def test_all_views_are_shown_the_same_results_and_then_it_is_told(
     assert counts == [2]
 
 
-def test_a_scene_without_a_picture_tells_why_and_the_views_keep_the_last(
+def test_a_scene_without_a_picture_says_why_and_views_stay(
     bench: Bench, small_scene: Scene
 ) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
@@ -148,7 +146,7 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(
     assert snapshot.packet_columns == pytest.approx(24 * 100 / 8)
 
 
-def test_simulating_and_reading_are_timed_apart_and_nothing_else_with_them(
+def test_simulation_and_reading_are_timed_apart(
     small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # A clock that goes on by one at every look: what lies between two looks is one.
@@ -161,7 +159,7 @@ def test_simulating_and_reading_are_timed_apart_and_nothing_else_with_them(
     assert snapshot.reading_seconds == 1
 
 
-def test_the_snapshot_holds_every_decoders_reading_of_the_same_picture(
+def test_the_snapshot_holds_each_decoders_result_of_one_picture(
     snapshot_of: Callable[..., Snapshot],
 ) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
@@ -205,7 +203,7 @@ def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
     assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
 
 
-def test_stopping_while_a_simulation_runs_returns_and_nothing_arrives_any_more(
+def test_stopping_during_a_simulation_returns_without_a_result(
     bench: Bench,
 ) -> None:
     pictures: list[object] = []

@@ -26,7 +26,7 @@ def field_of(application: Application, name: str) -> QLineEdit | QAbstractSpinBo
     ("name", "typed"),
     [("iso", "250"), ("bits", "12"), ("pattern", "1100"), ("code", "0000000001")],
 )
-def test_right_after_a_value_is_entered_undo_takes_it_back_from_the_scene(
+def test_undo_after_entering_a_value_restores_the_scene(
     qtbot: QtBot, application: Application, user: User, small_scene: Scene, name: str, typed: str
 ) -> None:
     application.window.activateWindow()
@@ -44,7 +44,7 @@ def test_right_after_a_value_is_entered_undo_takes_it_back_from_the_scene(
     user.wait_until_idle()
 
 
-def test_while_something_is_typed_undo_takes_back_the_letters_alone(
+def test_undo_while_typing_takes_back_the_letters_alone(
     qtbot: QtBot, application: Application, small_scene: Scene
 ) -> None:
     application.store.change(iso=200.0)

@@ -9,7 +9,7 @@ from occ_gui.widgets.scroll_pane import ScrollPane
 
 
 @pytest.mark.parametrize(("height", "asked"), [(500, 120), (70, 70)])
-def test_the_pane_asks_for_what_its_content_needs_and_no_more_than_it_was_told(
+def test_the_pane_asks_for_its_contents_size_up_to_its_limit(
     qtbot: QtBot, height: int, asked: int
 ) -> None:
     content = QWidget()

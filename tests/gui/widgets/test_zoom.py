@@ -69,7 +69,7 @@ def test_an_axis_of_logarithms_has_no_more_ticks_than_pixels(
         assert len(axis.tickStrings(values, 1.0, spacing)) == len(values)
 
 
-def test_an_axis_that_cannot_be_numbered_stays_empty_and_is_told_of(
+def test_an_axis_that_cannot_be_numbered_stays_empty_with_a_note(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[str] = []

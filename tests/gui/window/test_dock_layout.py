@@ -139,7 +139,7 @@ def show_everything_about_the_photo(application: Application) -> None:
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
-def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
+def test_no_control_is_cut_off_squeezed_or_overlapped(
     qtbot: QtBot, application: Application, user: User, photo_file: Path, size: QSize
 ) -> None:
     application.window.resize(size)
@@ -162,7 +162,7 @@ def test_no_control_is_cut_off_squeezed_or_drawn_over_whatever_is_shown(
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
-def test_the_accuracy_pane_is_whole_at_every_size_and_its_plot_can_be_read(
+def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
     qtbot: QtBot, application: Application, user: User, size: QSize
 ) -> None:
     application.window.resize(size)
@@ -174,7 +174,7 @@ def test_the_accuracy_pane_is_whole_at_every_size_and_its_plot_can_be_read(
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
-def test_the_panes_that_explain_and_compare_are_whole_at_every_size(
+def test_explaining_and_comparing_panes_are_whole_at_any_size(
     qtbot: QtBot, application: Application, user: User, size: QSize
 ) -> None:
     window, learning = application.window, application.learning
@@ -228,7 +228,7 @@ def test_every_axis_label_fits_its_axis(application: Application, user: User, si
         assert axis_labels_cut_off(application.window) == []
 
 
-def test_at_the_size_that_the_window_opens_with_every_effect_is_in_view(
+def test_every_effect_is_in_view_at_the_windows_first_size(
     application: Application,
 ) -> None:
     application.window.docks["accuracy"].raise_()
@@ -242,7 +242,7 @@ def test_the_window_opens_at_1280_by_800(application: Application) -> None:
 
 
 @pytest.mark.parametrize("changes", STATES, ids=str)
-def test_the_window_opens_at_the_size_asked_for_whatever_its_first_scene(
+def test_the_window_opens_at_the_requested_size_for_any_scene(
     qtbot: QtBot, application: Application, changes: dict[str, float]
 ) -> None:
     fresh = Application(application.store.scene.replace(**changes))
@@ -256,9 +256,7 @@ def test_the_window_opens_at_the_size_asked_for_whatever_its_first_scene(
     assert size == SIZES[0]
 
 
-def test_both_steps_of_the_decoder_get_their_share_of_the_room(
-    application: Application, user: User
-) -> None:
+def test_both_steps_of_the_decoder_share_the_height(application: Application, user: User) -> None:
     application.window.resize(SIZES[-1])
     application.store.change(**MISREAD)
     user.wait_until_idle()

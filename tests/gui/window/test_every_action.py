@@ -105,7 +105,7 @@ def test_each_control_says_what_it_does(with_photo: Application) -> None:
     assert silent == []
 
 
-def test_each_parameters_tooltip_has_its_meaning_symbol_range_and_unit(
+def test_each_tooltip_has_meaning_symbol_range_and_unit(
     application: Application,
 ) -> None:
     for panel in application.controls.panels.values():

@@ -97,7 +97,7 @@ def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> N
         assert dock.widget().isVisible()
 
 
-def test_what_explains_and_compares_shares_its_place_with_the_profile_which_is_in_front(
+def test_the_profile_is_in_front_of_the_panes_it_shares_with(
     application: Application,
 ) -> None:
     docks = application.window.docks
@@ -158,7 +158,7 @@ def test_every_picture_and_plot_has_a_name(application: Application) -> None:
         assert view.accessibleName(), view
 
 
-def test_the_photos_pane_shares_its_place_with_the_decoding_which_is_in_front(
+def test_the_decoding_is_in_front_of_the_photos_pane(
     application: Application,
 ) -> None:
     docks = application.window.docks
@@ -200,7 +200,7 @@ def drop(application: Application, *urls: QUrl) -> None:
     QApplication.sendEvent(application.window, QDropEvent(place, actions, data, button, no_key))
 
 
-def test_what_is_dropped_is_told_and_nothing_but_the_window_takes_it(
+def test_the_window_alone_takes_drops_and_reports_them(
     application: Application, tmp_path: Path
 ) -> None:
     told: list[list[Path]] = []

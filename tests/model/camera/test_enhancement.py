@@ -61,7 +61,7 @@ def test_none_rounds_to_the_nearest_level(profile: np.ndarray) -> None:
 
 
 @given(profile=wide)
-def test_stretch_is_the_line_from_the_smallest_at_0_to_the_largest_at_255(
+def test_stretch_maps_the_smallest_to_0_and_the_largest_to_255(
     profile: np.ndarray,
 ) -> None:
     enhanced = enhance(profile, "stretch")
@@ -73,7 +73,7 @@ def test_stretch_is_the_line_from_the_smallest_at_0_to_the_largest_at_255(
 
 
 @given(profile=wide)
-def test_equalization_spreads_the_share_of_darker_columns_over_all_levels(
+def test_equalization_maps_each_level_to_its_share_of_columns(
     profile: np.ndarray,
 ) -> None:
     rounded = np.rint(profile)
@@ -88,7 +88,7 @@ def test_equalization_spreads_the_share_of_darker_columns_over_all_levels(
 
 
 @given(profile=wide)
-def test_equalization_is_skimage_s_with_the_darkest_level_at_black(profile: np.ndarray) -> None:
+def test_equalization_is_skimages_with_the_darkest_at_black(profile: np.ndarray) -> None:
     theirs = skimage.exposure.equalize_hist(np.rint(profile).astype(np.uint8))
     enhanced = enhance(profile, "equalization")
     if theirs.min() < 1.0:
@@ -97,7 +97,7 @@ def test_equalization_is_skimage_s_with_the_darkest_level_at_black(profile: np.n
 
 
 @given(profile=profiles, others=profiles, method=methods)
-def test_a_picture_s_enhancement_treats_other_values_in_the_profile_s_order(
+def test_an_images_enhancement_keeps_the_profiles_order(
     profile: np.ndarray, others: np.ndarray, method: str
 ) -> None:
     curve = Enhancement(profile, method)

@@ -83,7 +83,7 @@ def test_a_saved_scene_renders_the_same_picture_again(command: Command, tmp_path
 
 
 @pytest.mark.parametrize("name", ["scene.csv", "scene.png", "scene.jpg", "scene", "scene.txt"])
-def test_a_scene_that_would_not_open_again_is_refused_before_anything_is_written(
+def test_a_scene_that_would_not_open_again_is_not_written(
     command: Command, tmp_path: Path, name: str
 ) -> None:
     scene, picture = tmp_path / name, tmp_path / "picture.png"
@@ -184,7 +184,7 @@ MISUSES = {
 
 
 @pytest.mark.parametrize("line", MISUSES)
-def test_a_misuse_is_answered_with_one_sentence_and_leaves_no_file(
+def test_a_misuse_gives_one_sentence_and_leaves_no_file(
     command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str
 ) -> None:
     monkeypatch.chdir(tmp_path)

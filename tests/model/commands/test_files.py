@@ -51,7 +51,7 @@ def picture() -> occ.Frame:
 
 
 @pytest.mark.parametrize("line", REFUSED)
-def test_a_file_that_would_be_lost_is_refused_before_anything_is_done(
+def test_a_file_that_would_be_lost_is_refused_before_any_work(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -125,7 +125,7 @@ def test_every_option_that_names_a_file_is_known() -> None:
 
 
 @pytest.mark.parametrize("ignores", [True, False])
-def test_names_that_differ_in_case_are_one_file_where_the_file_system_takes_them_so(
+def test_names_that_differ_in_case_are_one_file_where_that_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ignores: bool
 ) -> None:
     monkeypatch.setattr(files, "ignores_case", lambda _folder: ignores)
@@ -169,7 +169,7 @@ def test_names_that_are_no_text_are_read_written_and_shown(tmp_path: Path, name:
     assert sorted(tmp_path.iterdir()) == sorted((picture, scene, table))
 
 
-def test_a_photo_whose_name_is_no_text_is_told_in_a_figure(tmp_path: Path) -> None:
+def test_a_photo_whose_name_is_no_text_stands_in_a_figure(tmp_path: Path) -> None:
     from occ_model.figures.paper import write_profile_figure
 
     photo = tmp_path / os.fsdecode(b"caf\xe9.png")

@@ -168,7 +168,7 @@ def test_what_cannot_be_is_a_sentence_and_nothing_is_written(
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_cluster_is_asked_with_the_certificates_of_dasks_configuration(
+def test_a_cluster_is_reached_with_dasks_certificates(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def rpc(address: str, connection_args: object = None) -> None:
@@ -185,7 +185,7 @@ def test_a_cluster_is_asked_with_the_certificates_of_dasks_configuration(
         pass
 
 
-def test_a_cluster_that_does_not_answer_is_a_sentence_within_its_time(
+def test_an_unreachable_cluster_gives_a_sentence_in_time(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cluster, "_SECONDS", 0.2)
@@ -226,9 +226,7 @@ def table_of(**axes: object) -> occ.SweepTable:
 
 
 @pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
-def test_a_figure_is_written_in_the_format_of_its_ending_with_its_provenance(
-    tmp_path: Path, ending: str
-) -> None:
+def test_a_figure_has_its_endings_format_and_its_provenance(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"f.{ending}"
     write_sweep_figure(path, table_of(switching_frequency=[4e3, 6e3, 15e3]))
     content = path.read_bytes()

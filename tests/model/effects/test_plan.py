@@ -44,7 +44,7 @@ def test_zero_takes_in_all_that_is_there_and_infinity_nothing(scene: Scene) -> N
 
 
 @pytest.mark.parametrize("observable", ["profile", "image"])
-def test_what_is_left_out_sums_up_within_the_tolerance_and_one_more_would_not(
+def test_what_is_left_out_fills_the_tolerance_as_far_as_it_can(
     scene: Scene, observable: str
 ) -> None:
     for tolerance in np.geomspace(0.01, 300.0, 40).tolist():
@@ -85,7 +85,7 @@ def test_the_user_has_the_last_word(scene: Scene, on: bool) -> None:
         assert decision.reason.endswith(f"switched {'on' if on else 'off'} by hand")
 
 
-def test_what_is_left_out_by_hand_does_not_count_against_the_tolerance(scene: Scene) -> None:
+def test_effects_switched_off_do_not_count_against_the_tolerance(scene: Scene) -> None:
     free = occ.plan(scene, 0.5)
     by_hand = occ.plan(scene, 0.5, force={"vignetting": False})
     assert included(by_hand) == included(free) - {"vignetting"}

@@ -107,9 +107,7 @@ def test_no_settings_file_named_elsewhere_reaches_a_figure(tmp_path: Path, plain
     assert drawn(work, MPLCONFIGDIR=folder) == plain
 
 
-def test_an_unknown_backend_and_a_folder_that_cannot_be_written_to_reach_no_figure(
-    tmp_path: Path, plain: str
-) -> None:
+def test_no_unknown_backend_or_unwritable_folder_stops_a_figure(tmp_path: Path, plain: str) -> None:
     # No user can create a folder under a file.
     taste(tmp_path / "file")
     nowhere = str(tmp_path / "file" / "folder")
@@ -137,7 +135,7 @@ def test_where_matplotlib_can_write_nowhere_a_sentence_says_so(tmp_path: Path) -
     assert done.stdout.count("\n") == 1
 
 
-def test_what_was_set_in_the_same_process_reaches_no_figure_and_is_set_afterwards() -> None:
+def test_figures_ignore_and_keep_settings_of_the_same_process() -> None:
     def draw() -> bytes:
         with house_style():
             figure = Figure()
@@ -151,7 +149,7 @@ def test_what_was_set_in_the_same_process_reaches_no_figure_and_is_set_afterward
         assert mpl.rcParams["lines.linewidth"] == 9
 
 
-def test_a_backend_that_the_environment_names_is_that_of_the_users_own_figures() -> None:
+def test_the_environments_backend_serves_the_users_own_figures() -> None:
     program = (
         "import os, occ_model.figures, matplotlib\n"
         "print(matplotlib.rcParams['backend'], os.environ['MPLBACKEND'])\n"

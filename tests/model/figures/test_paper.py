@@ -92,7 +92,7 @@ def test_a_folder_that_cannot_be_made_is_a_sentence(
 
 
 @pytest.mark.parametrize("wrong", [("--seed", "-1"), ("--images", "0"), ("--jobs", "0")])
-def test_a_number_that_cannot_be_is_refused_before_anything_is_written(
+def test_an_impossible_number_is_refused_before_any_writing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], wrong: tuple[str, str]
 ) -> None:
     assert main(["figures", "--out", str(tmp_path / "figures"), *wrong]) == 2

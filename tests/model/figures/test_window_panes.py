@@ -97,7 +97,7 @@ def test_the_reason_stands_where_there_is_no_band_model(tmp_path: Path) -> None:
     assert "band model (grey level)" not in drawing.header
 
 
-def test_an_ending_that_is_none_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None:
     drawing = drawings()[0]
     with pytest.raises(occ.OutputError, match=r"figure\.doc has no ending"):
         drawing.write(tmp_path / "figure.doc", provenance(drawing))

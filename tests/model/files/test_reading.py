@@ -53,7 +53,7 @@ def test_a_file_is_read_whole_up_to_the_limit(tmp_path: Path) -> None:
     assert str(refused.value) == f"{path} cannot be read: it has more than 2,999,999 bytes."
 
 
-def test_no_more_than_the_limit_is_read_of_a_file_that_does_not_know_its_size(
+def test_reading_stops_at_the_limit_where_the_size_is_unknown(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     path = tmp_path / "endless"
@@ -134,7 +134,7 @@ def test_every_reader_of_scenes_refuses_what_is_no_regular_file(
 
 @posix
 @limited
-def test_a_preset_that_is_no_regular_file_is_listed_as_unreadable(
+def test_a_preset_that_is_no_regular_file_is_unreadable(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path], None]
 ) -> None:
     monkeypatch.setenv(USER_FOLDER, str(tmp_path))
@@ -146,7 +146,7 @@ def test_a_preset_that_is_no_regular_file_is_listed_as_unreadable(
         preset_named("odd")
 
 
-def test_a_scene_of_more_than_the_limit_is_refused_before_it_is_read_whole(tmp_path: Path) -> None:
+def test_a_scene_beyond_the_limit_is_refused_before_it_is_read(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     text = Scene().to_toml()
     path.write_text(text + "#" * (LARGEST_TEXT - len(text)))

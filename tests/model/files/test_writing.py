@@ -128,7 +128,7 @@ def a_link_to_a_device(path: Path) -> None:
 
 
 @pytest.mark.parametrize("make", [a_pipe, a_socket, a_link_to_a_device])
-def test_what_is_no_regular_file_is_neither_written_to_nor_replaced(
+def test_what_is_no_regular_file_is_neither_written_nor_replaced(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path], None]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -242,9 +242,7 @@ def test_a_lossy_format_gives_the_picture_back(
 
 
 @pytest.mark.parametrize("name", ["x", "x.", "x.txt", "x.png.x", ".png", "x.gif", "x.pdf"])
-def test_an_ending_of_no_image_format_is_refused_and_nothing_written(
-    tmp_path: Path, name: str
-) -> None:
+def test_an_ending_of_no_image_format_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(OutputError) as refused:
         write_image(tmp_path / name, IMAGE)
     assert str(refused.value) == (
@@ -266,7 +264,7 @@ def test_every_ending_that_is_offered_is_one_of_a_picture(tmp_path: Path, ending
     ("ending", "format_name", "longest"), [("jpg", "JPEG", 65_500), ("webp", "WEBP", 16_383)]
 )
 @pytest.mark.parametrize("wide", [True, False], ids=["wide", "tall"])
-def test_a_picture_too_long_for_its_format_is_refused_with_the_longest_side(
+def test_a_picture_too_long_for_its_format_is_refused(
     tmp_path: Path, ending: str, format_name: str, longest: int, wide: bool
 ) -> None:
     path = tmp_path / f"picture.{ending}"
@@ -285,7 +283,7 @@ def test_a_picture_too_long_for_its_format_is_refused_with_the_longest_side(
         assert max(read.size) == longest
 
 
-def test_a_name_too_long_for_the_file_system_is_refused_in_a_sentence(tmp_path: Path) -> None:
+def test_a_name_too_long_for_the_file_system_is_refused(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="cannot be written"):
         write_whole(tmp_path / ("a" * 300), b"content")
 
@@ -307,7 +305,7 @@ def test_a_write_protected_file_is_not_replaced(tmp_path: Path, through_a_link: 
 
 
 @pytest.mark.parametrize("mode", [0o600, 0o640, 0o666])
-def test_what_is_written_can_never_be_read_by_more_than_the_file_allows(
+def test_a_written_file_is_never_readable_beyond_its_permissions(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: int
 ) -> None:
     path = tmp_path / "private.toml"

@@ -184,7 +184,7 @@ def test_colours_of_print_and_video_are_read(tmp_path: Path, mode: str) -> None:
     np.testing.assert_allclose(load_photo(path).image, STRIPES, atol=2)
 
 
-def test_transparent_parts_are_black_and_one_bit_is_black_or_white(tmp_path: Path) -> None:
+def test_transparent_is_black_and_one_bit_is_black_or_white(tmp_path: Path) -> None:
     binary = load_photo(saved(tmp_path, STRIPES > 128)).image
     np.testing.assert_array_equal(binary, np.where(STRIPES > 128, 255, 0))
     grey_alpha = np.array([[[200, 255], [200, 0], [200, 128], [10, 255]]], np.uint8)
@@ -198,7 +198,7 @@ def test_transparent_parts_are_black_and_one_bit_is_black_or_white(tmp_path: Pat
     np.testing.assert_array_equal(load_photo(path).samples, np.where(deep == 3000, 0, deep))
 
 
-def test_floating_point_pixels_are_grey_levels_and_no_number_is_black(tmp_path: Path) -> None:
+def test_floating_point_pixels_are_levels_and_nan_is_black(tmp_path: Path) -> None:
     levels = np.array([[0.2, 99.6, -5.0, 300.0, 3e38, np.inf, -np.inf, np.nan]], np.float32)
     photo = load_photo(saved(tmp_path, levels, "x.tif"), "columns")
     assert photo.image.tolist() == [[0, 100, 0, 255, 255, 255, 0, 0]]

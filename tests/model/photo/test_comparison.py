@@ -19,9 +19,7 @@ def test_levels_do_not_matter(gain: float, lift: float) -> None:
 
 
 @given(first=st.integers(-100, 250), scale=st.floats(0.3, 3.0))
-def test_a_photo_that_is_moved_and_scaled_is_compared_where_it_lies(
-    first: int, scale: float
-) -> None:
+def test_a_moved_and_scaled_photo_is_compared_where_it_lies(first: int, scale: float) -> None:
     columns = np.arange(500)
     flattened = np.sin((first + columns * scale) / 9.0)
     if first + 499 * scale < 2:

@@ -240,7 +240,7 @@ def results() -> list[subprocess.CompletedProcess[str]]:
     return results
 
 
-def test_every_damaged_photo_is_soon_read_or_refused_in_a_sentence(
+def test_every_damaged_photo_is_read_or_refused_with_a_sentence(
     results: list[subprocess.CompletedProcess[str]],
 ) -> None:
     total: Counter[str] = Counter()

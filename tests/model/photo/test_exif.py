@@ -120,7 +120,7 @@ def test_apex_nonsense_is_none(apex: object) -> None:
     assert (notes.exposure_time, notes.f_number) == (None, None)
 
 
-def test_an_iso_that_does_not_fit_into_sixteen_bits_is_read_from_where_it_does() -> None:
+def test_an_iso_beyond_sixteen_bits_is_read_from_its_other_tag() -> None:
     for tags, iso in (
         ({ISO: 65535, ISO_SPEED: 102_400}, 102_400),
         ({ISO: 65535}, 65535),
@@ -183,7 +183,7 @@ def test_broken_notes_never_make_a_picture_unreadable(tmp_path: Path, name: str)
     assert kept > 0
 
 
-def test_tags_that_share_their_bytes_take_no_more_memory_than_the_file_has(tmp_path: Path) -> None:
+def test_tags_that_share_bytes_take_no_more_memory_than_the_file(tmp_path: Path) -> None:
     tags = 3000
     entries = b"".join(
         (40_000 + tag).to_bytes(2, "little") + b"\1\0" + (30_000).to_bytes(4, "little") + bytes(4)

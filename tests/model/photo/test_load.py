@@ -30,9 +30,7 @@ LOSSY = ["jpg", "mpo", "webp", "avif", "heic"]
 
 
 @pytest.mark.parametrize("ending", [*LOSSLESS, *LOSSY])
-def test_a_photo_is_read_to_the_last_bit_where_its_format_keeps_it(
-    tmp_path: Path, ending: str
-) -> None:
+def test_a_photo_is_read_exactly_where_its_format_is_lossless(tmp_path: Path, ending: str) -> None:
     colours = ending in ("mpo", "qoi")  # which keep no grey
     picture = PICTURE.convert("RGB") if colours else PICTURE
     path = saved(tmp_path, picture, f"x.{ending}", quality=95)
@@ -118,7 +116,7 @@ def stripe_period(profile: np.ndarray, shortest: int, longest: int) -> float:
 
 
 @pytest.mark.photos
-def test_the_real_photo_of_1_khz_has_the_stripes_that_its_readout_time_says(photos: Path) -> None:
+def test_the_real_1_khz_photo_has_stripes_of_its_readout_time(photos: Path) -> None:
     photo = load_photo(photos / "led_1khz_frame.png")
     assert (photo.turned, photo.image.shape) == (True, (1920, 1080))
     assert stripe_period(photo.profile, 40, 100) == pytest.approx(1e-3 / 14.565e-6, rel=0.01)

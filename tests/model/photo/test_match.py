@@ -33,7 +33,7 @@ def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
 
 
 @pytest.mark.parametrize("k1", [-0.15, 0.15])
-def test_the_fitted_scene_lies_on_the_photo_through_a_lens_that_bends(k1: float) -> None:
+def test_the_fitted_scene_lies_on_the_photo_through_a_bent_lens(k1: float) -> None:
     scene = SCENE.replace(radial_k1=k1, tangential_p1=0.01)
     match = occ.match_photo(take(scene), scene.replace(readout_time=1e-6))
     again = occ.find_stripes(photo_of(occ.render(match.scene, tolerance=0.0).image)).region
@@ -47,7 +47,7 @@ def test_the_residual_is_the_photo_less_the_aligned_profile() -> None:
     assert match.rmse == pytest.approx(float(np.sqrt(np.mean(match.residual**2))))
 
 
-def test_either_of_frequency_and_readout_time_is_estimated_from_the_other() -> None:
+def test_frequency_or_readout_time_is_estimated_from_the_other() -> None:
     readout, frequency = SCENE.camera.readout_time, SCENE.transmitter.switching_frequency
     one = occ.match_photo(PHOTO, KNOWN)
     other = occ.match_photo(
@@ -83,7 +83,7 @@ def test_what_never_changes_is_no_explanation() -> None:
         occ.match_photo(PHOTO, KNOWN.replace(pattern="1111"), sent="scene")
 
 
-def test_gamma_is_estimated_with_an_uncertainty_where_it_is_asked() -> None:
+def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
     scene = SCENE.replace(averaging="light", gamma=1.8, illuminance=0.0)
     match = occ.match_photo(take(scene), scene.replace(gamma=2.4), fit_gamma=True)
     assert match.gamma == pytest.approx(1.8, abs=0.1)
@@ -106,7 +106,7 @@ def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
     assert given.scene.model.averaging == "pixel-value"
 
 
-def test_progress_rises_to_all_of_it_and_what_it_raises_ends_the_match() -> None:
+def test_progress_rises_to_1_and_what_it_raises_ends_the_match() -> None:
     shares: list[float] = []
     occ.match_photo(PHOTO, KNOWN, progress=shares.append)
     assert shares == sorted(shares)
@@ -190,7 +190,7 @@ class TestCommand:
         assert re.search(r"switching_frequency +2 kHz", lines)
         assert re.search(r"readout_time +(20\.0\d*|19\.99\d*|20) ±", lines)
 
-    def test_what_cannot_be_matched_is_said(
+    def test_what_cannot_be_matched_gives_a_sentence(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:
         path = tmp_path / "flat.png"

@@ -171,7 +171,7 @@ def test_an_argument_that_is_not_allowed_is_refused(how: dict[str, object], sent
     assert str(refused.value) == sentence
 
 
-def test_a_heic_photo_tells_how_to_read_it_where_that_is_not_installed(
+def test_a_heic_photo_without_its_reader_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "x.png"  # whatever its name

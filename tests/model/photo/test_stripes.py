@@ -80,7 +80,7 @@ def test_deep_pictures_give_the_same_stripes_as_shallow_ones() -> None:
     assert np.allclose(one.profile, other.profile, atol=1e-6)
 
 
-def test_the_share_of_white_pixels_is_told() -> None:
+def test_the_share_of_white_pixels_is_shown() -> None:
     image = np.tile(np.repeat([20, 255, 20, 255, 255], 12).astype(np.uint8), (50, 8))
     assert occ.find_stripes(photo_of(image)).saturated == pytest.approx(0.6, abs=0.05)
 

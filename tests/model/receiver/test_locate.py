@@ -51,7 +51,7 @@ def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> N
 
 @pytest.mark.parametrize("shape", [(700, 1500), (1501, 1103), (3, 3000), (2000, 5)])
 @given(data=st.data())
-def test_a_bright_rectangle_is_found_exactly_in_a_large_image_too(
+def test_a_bright_rectangle_is_found_exactly_in_a_large_image(
     shape: tuple[int, int], data: st.DataObject
 ) -> None:
     region = data.draw(inside(*shape).filter(lambda r: r.rows * r.columns < shape[0] * shape[1]))
@@ -72,15 +72,13 @@ def test_a_bright_rectangle_is_found_exactly_in_a_large_image_too(
     ids=lambda r: f"rows {r.first_row}-{r.last_row} columns {r.first_column}-{r.last_column}",
 )
 @pytest.mark.parametrize("fraction", [1e-4, FRACTION, 0.5])
-def test_the_share_of_bright_pixels_asked_for_does_not_move_a_rectangle(
-    region: Region, fraction: float
-) -> None:
+def test_the_bright_fraction_does_not_move_a_rectangle(region: Region, fraction: float) -> None:
     assert region_in(lit(900, 1200, region), fraction) == region
 
 
 @pytest.mark.parametrize("period", [4, 10, 37, 120])
 @pytest.mark.parametrize("shape", [(300, 400), (1200, 1600)])
-def test_a_striped_panel_is_found_from_its_first_to_its_last_bright_stripe(
+def test_a_striped_panel_is_found_from_first_to_last_stripe(
     shape: tuple[int, int], period: int
 ) -> None:
     image = dark(*shape)
@@ -120,7 +118,7 @@ def test_isolated_hot_pixels_away_from_the_panel_do_not_widen_it(
     assert region_in(image, FRACTION) == panel
 
 
-def test_a_panel_far_away_is_not_lost_among_the_surroundings_brightest_pixels() -> None:
+def test_a_far_panel_is_not_lost_among_bright_surroundings() -> None:
     rng = np.random.default_rng(3)
     image = rng.integers(10, 30, (600, 800), dtype=np.uint8)
     panel = Region(250, 280, 390, 420)  # 0.2 % of the area
@@ -160,7 +158,7 @@ def check_any(image: np.ndarray, fraction: float) -> None:
 
 
 @given(image=images, fraction=st.floats(1e-4, 0.5))
-def test_the_region_of_any_image_holds_its_bright_pixels_and_is_drawn_close_round_them(
+def test_a_region_holds_its_bright_pixels_and_fits_them_closely(
     image: np.ndarray, fraction: float
 ) -> None:
     check_any(image, fraction)
@@ -178,7 +176,7 @@ def test_the_same_holds_for_images_of_one_row_or_one_column(
 
 
 @given(image=images, fraction=st.floats(1e-4, 0.5))
-def test_a_mirrored_or_turned_image_has_the_mirrored_or_turned_region(
+def test_a_mirrored_or_turned_image_has_its_region_so_too(
     image: np.ndarray, fraction: float
 ) -> None:
     region = region_in(image, fraction)
@@ -200,7 +198,7 @@ def test_a_mirrored_or_turned_image_has_the_mirrored_or_turned_region(
     )
 
 
-def test_stripes_are_contours_of_their_own_that_grow_together_over_half_their_gaps() -> None:
+def test_stripes_grow_together_over_half_their_gaps() -> None:
     image = np.zeros((120, 400), dtype=np.uint8)
     for first in range(100, 300, 40):
         image[30:90, first : first + 10] = 255
@@ -212,7 +210,7 @@ def test_stripes_are_contours_of_their_own_that_grow_together_over_half_their_ga
     assert found.growth == 15
 
 
-def test_a_panel_without_stripes_is_one_contour_that_need_not_grow() -> None:
+def test_a_panel_without_stripes_is_one_contour_without_growth() -> None:
     image = np.zeros((120, 400), dtype=np.uint8)
     image[30:90, 100:200] = 255
     found = locate(image, FRACTION)

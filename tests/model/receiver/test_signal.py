@@ -29,7 +29,7 @@ def variances(counts: list[int]) -> dict[int, Fraction]:
 
 
 @given(counts=histograms)
-def test_the_split_is_the_middle_one_of_those_with_the_largest_variance_between(
+def test_of_equally_good_splits_the_middle_one_is_taken(
     counts: list[int],
 ) -> None:
     exact = variances(counts)
@@ -69,7 +69,7 @@ def test_two_filled_bins_are_split_in_the_middle_between_them(
     before=st.integers(0, 20),
     after=st.integers(0, 20),
 )
-def test_neither_the_number_of_pixels_nor_empty_bins_around_move_the_split(
+def test_pixel_counts_and_empty_bins_do_not_move_the_split(
     counts: list[int], factor: int, before: int, after: int
 ) -> None:
     split = otsu_split(np.array(counts))

@@ -52,7 +52,7 @@ def test_a_setting_is_read_as_its_kind_of_parameter_is_written(
     assert with_settings(start, [setting]) == start.replace(**{name: value})
 
 
-def test_settings_are_taken_together_so_that_their_order_does_not_matter() -> None:
+def test_the_order_of_settings_does_not_matter() -> None:
     settings = ["code=4095", "bits=12"]
     assert with_settings(Scene(), settings) == Scene().replace(code=4095, bits=12)
     assert with_settings(Scene(), settings[::-1]) == Scene().replace(code=4095, bits=12)
@@ -107,9 +107,7 @@ def test_a_saved_scene_opens_again(tmp_path: Path, name: str) -> None:
 @pytest.mark.parametrize(
     "name", [*(f"scene{ending}" for ending in (*ENDINGS, *PICTURE_ENDINGS)), "a.txt", "a", ".toml"]
 )
-def test_a_scene_is_not_saved_under_an_ending_that_means_something_else(
-    tmp_path: Path, name: str
-) -> None:
+def test_a_scene_is_not_saved_under_another_formats_ending(tmp_path: Path, name: str) -> None:
     path = tmp_path / name
     with pytest.raises(OutputError) as refused:
         write_scene_file(path, Scene())
@@ -154,7 +152,7 @@ def test_a_file_that_is_not_text_is_no_scene_file(tmp_path: Path, content: bytes
         (OSError("the network is gone"), "the network is gone"),
     ],
 )
-def test_a_scene_file_that_may_not_be_read_is_refused_with_the_reason(
+def test_an_unreadable_scene_file_is_refused_with_the_reason(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, error: OSError, reason: str
 ) -> None:
     def fail(*_arguments: object, **_options: object) -> str:

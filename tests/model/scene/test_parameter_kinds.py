@@ -37,7 +37,7 @@ NO_NUMBERS = [True, False, None, "1", b"1", 1j, [1.0], np.array([1.0]), np.True_
 @every_quantity
 @few
 @given(data=st.data())
-def test_a_quantity_accepts_every_number_within_its_range_as_it_is(
+def test_a_quantity_accepts_every_number_in_its_range_unchanged(
     quantity: Quantity, data: st.DataObject
 ) -> None:
     value = data.draw(st.floats(quantity.low, quantity.high))
@@ -140,7 +140,7 @@ def test_a_text_too_long_for_a_number_is_refused_by_its_length(
 
 @pytest.mark.parametrize("declaration", PARAMETERS.values(), ids=lambda p: p.name)
 @pytest.mark.parametrize("power", [400, 5000], ids=["beyond-float", "beyond-print"])
-def test_a_whole_number_too_large_to_hold_is_refused_like_any_other(
+def test_a_whole_number_too_large_for_a_float_is_refused(
     declaration: Parameter, power: int
 ) -> None:
     with pytest.raises(ParameterError, match=rf"^{declaration.name} is .*; allowed: "):
@@ -167,7 +167,7 @@ def test_a_number_too_far_below_zero_to_hold_keeps_its_sign(quantity: Quantity) 
 @every_count
 @few
 @given(data=st.data())
-def test_a_count_accepts_whole_numbers_of_any_type_within_its_range(
+def test_a_count_accepts_whole_numbers_of_any_type_in_range(
     count: Count, data: st.DataObject
 ) -> None:
     value = data.draw(st.integers(count.low, count.high))

@@ -68,7 +68,7 @@ def test_a_slider_further_up_never_gives_a_smaller_value(
 @every_quantity
 @few
 @given(position=positions)
-def test_a_slider_s_position_and_value_are_inverse_to_four_digits(
+def test_slider_position_and_value_are_inverse_to_four_digits(
     quantity: Quantity, position: float
 ) -> None:
     value = quantity.slider[0] + (quantity.slider[1] - quantity.slider[0]) * position
@@ -150,6 +150,6 @@ def test_a_parameter_is_found_only_among_the_names_asked_for() -> None:
         parameter_named("iso", ("gamma",))
 
 
-def test_a_refusal_is_a_value_error_and_one_of_ours() -> None:
+def test_a_refusal_is_a_value_error_and_an_occ_error() -> None:
     assert issubclass(ParameterError, ValueError)
     assert issubclass(ParameterError, OccError)

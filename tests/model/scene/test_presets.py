@@ -32,7 +32,7 @@ every_preset = pytest.mark.parametrize("name", presets())
 papers_presets = pytest.mark.parametrize("name", PAPER)
 
 
-def test_the_papers_four_experiments_are_there_in_the_order_of_their_names() -> None:
+def test_the_papers_four_experiments_are_listed_by_name() -> None:
     assert set(PAPER) <= set(presets())
     assert list(presets()) == sorted(presets())
 
@@ -67,7 +67,7 @@ def test_a_value_that_is_not_nothing_has_a_source_or_a_reason(name: str, paramet
 
 
 @papers_presets
-def test_what_the_paper_states_names_it_and_what_it_does_not_is_assumed(name: str) -> None:
+def test_values_name_the_paper_or_are_marked_as_assumed(name: str) -> None:
     preset = preset_named(name)
     stated = {"bits", "luminance", "iso", "gamma", "meter_constant", "illuminance", "reflectance"}
     stated |= {"readout_time", "bright_fraction", "averaging", "enhancement"}
@@ -136,7 +136,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "presets"
 
 
-def test_a_note_on_a_changed_value_replaces_the_one_on_the_value_before(folder: Path) -> None:
+def test_a_changed_values_note_replaces_the_one_before(folder: Path) -> None:
     (folder / "own-base.toml").write_text(
         'format = 1\ntitle = "Base"\n[camera]\niso = 200\ngamma = 2.0\n'
         '[sources]\niso = "a book"\n[assumed]\ngamma = "a guess"\n'
@@ -193,7 +193,7 @@ def test_a_misspelt_preset_is_answered_with_the_nearest() -> None:
         load_preset("phone-138us")
 
 
-def test_an_unknown_preset_is_a_key_error_and_one_of_ours() -> None:
+def test_an_unknown_preset_is_a_key_error_and_an_occ_error() -> None:
     assert issubclass(PresetError, KeyError)
     assert issubclass(PresetError, OccError)
 
@@ -209,7 +209,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 MINE = Scene().replace(readout_time=14.565e-6, pattern="10", iso=321.0)
 
 
-def test_a_saved_preset_is_loaded_exactly_as_it_was_with_its_title_and_sources(own: Path) -> None:
+def test_a_saved_preset_keeps_its_scene_title_and_sources(own: Path) -> None:
     sources = {"readout_time": "measured: photo a.png"}
     path = save_preset("My phone", MINE, title="My phone's camera", sources=sources)
     assert path == own / "My phone.toml"
@@ -219,7 +219,7 @@ def test_a_saved_preset_is_loaded_exactly_as_it_was_with_its_title_and_sources(o
     assert list(own.iterdir()) == [path]
 
 
-def test_the_users_own_presets_are_listed_after_those_of_the_program(own: Path) -> None:
+def test_the_users_presets_are_listed_after_the_programs(own: Path) -> None:
     built_in = presets()
     for name in ("b", "a 1", "zz"):
         save_preset(name, MINE)
@@ -239,9 +239,7 @@ def test_saving_under_the_name_of_an_own_preset_replaces_it(own: Path) -> None:
     "name",
     ["", " a", "a ", ".a", "../a", "a/b", "a\\b", "a.b", "ä", "a\n", "a\0", "x" * 61, "NUL", 3],
 )
-def test_what_cannot_be_a_presets_name_is_refused_and_nothing_written(
-    own: Path, name: object
-) -> None:
+def test_an_impossible_preset_name_is_refused_without_a_file(own: Path, name: object) -> None:
     with pytest.raises(PresetError, match=r"^A preset cannot be named ") as refused:
         save_preset(name, MINE)  # type: ignore[arg-type]
     assert str(refused.value).endswith(".")
@@ -255,7 +253,7 @@ def test_the_name_of_a_preset_of_the_program_is_refused(own: Path, name: str) ->
     assert not own.exists()
 
 
-def test_a_source_of_what_is_no_parameter_is_refused_and_nothing_written(own: Path) -> None:
+def test_a_source_of_an_unknown_parameter_is_refused(own: Path) -> None:
     with pytest.raises(ParameterError, match="isoo"):
         save_preset("mine", MINE, sources={"isoo": "a book"})
     with pytest.raises(ParameterError, match=r"^scene is "):
@@ -295,9 +293,7 @@ RUBBISH = {
 
 
 @pytest.mark.parametrize("name", RUBBISH)
-def test_rubbish_among_the_users_own_is_left_out_and_named_when_it_is_loaded(
-    own: Path, name: str
-) -> None:
+def test_rubbish_among_the_users_presets_is_left_out(own: Path, name: str) -> None:
     built_in = presets()
     save_preset("good", MINE)
     (own / f"{name}.toml").write_bytes(RUBBISH[name])
@@ -340,7 +336,7 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_preset_is_named_with_a_short_reason_and_stops_nothing(
+def test_a_hostile_preset_gets_a_short_reason_and_stops_nothing(
     own: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = presets()
@@ -362,7 +358,7 @@ def test_a_hostile_preset_is_named_with_a_short_reason_and_stops_nothing(
     assert [line.split()[0] for line in listed[:-1]] == [*before, "good"]
 
 
-def test_a_mistake_of_ours_over_one_file_does_not_hide_the_others(
+def test_an_internal_error_over_one_file_hides_no_other(
     own: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     save_preset("good", MINE)
@@ -427,7 +423,7 @@ def test_a_folder_and_a_link_to_nothing_are_listed_as_unreadable(own: Path) -> N
     assert reasons["link"].endswith("cannot be read: No such file or directory.")
 
 
-def test_control_characters_of_titles_and_notes_are_printed_escaped(
+def test_control_characters_of_titles_and_notes_are_escaped(
     own: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = "\x1b[31mred\n\x1b]0;title\x07 \u202e\x9b"

@@ -48,7 +48,7 @@ def test_the_groups_hold_every_parameter_exactly_once() -> None:
 
 
 @pytest.mark.parametrize("name", PARAMETERS)
-def test_a_parameter_stands_in_the_group_that_it_is_said_to(name: str) -> None:
+def test_a_parameter_stands_in_its_declared_group(name: str) -> None:
     scene = Scene()
     assert getattr(getattr(scene, group_of(name)), name) == PARAMETERS[name].default
     assert scene.tables()[group_of(name)][name] == PARAMETERS[name].default
@@ -110,9 +110,7 @@ def test_a_scene_never_changes(name: str) -> None:
 
 
 @given(bits=values(PARAMETERS["bits"]), code=values(PARAMETERS["code"]))
-def test_a_code_is_accepted_where_it_fits_its_bits_in_any_order_of_naming(
-    bits: int, code: int
-) -> None:
+def test_a_code_that_fits_its_bits_is_accepted_in_any_order(bits: int, code: int) -> None:
     for changes in ({"bits": bits, "code": code}, {"code": code, "bits": bits}):
         if code < 2**bits:
             scene = Scene().replace(**changes)
@@ -125,7 +123,7 @@ def test_a_code_is_accepted_where_it_fits_its_bits_in_any_order_of_naming(
             )
 
 
-def test_a_code_that_does_not_fit_is_refused_whichever_changes_last() -> None:
+def test_a_code_that_does_not_fit_is_refused_in_any_order() -> None:
     with pytest.raises(ParameterError, match=r"^code is 1024; allowed with 10 bits: 0 to 1023\.$"):
         Scene().replace(code=1024)
     with pytest.raises(ParameterError, match=r"^code is 718; allowed with 9 bits: 0 to 511\.$"):

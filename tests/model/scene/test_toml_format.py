@@ -59,7 +59,7 @@ def test_a_scene_is_written_as_its_format_and_one_table_a_group(scene: Scene) ->
 
 
 @given(data=st.data())
-def test_a_partial_file_keeps_the_defaults_of_what_it_does_not_name(data: st.DataObject) -> None:
+def test_a_partial_file_keeps_the_defaults_of_the_rest(data: st.DataObject) -> None:
     scene = data.draw(scenes())
     kept = data.draw(st.sets(st.sampled_from(sorted(set(PARAMETERS) - {"code", "bits"}))))
     lines = [
@@ -77,7 +77,7 @@ def test_a_file_with_nothing_but_its_format_is_the_default_scene() -> None:
     assert Scene.from_toml("# words\r\nformat = 1\r\n[camera]\r\n") == Scene()
 
 
-def test_a_whole_number_may_stand_for_a_real_one_and_the_other_way_round() -> None:
+def test_whole_and_real_numbers_may_stand_for_each_other() -> None:
     text = "format = 1\n[camera]\niso = 200\nrows = 300.0\n"
     assert exact(Scene.from_toml(text)) == exact(Scene().replace(iso=200.0, rows=300))
 

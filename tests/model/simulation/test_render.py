@@ -98,7 +98,7 @@ def test_the_papers_model_alone_leaves_nothing_to_chance(scene: Scene, seed: int
 
 
 @pytest.mark.parametrize("noise", ["exact", "reused"])
-def test_the_same_seed_gives_the_same_picture_and_another_another(scene: Scene, noise: str) -> None:
+def test_the_same_seed_gives_the_same_picture(scene: Scene, noise: str) -> None:
     def picture(seed: int) -> np.ndarray:
         return occ.render(scene, seed=seed, noise=noise).image  # type: ignore[arg-type]
 

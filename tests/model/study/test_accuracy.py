@@ -47,7 +47,7 @@ def test_points_are_counted_right_where_effects_are_few(preset: str) -> None:
     assert len(list(accuracy(scene, settings))) == point_count(scene, settings)
 
 
-def test_the_closed_form_is_exact_and_samples_become_so_one_over_their_number(
+def test_the_closed_form_is_exact_and_samples_err_by_1_over_n(
     points: list[AccuracyPoint],
 ) -> None:
     *samples, closed = of(points, "integration")
@@ -97,7 +97,7 @@ def test_samples_count_chips_that_are_lit() -> None:
     assert sampled_lit_fraction(halves.replace(start_time=0.5e-3), 4)[0] == 0.5
 
 
-def test_a_setting_that_cannot_be_is_refused_before_anything_is_measured() -> None:
+def test_a_bad_setting_is_refused_before_anything_is_measured() -> None:
     with pytest.raises(occ.ParameterError, match="tolerance is -1"):
         accuracy(Scene(), SimulationSettings(tolerance=-1.0))
 
@@ -122,14 +122,14 @@ def test_the_command_prints_the_table_and_writes_the_figure(
         assert "tolerance 2 levels of the image" in str(picture.info["Description"])
 
 
-def test_the_plan_is_told_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_plan_is_given_in_words(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", "--off", "sensor-noise", "--tolerance", "0.1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 10
     assert any(line.startswith("Shot and read noise: ") and "by hand" in line for line in lines)
 
 
-def test_an_effect_that_is_not_there_or_both_on_and_off_is_refused(
+def test_an_unknown_or_contradictory_effect_is_refused(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["plan", "--on", "blur"]) == 2

@@ -59,7 +59,7 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
 @pytest.mark.parametrize(
     ("own", "wanted"), [(700.0, 1e3), (5e3, 8e3), (12e3, 8e3), (40e3, 60e3), (90e3, 60e3)]
 )
-def test_of_several_intervals_the_one_at_hand_or_nearest_by_ratio_is_told(
+def test_of_several_ranges_the_scenes_own_or_nearest_is_given(
     monkeypatch: pytest.MonkeyPatch, own: float, wanted: float
 ) -> None:
     # Reading stops at 1, 8 and 60 kHz, and comes back at 2 and 25 kHz.
@@ -74,7 +74,7 @@ def test_of_several_intervals_the_one_at_hand_or_nearest_by_ratio_is_told(
     assert found.highest_frequency == works
 
 
-def test_an_interval_to_the_end_of_what_is_searched_is_told_as_such(
+def test_a_range_that_reaches_the_search_limit_says_so(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(module, "right_bits", reads_where(lambda _: True))
@@ -104,7 +104,7 @@ def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.parametrize("preset", ["phone-136us", "tablet-122us"])
-def test_the_papers_decoder_reads_up_to_the_null_and_down_to_two_packets(preset: str) -> None:
+def test_the_papers_decoder_reads_from_two_packets_to_the_null(preset: str) -> None:
     scene = occ.load_preset(preset)
     found = occ.limits(scene, images=3)
     works, fails = ends(found.frequency.highest)
@@ -132,7 +132,7 @@ def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
 
-def test_where_the_scene_itself_is_too_slow_the_answer_lies_above_it() -> None:
+def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
     """The tablet at 2 kHz and 2 m: too few packets fit the picture."""
     slow = occ.load_preset("tablet-122us").replace(switching_frequency=2e3, distance=2.0)
     assert occ.success_rate(slow, 3) < 99.0
@@ -207,7 +207,7 @@ def test_the_band_model_ends_where_theory_says() -> None:
         occ.band_profile(scene.replace(switching_frequency=end * (1 + 1e-9)))
 
 
-def test_an_alternating_pattern_has_no_stripes_at_the_null_and_some_beside_it() -> None:
+def test_alternating_stripes_vanish_at_the_null_alone() -> None:
     scene = occ.load_preset("phone-136us").replace(pattern="10")
     null = theory.null_frequency(scene)
 
@@ -229,7 +229,7 @@ def test_two_packets_just_fill_the_panels_columns_at_their_limit() -> None:
     assert theory.two_packets_frequency(scene.replace(offset_x=50.0)) is None
 
 
-def test_the_lit_panel_is_just_white_at_the_exposure_of_saturation() -> None:
+def test_the_lit_panel_is_just_white_at_saturation_exposure() -> None:
     scene = occ.load_preset("phone-136us")
     white = theory.saturation_exposure(scene)
     assert level_values(scene.replace(exposure_time=white))[1] == pytest.approx(255.0, rel=1e-12)

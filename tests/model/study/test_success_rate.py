@@ -67,7 +67,7 @@ def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None
         assert by_profile.region == found.region
 
 
-def test_profile_path_sees_the_signal_that_the_image_shows_with_noise(scene: Scene) -> None:
+def test_the_profile_path_sees_the_images_signal_with_noise(scene: Scene) -> None:
     noisy = {"sensor-noise": True}
     chosen = occ.plan(scene, tolerance=np.inf, force=noisy)
     by_profile = decode_profile(scene, "threshold", chosen, np.random.default_rng(2))

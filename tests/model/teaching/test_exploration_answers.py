@@ -25,7 +25,7 @@ def swing(scene: Scene) -> float:
     return float(np.ptp(occ.column_profile(scene)))
 
 
-def test_a_slope_is_as_wide_as_the_exposure_whatever_the_frequency() -> None:
+def test_a_slope_is_as_wide_as_the_exposure_at_any_frequency() -> None:
     asked = step(1, 1)
     assert "8.5 columns" in asked.answer
     for frequency in (5e3, 10e3):
@@ -43,7 +43,7 @@ def test_the_band_model_ends_where_the_period_is_the_exposure() -> None:
         occ.band_lengths(asked.scene.replace(switching_frequency=7.36e3))
 
 
-def test_the_papers_decoder_stops_a_little_above_14_khz_and_the_matched_one_goes_on() -> None:
+def test_the_papers_decoder_stops_above_14_khz_the_other_goes_on() -> None:
     asked = step(1, 3)
     assert all(text in asked.answer for text in ("a little above 14 kHz", "14.7 kHz", "50 kHz"))
     scene = asked.scene
@@ -110,7 +110,7 @@ def test_coming_closer_two_headers_fit_from_the_distances_named() -> None:
     assert not all(by_luck)
 
 
-def test_sending_faster_helps_from_the_frequencies_named_up_to_two_chips_an_exposure() -> None:
+def test_faster_helps_up_to_two_chips_an_exposure() -> None:
     asked = step(3, 2)
     assert all(text in asked.answer for text in ("4 kHz", "4.5 kHz", "6 kHz", "16.4 kHz"))
     scene = asked.scene
@@ -122,7 +122,7 @@ def test_sending_faster_helps_from_the_frequencies_named_up_to_two_chips_an_expo
     assert scene.camera.exposure_time * 16.4e3 == pytest.approx(2.0, abs=0.01)
 
 
-def test_with_a_tolerance_of_30_levels_the_effects_named_are_left_out() -> None:
+def test_at_a_tolerance_of_30_levels_the_named_effects_are_out() -> None:
     asked = step(4, 1)
     plan = occ.plan(asked.scene, tolerance=30.0, observable="image")
     bounds = {d.effect: d.bound for d in plan.decisions if d.bound > 0.0}
@@ -138,7 +138,7 @@ def test_with_a_tolerance_of_30_levels_the_effects_named_are_left_out() -> None:
     assert set(first.included) == set(bounds)
 
 
-def test_the_papers_scene_calls_for_noise_alone_and_4096_samples_are_still_off() -> None:
+def test_the_papers_scene_needs_noise_and_4096_samples_are_off() -> None:
     asked = step(4, 2)
     assert "a hundredth of a grey level" in asked.answer
     plan = occ.plan(asked.scene, tolerance=0.5, observable="image")

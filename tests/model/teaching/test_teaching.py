@@ -78,7 +78,7 @@ def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> No
         assert shown == pytest.approx(lengths, abs=0.0051)
 
 
-def test_at_the_null_of_the_equations_an_alternating_pattern_has_no_stripes() -> None:
+def test_at_the_equations_null_alternating_stripes_vanish() -> None:
     scene = Scene().replace(pattern="10", exposure_time=136e-6)
     messages = by_meaning(scene)["no str"].result
     null = PARAMETERS["switching_frequency"].parse(messages.split(";")[0])
@@ -87,7 +87,7 @@ def test_at_the_null_of_the_equations_an_alternating_pattern_has_no_stripes() ->
     assert np.ptp(at_null) < 1e-3 * np.ptp(occ.column_profile(scene))
 
 
-def test_every_parameter_that_a_term_names_exists_and_changes_its_equation() -> None:
+def test_every_parameter_of_a_term_changes_its_equation() -> None:
     scene = occ.load_preset("phone-68us")
     for equation in equations(scene):
         for term in (*equation.symbols, *equation.numbers):
@@ -144,12 +144,12 @@ def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None
 
 
 @pytest.mark.parametrize("column", [-1, 3456, 1.5, "2"])
-def test_a_column_that_the_picture_has_not_is_refused_in_a_sentence(column: object) -> None:
+def test_a_column_outside_the_picture_is_refused(column: object) -> None:
     with pytest.raises(ParameterError, match=r"^column is .*allowed: .*\.$"):
         exposure_window(Scene(), column)  # type: ignore[arg-type]
 
 
-def test_every_exploration_loads_and_names_a_pane_and_a_photo_that_there_are() -> None:
+def test_every_exploration_names_a_pane_and_photo_that_exist() -> None:
     found = explorations()
     assert [exploration.name[0] for exploration in found] == list("12345")
     for exploration in found:

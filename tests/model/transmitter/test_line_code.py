@@ -35,7 +35,7 @@ def test_bits_of_any_number_come_back(bits: list[int], level: int) -> None:
 
 
 @every_level
-def test_every_bit_has_a_transition_in_its_middle_and_a_zero_one_at_its_start(level: int) -> None:
+def test_every_bit_changes_in_its_middle_and_a_zero_at_its_start(level: int) -> None:
     for bits in product((0, 1), repeat=BITS):
         chips = encode(bits, level).tolist()
         before = [level, *chips[1::2]]

@@ -73,7 +73,7 @@ def test_with_three_ones_alone_codes_0_and_512_would_be_the_same() -> None:
     assert [codes for codes in sequences.values() if len(codes) > 1] == [[0, 512]]
 
 
-def test_no_run_of_ones_is_longer_than_four_and_none_of_zeros_longer_than_two() -> None:
+def test_runs_have_at_most_four_ones_or_two_zeros() -> None:
     assert {longest_run(sent(code), 1) for code in CODES} == {3, 4}
     assert {longest_run(sent(code), 0) for code in CODES} <= {1, 2}
 

@@ -95,7 +95,7 @@ def test_a_complete_file_is_read_and_nothing_is_measured(
     assert path.read_bytes() == whole
 
 
-def test_a_file_cut_off_anywhere_is_continued_and_only_what_is_missing_is_measured(
+def test_a_truncated_file_is_continued_with_what_is_missing(
     scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path, measured: list[int]
 ) -> None:
     path, begin = tmp_path / "r.csv", header_size(whole)
@@ -170,7 +170,7 @@ def test_another_scene_or_format_is_another_sweep(
         lambda text: text + b"\0" * 30 + b"\n\n",
     ],
 )
-def test_lines_that_the_sweep_has_not_written_are_refused_and_left(
+def test_lines_of_another_origin_are_refused_and_kept(
     scene: Scene, whole: bytes, tmp_path: Path, change: Callable[[bytes], bytes]
 ) -> None:
     path = tmp_path / "r.csv"

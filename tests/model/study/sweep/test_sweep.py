@@ -58,9 +58,7 @@ def test_rates_stand_where_their_axes_say(table: SweepTable) -> None:
         table.rates("psychic")
 
 
-def test_the_order_of_the_axes_turns_the_table_and_changes_no_number(
-    scene: Scene, table: SweepTable
-) -> None:
+def test_the_order_of_axes_transposes_the_table_only(scene: Scene, table: SweepTable) -> None:
     turned = occ.sweep(scene, dict(reversed(AXES.items())), 3, BOTH, 7)
     for decoder in BOTH:
         np.testing.assert_array_equal(turned.rates(decoder).T, table.rates(decoder))
@@ -81,7 +79,7 @@ def test_any_kind_of_parameter_can_be_varied(scene: Scene) -> None:
         assert occ.success_rate(scene.replace(**row.point), 1) == row.rate
 
 
-def test_all_points_are_visited_once_and_each_code_book_in_one_go(scene: Scene) -> None:
+def test_each_point_is_visited_once_grouped_by_code_templates(scene: Scene) -> None:
     axes = {"distance": [1.0, 2.0], "switching_frequency": [4e3, 5e3, 6e3], "iso": [50.0, 80.0]}
     request = checked_request(scene, axes, RateSettings(1, BOTH))
     order = list(request.in_order_of_work())
@@ -159,7 +157,7 @@ def test_the_profile_path_gives_the_table_of_the_image_path(scene: Scene) -> Non
         assert 0 < profile.right.sum() < profile.right.size * 20
 
 
-def test_importing_the_package_imports_nothing_that_starts_processes() -> None:
+def test_importing_the_package_starts_no_process_machinery() -> None:
     program = "import sys, occ_model; occ_model.sweep; print(*sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True

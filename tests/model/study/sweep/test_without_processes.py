@@ -66,7 +66,7 @@ def refuse_semaphores(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(multiprocessing.synchronize.SemLock, "__init__", refuse)
 
 
-def test_where_there_are_no_processes_to_be_had_this_one_does_the_sweep_and_says_so(
+def test_without_processes_the_sweep_runs_here_and_says_so(
     scene: Scene, table: SweepTable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     refuse_semaphores(monkeypatch)
@@ -77,7 +77,7 @@ def test_where_there_are_no_processes_to_be_had_this_one_does_the_sweep_and_says
     assert sentence.endswith("); this one does the sweep alone.")
 
 
-def test_workers_that_cannot_be_replaced_leave_the_rest_to_this_process(
+def test_without_new_workers_this_process_does_the_rest(
     scene: Scene, table: SweepTable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     killed: list[int] = []

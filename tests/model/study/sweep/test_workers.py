@@ -126,7 +126,7 @@ def test_a_killed_worker_of_its_own_is_replaced(scene: Scene, table: SweepTable)
     assert found == table
 
 
-def test_where_a_given_executor_breaks_this_process_finishes_and_says_so(
+def test_when_a_given_executor_breaks_this_process_finishes(
     scene: Scene, table: SweepTable
 ) -> None:
     killed: list[int] = []
@@ -140,7 +140,7 @@ def test_where_a_given_executor_breaks_this_process_finishes_and_says_so(
     assert found == table
 
 
-def test_an_executor_that_takes_no_work_leaves_it_to_this_process(
+def test_when_an_executor_takes_no_work_this_process_does_it(
     scene: Scene, table: SweepTable
 ) -> None:
     executor = ThreadPoolExecutor(1)
@@ -165,7 +165,7 @@ class EnoughError(Exception):
 
 
 @pytest.mark.parametrize("kind", [None, ThreadPoolExecutor])
-def test_what_progress_raises_ends_the_sweep_and_calls_back_what_is_pending(
+def test_what_progress_raises_ends_the_sweep_and_pending_work(
     scene: Scene, kind: type[ThreadPoolExecutor] | None
 ) -> None:
     futures: list[Future[JobResult]] = []

@@ -95,7 +95,7 @@ def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
 
 
 def lit_fraction(scene: Scene) -> FloatArray:
-    """Give the share of each column's exposure in which the LED is on, t_on / t.
+    """Return the share of each column's exposure in which the LED is on, t_on / t.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def lit_fraction(scene: Scene) -> FloatArray:
 
 
 def on_time(scene: Scene) -> FloatArray:
-    """Give the time that the LED is on while each column is exposed, t_on(i).
+    """Return the time that the LED is on while each column is exposed, t_on(i).
 
     Returns
     -------

@@ -21,12 +21,12 @@ _MID_GREY = 118.0
 
 
 def _gain(camera: Camera) -> float:
-    """Give S t / (K N^2), which makes a luminance a multiple of the meter's."""
+    """Return S t / (K N^2), which makes a luminance a multiple of the meter's."""
     return camera.iso * camera.exposure_time / (camera.meter_constant * camera.f_number**2)
 
 
 def pixel_value(luminance: FloatArray, camera: Camera) -> FloatArray:
-    """Give the pixel value of a constant luminance before the sensor saturates.
+    """Return the pixel value of a constant luminance before the sensor saturates.
 
     PV = 118 (S t L / (K N^2))^(1/gamma), the paper's equations (1) and (2).
 
@@ -46,7 +46,7 @@ def pixel_value(luminance: FloatArray, camera: Camera) -> FloatArray:
 
 
 def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:
-    """Give the luminance that has a pixel value, in cd/m2: :func:`pixel_value` undone."""
+    """Return the luminance that has a pixel value, in cd/m2: :func:`pixel_value` undone."""
     return np.asarray((values / _MID_GREY) ** camera.gamma / _gain(camera))
 
 
@@ -56,7 +56,7 @@ def saturate(values: FloatArray) -> FloatArray:
 
 
 def luminance_levels(scene: Scene) -> FloatArray:
-    """Give the luminance of the panel, dark and lit, in cd/m2, shape (2,).
+    """Return the luminance of the panel, dark and lit, in cd/m2, shape (2,).
 
     What the panel reflects, E_v R / pi, is seen in both states.
     """
@@ -65,7 +65,7 @@ def luminance_levels(scene: Scene) -> FloatArray:
 
 
 def level_values(scene: Scene) -> FloatArray:
-    """Give PV_min and PV_max, before saturation, shape (2,)."""
+    """Return PV_min and PV_max, before saturation, shape (2,)."""
     return pixel_value(luminance_levels(scene), scene.camera)
 
 
@@ -86,12 +86,12 @@ class ColumnLight:
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
-        """Give the light of the paper's model: sharp edges, steady surroundings."""
+        """Return the light of the paper's model: sharp edges, steady surroundings."""
         return cls(lit_fraction(scene), np.ones(1))
 
 
 def panel_values(scene: Scene, light: ColumnLight) -> FloatArray:
-    """Give the pixel value that each column has on the panel, before saturation.
+    """Return the pixel value that each column has on the panel, before saturation.
 
     With ``averaging = "pixel-value"`` this is the paper's equation (3),
     PV_sim(i) = (PV_max t_on(i) + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged
@@ -112,12 +112,12 @@ def panel_values(scene: Scene, light: ColumnLight) -> FloatArray:
 
 
 def surroundings_values(scene: Scene, light: ColumnLight) -> FloatArray:
-    """Give the pixel value of the surroundings before saturation, shape (columns,) or (1,)."""
+    """Return the pixel value of the surroundings before saturation, shape (columns,) or (1,)."""
     return pixel_value(luminance_levels(scene)[0] * light.ambient, scene.camera)
 
 
 def column_profile(scene: Scene) -> FloatArray:
-    """Give the pixel value of every column before contrast enhancement, PV_sim.
+    """Return the pixel value of every column before contrast enhancement, PV_sim.
 
     It is :func:`panel_values` of the paper's model, saturated. The sum saturates, not its terms: a
     pixel is full by the light of the whole exposure.

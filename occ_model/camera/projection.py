@@ -49,17 +49,17 @@ def panel_corners(scene: Scene) -> FloatArray:
 
 
 def image_points(rays: FloatArray, camera: Camera) -> FloatArray:
-    """Give where rays (x, y), in focal lengths, meet the image as (column, row), same shape."""
+    """Return where rays (x, y), in focal lengths, meet the image as (column, row), same shape."""
     return np.asarray(rays * camera.focal_length_pixels + _centre(camera))
 
 
 def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
-    """Give points of the image, (column, row), as rays (x, y) in focal lengths, same shape."""
+    """Return points of the image, (column, row), as rays (x, y) in focal lengths, same shape."""
     return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
 
 
 def pixel_rays(camera: Camera, first: int, last: int) -> tuple[Pixels, Pixels]:
-    """Give the rays of the pixels in rows from ``first`` to before ``last``.
+    """Return the rays of the pixels in rows from ``first`` to before ``last``.
 
     Returns
     -------

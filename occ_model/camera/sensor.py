@@ -25,7 +25,7 @@ _TINY = np.finfo(np.float64).tiny
 
 
 def electrons_per_luminance(scene: Scene) -> float:
-    """Give the electrons that a pixel collects in the exposure time, for each cd/m2."""
+    """Return the electrons that a pixel collects in the exposure time, for each cd/m2."""
     camera, sensor = scene.camera, scene.sensor
     illumination = _EXPOSURE_FACTOR * camera.exposure_time / camera.f_number**2
     collected: float = illumination * _PHOTONS * sensor.pixel_pitch**2 * sensor.quantum_efficiency
@@ -33,12 +33,12 @@ def electrons_per_luminance(scene: Scene) -> float:
 
 
 def electrons_of(values: FloatArray, scene: Scene) -> FloatArray:
-    """Give the mean number of electrons behind pixel values before saturation."""
+    """Return the mean number of electrons behind pixel values before saturation."""
     return luminance_of(values, scene.camera) * electrons_per_luminance(scene)
 
 
 def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
-    """Give the pixel values, before saturation, of numbers of electrons."""
+    """Return the pixel values, before saturation, of numbers of electrons."""
     return pixel_value(electrons / electrons_per_luminance(scene), scene.camera)
 
 
@@ -51,7 +51,7 @@ def converter_step(scene: Scene) -> float:
 def deviation(
     values: FloatArray, scene: Scene, variance: Callable[[FloatArray], FloatArray]
 ) -> FloatArray:
-    """Give the standard deviation of pixels in grey levels from that of their electrons.
+    """Return the standard deviation of pixels in grey levels from that of their electrons.
 
     The deviation sigma of n electrons is multiplied by the slope of the gamma encoding,
     PV / (gamma n) for n electrons. The slope is taken at sqrt(n^2 + sigma^2) electrons, which is n
@@ -81,6 +81,6 @@ def deviation(
 
 
 def saturation_value(scene: Scene) -> float:
-    """Give the pixel value at which a pixel is full, at most the largest."""
+    """Return the pixel value at which a pixel is full, at most the largest."""
     full = float(values_of(np.array([scene.sensor.full_well]), scene)[0])
     return min(full, WHITE)

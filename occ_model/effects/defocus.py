@@ -42,7 +42,7 @@ class Defocus(OpticsEffect):
     parameters = ("point_spread", "focus_distance", "pixel_pitch")
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the image of a point is wider than a point."""
+        """Return whether the image of a point is wider than a point."""
         return blur_of(scene) != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:
@@ -86,7 +86,7 @@ def blur_of(scene: Scene) -> float:
 
 
 def _reaches(corners: FloatArray, scene: Scene, blur: float) -> bool:
-    """Say whether light of a panel beside the picture can reach it."""
+    """Return whether light of a panel beside the picture can reach it."""
     if scene.lens.distorts:
         return True
     reach = _REACH * blur + 1.0

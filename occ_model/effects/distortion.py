@@ -50,7 +50,7 @@ class Distortion(OpticsEffect):
     parameters = ("radial_k1", "radial_k2", "tangential_p1", "tangential_p2")
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether any coefficient of the lens is not 0."""
+        """Return whether any coefficient of the lens is not 0."""
         return scene.lens.distorts
 
     def _bound(self, view: PaperView, observable: Observable) -> float:
@@ -114,7 +114,7 @@ def _within(points: FloatArray, camera: Camera, reach: float) -> np.ndarray:
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the outline of a panel with these corners, without and with distortion, by points.
+    """Return the outline of a panel with these corners, without and with distortion, by points.
 
     Parts so far outside that none of their light reaches the picture are cut off first: the
     equations need not be valid there.

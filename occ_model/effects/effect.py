@@ -44,10 +44,10 @@ class Effect(ABC):
 
     @abstractmethod
     def is_present(self, scene: Scene) -> bool:
-        """Say whether a scene has the effect; where not, it is exactly nothing."""
+        """Return whether a scene has the effect; where not, it is exactly nothing."""
 
     def bound(self, view: PaperView, observable: Observable) -> float:
-        """Give the most by which leaving the effect out can change what is observed.
+        """Return the most by which leaving the effect out can change what is observed.
 
         Parameters
         ----------
@@ -67,7 +67,7 @@ class Effect(ABC):
 
     @abstractmethod
     def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Give the bound for a scene that has the effect."""
+        """Return the bound for a scene that has the effect."""
 
 
 class LightEffect(Effect):
@@ -109,7 +109,7 @@ class NoiseEffect(Effect):
 
     @abstractmethod
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Give the standard deviation in grey levels of pixels with these mean values."""
+        """Return the standard deviation in grey levels of pixels with these mean values."""
 
     def apply(self, scene: Scene, values: Pixels, normal: Pixels) -> Pixels:
         """Return the deviation from the mean of every pixel, in grey levels.
@@ -127,7 +127,7 @@ class NoiseEffect(Effect):
 
 
 def pixel_spread(effects: Sequence[NoiseEffect], scene: Scene, values: Pixels) -> Pixels:
-    """Give the standard deviation in grey levels of all noise together, shape as ``values``.
+    """Return the standard deviation in grey levels of all noise together, shape as ``values``.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ class FileEffect(Effect):
 
     @abstractmethod
     def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
-        """Give the most by which a change of the picture can change what is read back.
+        """Return the most by which a change of the picture can change what is read back.
 
         Rounding makes steps of the smallest changes: the output can differ by more than the input
         does.

@@ -27,7 +27,7 @@ class Emission(OpticsEffect):
     parameters = ("lambertian_order",)
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the panel is other than Lambertian."""
+        """Return whether the panel is other than Lambertian."""
         return scene.transmitter.lambertian_order != 1.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
@@ -55,7 +55,7 @@ class Emission(OpticsEffect):
 
 
 def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Give the cosine of the angle between the panel's normal and rays (x, y, 1), either sign."""
+    """Return the cosine of the angle between the panel's normal and rays (x, y, 1), either sign."""
     pose = scene.pose
     normal = rotation_of(pose)[:, 2]
     along = normal[0] * x + normal[1] * y + normal[2]

@@ -28,7 +28,7 @@ class Flicker(LightEffect):
     parameters = ("flicker_depth", "flicker_frequency", "flicker_phase")
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether an exposure leaves anything of the flicker."""
+        """Return whether an exposure leaves anything of the flicker."""
         return _seen_depth(scene) != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
@@ -42,13 +42,13 @@ class Flicker(LightEffect):
 
 
 def _seen_depth(scene: Scene) -> float:
-    """Give the flicker's depth in the mean light of an exposure."""
+    """Return the flicker's depth in the mean light of an exposure."""
     depth = scene.surroundings.flicker_depth
     return depth * abs(response(scene)) if depth else 0.0
 
 
 def ambient_shares(scene: Scene) -> FloatArray:
-    """Give the mean external illuminance in each column's exposure, as a multiple of E_v.
+    """Return the mean external illuminance in each column's exposure, as a multiple of E_v.
 
     Returns
     -------

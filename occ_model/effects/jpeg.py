@@ -45,7 +45,7 @@ class Jpeg(FileEffect):
     parameters = ("jpeg_quality",)
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the camera writes a JPEG file."""
+        """Return whether the camera writes a JPEG file."""
         return scene.camera.jpeg_quality != 0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
@@ -90,7 +90,7 @@ class Jpeg(FileEffect):
 
 
 def quantization_steps(quality: int) -> FloatArray:
-    """Give the steps of the coefficients at a quality from 1 to 100, shape (8, 8).
+    """Return the steps of the coefficients at a quality from 1 to 100, shape (8, 8).
 
     The scaling is that of the Independent JPEG Group's library, which all common writers follow.
     """
@@ -100,7 +100,7 @@ def quantization_steps(quality: int) -> FloatArray:
 
 
 def _block_dilution(region: Region) -> float:
-    """Give the most by which a region's error exceeds that of the blocks that it lies in."""
+    """Return the most by which a region's error exceeds that of the blocks that it lies in."""
     high = (region.last_row - 1) // 8 - region.first_row // 8 + 1
     wide = (region.last_column - 1) // 8 - region.first_column // 8 + 1
     return math.sqrt(64.0 * high * wide / (region.rows * region.columns))
@@ -108,5 +108,5 @@ def _block_dilution(region: Region) -> float:
 
 @lru_cache(maxsize=101)
 def _step(quality: int) -> float:
-    """Give the root mean square of the steps."""
+    """Return the root mean square of the steps."""
     return float(np.sqrt(np.mean(quantization_steps(quality) ** 2)))

@@ -31,7 +31,7 @@ class LedEdges(LightEffect):
     parameters = ("edge_time",)
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the LED takes any time to switch."""
+        """Return whether the LED takes any time to switch."""
         return scene.transmitter.edge_time != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
@@ -60,7 +60,7 @@ class LedEdges(LightEffect):
 
 
 def _share_of_columns(view: PaperView) -> float:
-    """Give the largest share of the observed columns in which a chip can change."""
+    """Return the largest share of the observed columns in which a chip can change."""
     scene = view.scene
     columns, readout_time = view.region.columns, scene.camera.readout_time
     frequency = scene.transmitter.switching_frequency
@@ -71,7 +71,7 @@ def _share_of_columns(view: PaperView) -> float:
 
 
 def edged_lit_fraction(scene: Scene) -> FloatArray:
-    """Give the mean light in each column's exposure, 1 being the panel fully lit.
+    """Return the mean light in each column's exposure, 1 being the panel fully lit.
 
     Returns
     -------

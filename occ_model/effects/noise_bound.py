@@ -43,14 +43,14 @@ class NoiseBounds:
         self._variances = _variances(noises, view, self._levels)
 
     def bounds(self, observable: Observable) -> dict[str, float]:
-        """Give the root mean square of each noise in what is observed, in grey levels, by name."""
+        """Return the root mean square of each noise in the observable, in grey levels, by name."""
         return {
             effect.name: self._root_mean_square(self._seen(place, observable))
             for place, effect in enumerate(self._noises)
         }
 
     def _seen(self, place: int, observable: Observable) -> FloatArray:
-        """Give the mean square of one noise in what is observed, at each level."""
+        """Return the mean square of one noise in the observable, at each level."""
         own = self._variances[place]
         if observable != "profile":
             return own
@@ -70,7 +70,7 @@ class NoiseBounds:
         return math.sqrt(float(np.maximum(squares[1:], squares[:-1]) @ self._shares))
 
     def amplification(self, observable: Observable) -> float:
-        """Give the factor by which noise enlarges another effect's change of what is observed.
+        """Return the factor by which noise enlarges another effect's change of the observable.
 
         Another light has another noise. Where one level more makes k levels more of noise, the
         change of a pixel is sqrt(1 + k^2) levels; that of a mean over rows is 1 + k phi(0), for
@@ -91,12 +91,12 @@ class NoiseBounds:
 def _variances(
     noises: Sequence[NoiseEffect], view: PaperView, levels: FloatArray
 ) -> list[FloatArray]:
-    """Give the variance of each noise at some levels."""
+    """Return the variance of each noise at some levels."""
     return [effect.spread(view.scene, levels) ** 2 for effect in noises]
 
 
 def _all_levels(view: PaperView) -> FloatArray:
-    """Give levels from the darkest pixel that any effects can make to the brightest one."""
+    """Return levels from the darkest pixel that any effects can make to the brightest one."""
     scene = view.scene
     dark, bright = reachable_luminances(scene)
     darkest = dark * view.off_axis_factor**scene.lens.vignetting_exponent
@@ -105,7 +105,7 @@ def _all_levels(view: PaperView) -> FloatArray:
 
 
 def _mean_shift(levels: FloatArray, spread: FloatArray) -> FloatArray:
-    """Give how far the mean of noisy pixels moves as they are cut off at black and white.
+    """Return how far the mean of noisy pixels moves as they are cut off at black and white.
 
     A normal deviation that is cut off u standard deviations from its mean loses
     phi(u) - u Q(u) of them.

@@ -96,12 +96,12 @@ class PaperView:
         return self.largest_change(*reachable_luminances(self.scene))
 
     def largest_change(self, dark: float, bright: float) -> float:
-        """Give the most by which two luminances can differ in a picture, in grey levels."""
+        """Return the most by which two luminances can differ in a picture, in grey levels."""
         low, high = pixel_value(np.array([[dark], [bright]]), self.scene.camera)
         return float(self.largest_changes(low, high)[0])
 
     def largest_changes(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Give the most by which pixel values can differ in a picture, in grey levels.
+        """Return the most by which pixel values can differ in a picture, in grey levels.
 
         Vignetting may dim both by the same factor: they differ most where the higher just
         saturates.
@@ -158,7 +158,7 @@ def paper_view_of(
 
 
 def _histogram(values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give levels from the smallest value to the largest, and the share of values between them."""
+    """Return levels from the least value to the greatest, and the share of values between them."""
     low, high = float(values.min()), float(values.max())
     # A little beyond both ends, so that no rounding puts a column outside.
     levels = np.linspace(low * (1 - 1e-9), high * (1 + 1e-9) + 1e-9, _BINS + 1)
@@ -183,7 +183,7 @@ def _corner_rays(region: Region, camera: Camera) -> FloatArray:
 
 
 def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
-    """Give the panel's bounding rectangle in the image, None where there is none.
+    """Return the panel's bounding rectangle in the image, None where there is none.
 
     Parameters
     ----------
@@ -200,12 +200,12 @@ def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
 
 
 def reachable_luminances(scene: Scene) -> tuple[float, float]:
-    """Give the least light of the dark panel and the most of the lit one, flicker included."""
+    """Return the least light of the dark panel and the most of the lit one, flicker included."""
     dark, bright = luminance_levels(scene).tolist()
     depth = scene.surroundings.flicker_depth
     return dark * (1.0 - depth), bright + dark * depth
 
 
 def saturated_value(luminance: float, scene: Scene) -> float:
-    """Give the pixel value of a luminance, at most the largest one."""
+    """Return the pixel value of a luminance, at most the largest one."""
     return min(float(pixel_value(np.array([luminance]), scene.camera)[0]), WHITE)

@@ -112,7 +112,7 @@ def _noise_bounds(view: PaperView) -> NoiseBounds:
 
 
 def _bounds(view: PaperView, noise: NoiseBounds, observable: Observable) -> dict[str, float]:
-    """Give every effect's bound in levels of the stretched profile, by name."""
+    """Return every effect's bound in levels of the stretched profile, by name."""
     stretch = WHITE / view.swing
     of_noise = noise.bounds(observable)
     others = {effect.name: float(effect.bound(view, observable)) for effect in OTHERS}

@@ -37,7 +37,7 @@ _Kind = TypeVar("_Kind", bound=Effect)
 
 
 def moves_light(scene: Scene) -> bool:
-    """Say whether an effect of the scene can give pixels another light than the paper's model."""
+    """Return whether any effect of the scene can change the light of the paper's model."""
     return any(
         effect.is_present(scene)
         for effect in EFFECTS

@@ -22,7 +22,7 @@ class FullWell(PixelEffect):
     parameters = ("full_well",)
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether any column can have more light than a full well holds."""
+        """Return whether any column can have more light than a full well holds."""
         return _above_full_well(scene) > 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
@@ -36,7 +36,7 @@ class FullWell(PixelEffect):
 
 
 def _above_full_well(scene: Scene) -> float:
-    """Give the grey levels of the brightest column above a full well's; below 0 where none are."""
+    """Return the grey levels of the brightest column above a full well's, negative if below."""
     brightest = saturated_value(reachable_luminances(scene)[1], scene)
     return brightest - saturation_value(scene)
 
@@ -54,15 +54,15 @@ class FixedPattern(NoiseEffect):
     of_the_camera = True
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the gains differ."""
+        """Return whether the gains differ."""
         return scene.sensor.gain_variation != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Give the pattern's own size at the light where it is largest."""
+        """Return the pattern's own size at the light where it is largest."""
         return _largest_noise(self, view, observable)
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Give the standard deviation of pixels with these mean values."""
+        """Return the standard deviation of pixels with these mean values."""
         share = scene.sensor.gain_variation
         return deviation(values, scene, lambda electrons: np.asarray((share * electrons) ** 2))
 
@@ -84,15 +84,15 @@ class SensorNoise(NoiseEffect):
         return True
 
     def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Give the noise's own size at the light where it is largest."""
+        """Return the noise's own size at the light where it is largest."""
         return _largest_noise(self, view, observable)
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Give the standard deviation of pixels with these mean values."""
+        """Return the standard deviation of pixels with these mean values."""
         constant = scene.sensor.read_noise**2 + converter_step(scene) ** 2 / 12.0
         return deviation(values, scene, lambda electrons: np.asarray(electrons + constant))
 
 
 def _largest_noise(effect: NoiseEffect, view: PaperView, observable: Observable) -> float:
-    """Give the noise that an effect alone can make, whatever the others make of the light."""
+    """Return the noise that an effect alone can make, whatever the others make of the light."""
     return NoiseBounds((effect,), view, moves_light=True).bounds(observable)[effect.name]

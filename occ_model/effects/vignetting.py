@@ -28,7 +28,7 @@ class Vignetting(OpticsEffect):
     parameters = ("vignetting_exponent",)
 
     def is_present(self, scene: Scene) -> bool:
-        """Say whether the light falls off at all."""
+        """Return whether the light falls off at all."""
         return scene.lens.vignetting_exponent != 0.0
 
     def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged

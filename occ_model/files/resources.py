@@ -27,7 +27,7 @@ def resource_text(*parts: str) -> str:
 
 
 def resource_path(*parts: str) -> Path:
-    """Give the path of a file or folder that comes with the package.
+    """Return the path of a file or folder that comes with the package.
 
     For a package in an archive a copy is made, which is removed when the program ends.
     """

@@ -17,7 +17,7 @@ MAX_PATTERN_CHIPS = 4096
 
 
 def _whole(value: object) -> int | None:
-    """Give a whole number of any numeric type as an int, None for anything else."""
+    """Return a whole number of any numeric type as an int, None for anything else."""
     if isinstance(value, bool):
         return None
     if isinstance(value, Integral):
@@ -126,7 +126,7 @@ class Quantity(Declaration):
         return self.unit.format(value, digits)
 
     def at(self, fraction: float) -> float:
-        """Give the value at a slider's position, from 0 to 1, to four significant digits."""
+        """Return the value at a slider's position, from 0 to 1, to four significant digits."""
         low, high = self.slider
         if self.scale == "log":
             value = low * (high / low) ** fraction
@@ -137,7 +137,7 @@ class Quantity(Declaration):
         return min(max(value if rounded is None else rounded, low), high)
 
     def fraction(self, value: float) -> float:
-        """Give a slider's position for a value, 0 or 1 where the value lies outside."""
+        """Return a slider's position for a value, 0 or 1 where the value lies outside."""
         low, high = self.slider
         value = min(max(value, low), high)
         if self.scale == "log":

@@ -22,7 +22,7 @@ class Noise(Protocol):
     """A source of the deviation of every pixel from its mean."""
 
     def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Give the deviations of the next rows, in grey levels.
+        """Return the deviations of the next rows, in grey levels.
 
         Parameters
         ----------
@@ -38,7 +38,7 @@ class Noise(Protocol):
 
 
 def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
-    """Give an effect's own stream of random numbers.
+    """Return an effect's own stream of random numbers.
 
     It depends on the seed and the effect alone: switching another effect on or off does not change
     it. That of an effect of the camera itself does not depend on the seed either.
@@ -59,7 +59,7 @@ class ExactNoise:
         self._streams = [(effect, stream(effect, seed)) for effect in effects]
 
     def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Give the deviations of the next rows."""
+        """Return the deviations of the next rows."""
         total = np.zeros((rows, values.shape[1]), dtype=np.float32)
         for effect, random in self._streams:
             normal = random.standard_normal(total.shape, dtype=np.float32)
@@ -88,7 +88,7 @@ class ReusedNoise:
         self._spread: Pixels = np.empty(0, dtype=np.float32)
 
     def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Give the deviations of the next rows."""
+        """Return the deviations of the next rows."""
         chosen = self._random.integers(0, len(self._places), rows)
         total: Pixels = self._places[chosen]
         if values is not self._values:  # most rows have the mean values of the previous rows

@@ -136,7 +136,7 @@ class PixelExposure:
         return image, column_means.means(self._columns.profile)
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
-        """Give the observable: pixel values before enhancement and rounding.
+        """Return the observable: pixel values before enhancement and rounding.
 
         Returns
         -------
@@ -198,7 +198,7 @@ class _ColumnMeans:
             self._counts[panel] += len(values)
 
     def means(self, otherwise: FloatArray) -> FloatArray:
-        """Give the means, and ``otherwise`` in columns without pixels."""
+        """Return the means, and ``otherwise`` in columns without pixels."""
         means = self._sums / np.maximum(self._counts, 1)
         return np.asarray(np.where(self._counts > 0, means, otherwise))
 

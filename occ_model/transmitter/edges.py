@@ -111,7 +111,7 @@ class EdgedWaveform:
 
 
 def most_changes(chips: ByteArray, span: float) -> int:
-    """Give the most changes of state within any ``span`` chips of a sequence sent repeatedly.
+    """Return the most changes of state within any ``span`` chips of a sequence sent repeatedly.
 
     Parameters
     ----------

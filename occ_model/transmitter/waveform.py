@@ -37,7 +37,7 @@ class Duration:
         return cls(whole // period, whole % period, float(chips - whole))
 
     def in_chips(self, period: int) -> float:
-        """Give the number of chips, rounded as :meth:`Waveform.lit_chips` rounds its sums."""
+        """Return the number of chips, rounded as :meth:`Waveform.lit_chips` rounds its sums."""
         return self.chips + self.fraction + float(self.periods * period)
 
 

@@ -20,7 +20,7 @@ BOTH = sorted(DECODERS)
 
 @st.composite
 def receivers(draw: st.DrawFn) -> Scene:
-    """Whatever a receiver can be told."""
+    """Any scene and signal that a receiver can be given."""
     return Scene().replace(
         code=0,
         bits=draw(st.integers(2, 7)),

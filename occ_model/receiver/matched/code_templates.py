@@ -47,7 +47,7 @@ class CodeTemplates:
     levels: FloatArray
 
     def profiles(self, codes: IndexArray) -> FloatArray:
-        """Give the lit fraction over one packet of some codes, shape (codes, bins)."""
+        """Return the lit fraction over one packet of some codes, shape (codes, bins)."""
         return _profiles(codes, self.bits, self.response)
 
 
@@ -133,7 +133,7 @@ def codes_by_levels(bits: int) -> IndexArray:
 
 
 def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
-    """Give the profiles of some codes, shape (codes, bins)."""
+    """Return the profiles of some codes, shape (codes, bins)."""
     impulses = np.zeros((len(codes), len(response)))
     impulses[:, ::BINS_PER_CHIP] = packets(codes, bits)
     spectrum = np.fft.rfft(impulses, axis=1) * np.fft.rfft(response)
@@ -141,7 +141,7 @@ def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
 
 
 def _energies(bits: int, response: FloatArray) -> FloatArray:
-    """Give each profile's sum of squares about its mean, from the response's autocorrelation.
+    """Return each profile's sum of squares about its mean, from the response's autocorrelation.
 
     It is the sum of the autocorrelation over all pairs of lit chips: within the first half of a
     packet, within the second, and across.

@@ -147,7 +147,7 @@ def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArra
 
 
 def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Give the largest value of each sum of a row of one array and a row of the other.
+    """Return the largest value of each sum of a row of one array and a row of the other.
 
     Returns
     -------

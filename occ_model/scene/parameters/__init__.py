@@ -35,7 +35,7 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
 
 
 def quantity(name: str) -> Quantity:
-    """Give the declaration of a parameter that is a quantity, with a unit and a slider.
+    """Return the declaration of a parameter that is a quantity, with a unit and a slider.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The door of the plan."""
+"""The plan: what it includes, what it leaves out, and its reasons."""
 
 import math
 from itertools import pairwise

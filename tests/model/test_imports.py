@@ -63,7 +63,7 @@ def test_simulating_imports_nothing_heavy_either() -> None:
     assert {name.partition(".")[0] for name in loaded} & {*HEAVY, "occ_gui"} == set()
 
 
-def test_type_checkers_see_each_public_name_where_it_is_imported_from() -> None:
+def test_type_checkers_see_where_each_public_name_comes_from() -> None:
     import occ_model
 
     source = ast.parse(Path(occ_model.__file__).read_text(encoding="utf-8"))

@@ -46,7 +46,7 @@ class CallPath:
 
 
 @pytest.mark.parametrize("is_first_move", [True, False])
-def test_a_sliders_move_reaches_the_pixel_in_at_most_twelve_functions(
+def test_a_slider_reaches_the_pixel_in_at_most_twelve_functions(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, is_first_move: bool
 ) -> None:
     slider = application.controls.main_rows()["exposure_time"].slider

@@ -93,7 +93,7 @@ def test_of_a_request_that_was_replaced_no_more_results_arrive(
     assert received.finished == ["new"]
 
 
-def test_results_of_an_uninterruptible_stage_arrive_before_those_of_a_newer_request(
+def test_an_uninterruptible_stage_delivers_before_newer_requests(
     qtbot: QtBot, queue_of: Callable[..., WorkQueue]
 ) -> None:
     worker = HeldWorker()
@@ -158,7 +158,7 @@ def test_workers_that_keep_dying_are_reported(
     assert worker.renewed == 3
 
 
-def test_where_there_are_no_processes_the_work_is_done_all_the_same(qtbot: QtBot) -> None:
+def test_without_processes_the_work_is_done_all_the_same(qtbot: QtBot) -> None:
     def no_processes() -> NoReturn:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 

@@ -155,7 +155,7 @@ def test_a_line_runs_where_the_number_is_nothing() -> None:
     assert len(TheoryFields(places, {"band": sides}).lines()["band"]) == 2
 
 
-def test_the_line_round_a_maximum_is_closed_and_without_numbers_there_is_none() -> None:
+def test_a_maximums_contour_is_closed_and_absent_without_numbers() -> None:
     places = (np.linspace(-1.0, 1.0, 9), np.linspace(-1.0, 1.0, 7))
     sides = 0.5 - places[0][:, None] ** 2 - places[1] ** 2
     (line,) = TheoryFields(places, {"null": sides}).lines()["null"]

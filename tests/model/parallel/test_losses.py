@@ -19,7 +19,7 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_a_worker_that_dies_loses_no_job_and_repeats_none_that_was_delivered(
+def test_a_dead_worker_loses_no_job_and_repeats_no_delivered_one(
     bench: Bench,
 ) -> None:
     bench.ask(MAP, 1, stage(0, *"abcde"))
@@ -47,7 +47,7 @@ def test_a_result_that_came_before_its_worker_died_is_kept(bench: Bench) -> None
     assert bench.results == ["b", "a", "c"]
 
 
-def test_jobs_in_flight_are_repeated_in_their_order_for_each_request(bench: Bench) -> None:
+def test_jobs_in_flight_are_repeated_in_order_for_each_request(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "m"))
     bench.ask(STRIPS, 1, stage(1, "s", "t"))
     assert bench.sent == ["m", "s"]
@@ -86,7 +86,7 @@ def test_a_job_of_an_abandoned_request_is_not_repeated(bench: Bench) -> None:
     assert bench.results == ["x"]
 
 
-def test_a_job_that_cannot_be_sent_as_the_worker_died_is_sent_again(bench: Bench) -> None:
+def test_a_job_refused_by_a_dead_worker_is_sent_again(bench: Bench) -> None:
     class DyingAtSubmit(HeldWorker):
         attempts = 0
 
@@ -104,7 +104,7 @@ def test_a_job_that_cannot_be_sent_as_the_worker_died_is_sent_again(bench: Bench
     assert bench.results == ["a", "b", "c"]
 
 
-def test_workers_that_keep_dying_fail_all_requests_and_the_next_is_tried(bench: Bench) -> None:
+def test_workers_that_keep_dying_fail_all_requests_but_the_next(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a"))
     bench.ask(STRIPS, 1, stage(1, "s"))
     for _ in range(3):
@@ -131,7 +131,7 @@ def test_a_result_in_between_makes_up_for_the_losses_before(bench: Bench) -> Non
     assert bench.errors == []
 
 
-def test_where_no_worker_can_be_had_the_request_fails_or_the_fallback_works() -> None:
+def test_without_workers_the_request_fails_or_the_fallback_works() -> None:
     def none() -> NoReturn:
         raise OSError(errno.EROFS, "no semaphores")
 
@@ -148,7 +148,7 @@ def test_where_no_worker_can_be_had_the_request_fails_or_the_fallback_works() ->
     assert helped.notices == [("missing", MAP, 1)]
 
 
-def test_where_workers_cannot_be_renewed_the_fallback_does_the_rest() -> None:
+def test_the_fallback_continues_where_workers_cannot_be_renewed() -> None:
     class Last(HeldWorker):
         def renew(self) -> None:
             raise NotImplementedError
@@ -230,7 +230,7 @@ def test_a_job_that_cannot_be_sent_fails_its_own_request_only() -> None:
     assert bench.results == ["s"]
 
 
-def test_an_exception_of_a_future_that_is_no_loss_fails_the_request(bench: Bench) -> None:
+def test_a_futures_exception_that_is_no_loss_fails_the_request(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a"))
     (_, future) = bench.worker.held.pop()
     future.set_exception(TypeError("cannot be sent back"))

@@ -46,13 +46,13 @@ def test_of_equal_ranks_the_request_that_began_first_goes_first(bench: Bench) ->
     assert bench.sent == ["s1", "s2", "s3", "m1", "m2"]
 
 
-def test_jobs_of_a_stage_and_stages_of_a_request_go_in_their_order(bench: Bench) -> None:
+def test_jobs_of_a_stage_and_stages_of_a_request_keep_order(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(8, "a", "b", "c"), stage(4), stage(1, "d", "e"))
     bench.finish_all()
     assert bench.sent == bench.results == ["a", "b", "c", "d", "e"]
 
 
-def test_a_stage_begins_while_the_last_jobs_of_the_one_before_are_done(bench: Bench) -> None:
+def test_a_stage_begins_while_the_previous_ones_last_jobs_run(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(8, "a"), stage(1, "b"))
     assert bench.sent == ["a", "b"]
 
@@ -78,7 +78,7 @@ def test_jobs_are_made_only_when_they_are_needed(bench: Bench) -> None:
     assert len(made) == 13
 
 
-def test_what_somebody_waits_for_is_not_delayed_by_what_fills_a_gap(bench: Bench) -> None:
+def test_awaited_work_is_not_delayed_by_work_that_fills_a_gap(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "coarse 1", "coarse 2", whole=True))
     bench.ask(STRIPS, 1, stage(3, "strip"))
     bench.finish()
@@ -87,7 +87,7 @@ def test_what_somebody_waits_for_is_not_delayed_by_what_fills_a_gap(bench: Bench
     assert bench.sent == ["coarse 1", "coarse 2", "strip"]
 
 
-def test_a_stage_that_may_be_interrupted_lets_others_fill_the_gap(bench: Bench) -> None:
+def test_an_interruptible_stage_lets_others_fill_the_gap(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "fine 1", "fine 2"))
     bench.ask(STRIPS, 1, stage(3, "strip"))
     bench.finish()
@@ -102,7 +102,7 @@ def test_a_gap_is_filled_by_what_is_as_urgent_or_more_so(bench: Bench, rank: int
     assert bench.sent == ["coarse 1", "coarse 2", "strip"]
 
 
-def test_a_later_stage_of_the_same_request_does_not_delay_it_either(bench: Bench) -> None:
+def test_a_later_stage_of_the_same_request_does_not_delay_it(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "coarse", whole=True), stage(2, "fine"))
     assert bench.sent == ["coarse"]
     bench.finish()
@@ -118,7 +118,7 @@ def test_an_abandoned_stage_delays_nothing(bench: Bench) -> None:
     assert bench.sent == ["coarse", "strip"]
 
 
-def test_an_uninterruptible_stage_ends_although_something_newer_is_asked_for(bench: Bench) -> None:
+def test_an_uninterruptible_stage_ends_despite_a_newer_request(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True), stage(2, "fine"))
     bench.ask(MAP, 2, stage(0, "x", whole=True), stage(2, "new fine"))
     bench.finish_all()
@@ -127,7 +127,7 @@ def test_an_uninterruptible_stage_ends_although_something_newer_is_asked_for(ben
     assert bench.ended == [(MAP, 2)]
 
 
-def test_of_a_superseded_request_only_the_uninterruptible_stage_goes_on(bench: Bench) -> None:
+def test_only_the_uninterruptible_stage_of_an_old_request_goes_on(bench: Bench) -> None:
     # The stage that fills the gap is more urgent: only that it is superseded holds it back.
     bench.ask(MAP, 1, stage(2, "a", whole=True), stage(0, "b", "c"))
     assert bench.sent == ["a", "b"]
@@ -147,7 +147,7 @@ def test_an_uninterruptible_stage_that_has_not_begun_is_replaced(bench: Bench) -
     assert bench.ended == [(MAP, 2)]
 
 
-def test_a_request_waits_for_uninterruptible_stages_of_its_own_channel_only(bench: Bench) -> None:
+def test_a_request_waits_only_for_its_own_channels_stages(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
     bench.ask(MAP, 2, stage(0, "x"))
     bench.ask(STRIPS, 1, stage(0, "s"))
@@ -167,7 +167,7 @@ def test_a_newer_request_replaces_an_older_one_before_it_starts(bench: Bench) ->
     assert bench.ended == [(STRIPS, 1), (MAP, 2)]
 
 
-def test_of_requests_behind_an_uninterruptible_stage_the_newest_is_done(bench: Bench) -> None:
+def test_behind_an_uninterruptible_stage_only_the_newest_is_done(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
     bench.ask(MAP, 2, stage(0, "passed over", whole=True))
     bench.ask(MAP, 3, stage(0, "x", whole=True))
@@ -176,7 +176,7 @@ def test_of_requests_behind_an_uninterruptible_stage_the_newest_is_done(bench: B
     assert bench.ended == [(MAP, 3)]
 
 
-def test_a_newer_request_replaces_one_at_work_at_once_and_its_jobs_end(bench: Bench) -> None:
+def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c"))
     bench.ask(MAP, 2, stage(0, "x"))
     assert bench.worker.abandoned[-1] == (MAP, 2)
@@ -227,7 +227,7 @@ def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> Non
     assert bench.results == ["a", "b", "c", "x"]
 
 
-def test_a_request_without_jobs_ends_at_once_also_while_the_worker_is_busy(bench: Bench) -> None:
+def test_a_request_without_jobs_ends_at_once_on_busy_workers(bench: Bench) -> None:
     occupy(bench)
     bench.ask(MAP, 1)
     bench.ask(MAP, 2, stage(0), stage(1, whole=True))

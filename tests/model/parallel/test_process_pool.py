@@ -74,7 +74,7 @@ def test_closing_ends_the_processes_in_the_middle_of_a_job(pool: ProcessPool) ->
             os.kill(number, 0)
 
 
-def test_a_killed_process_is_replaced_and_its_jobs_are_done_again(pool: ProcessPool) -> None:
+def test_a_killed_process_is_replaced_and_its_jobs_repeated(pool: ProcessPool) -> None:
     bench = Bench(pool)
     bench.ask(0, 1, Stage(0, tuple(Job(process_id, ()) for _ in range(12))))
     run_until(bench, lambda: bool(bench.results))
@@ -87,7 +87,7 @@ def test_a_killed_process_is_replaced_and_its_jobs_are_done_again(pool: ProcessP
     assert set(bench.results) & set(pool.processes)
 
 
-def test_a_thread_takes_over_from_processes_that_cannot_be_replaced(
+def test_a_thread_takes_over_where_processes_cannot_be_replaced(
     pool: ProcessPool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def no_processes() -> NoReturn:

@@ -80,7 +80,7 @@ def test_five_images_take_five_exposures(scene: Scene, path: str, projections: i
     assert calls == {"lit_fraction": 5, "panel_corners": 5 + projections}
 
 
-def test_settings_as_a_value_give_the_picture_that_they_give_one_by_one(scene: Scene) -> None:
+def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:
     settings = SimulationSettings(2.0, "profile", {"fixed-pattern": True}, "reused", 7)
     one_by_one = occ.render(
         scene, tolerance=2.0, observable="profile", force={"fixed-pattern": True},

@@ -127,7 +127,7 @@ def test_an_uninterruptible_stage_ends_despite_a_newer_request(bench: Bench) -> 
     assert bench.ended == [(MAP, 2)]
 
 
-def test_only_the_uninterruptible_stage_of_an_old_request_goes_on(bench: Bench) -> None:
+def test_only_an_old_requests_uninterruptible_stage_goes_on(bench: Bench) -> None:
     # The stage that fills the gap is more urgent: only that it is superseded holds it back.
     bench.ask(MAP, 1, stage(2, "a", whole=True), stage(0, "b", "c"))
     assert bench.sent == ["a", "b"]

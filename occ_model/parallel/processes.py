@@ -79,15 +79,28 @@ def _interrupts_blocked() -> Iterator[None]:
     if sys.platform == "win32":
         yield
         return
-    # The first process would start it, and that would unblock Ctrl-C again.
-    from multiprocessing import resource_tracker
-
-    resource_tracker.ensure_running()
+    _start_resource_tracker()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _start_resource_tracker() -> None:
+    """Start Python's process that removes the semaphores of a program that was ended by force.
+
+    The first worker would start it, and that would unblock Ctrl-C again. It also warns of each
+    semaphore on standard error, where a program that was interrupted prints one line only.
+    """
+    from multiprocessing import resource_tracker
+
+    quiet = "ignore:resource_tracker:UserWarning"
+    sys.warnoptions.append(quiet)  # what Python's own processes are started with
+    try:
+        resource_tracker.ensure_running()
+    finally:
+        sys.warnoptions.remove(quiet)
 
 
 @contextmanager

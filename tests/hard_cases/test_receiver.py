@@ -20,7 +20,7 @@ BOTH = sorted(DECODERS)
 
 @st.composite
 def receivers(draw: st.DrawFn) -> Scene:
-    """Any scene and signal that a receiver can be given."""
+    """Scenes with any parameters that a receiver knows."""
     return Scene().replace(
         code=0,
         bits=draw(st.integers(2, 7)),

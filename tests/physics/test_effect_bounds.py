@@ -8,7 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.registry import EFFECTS
+from occ_model.effects.registry import EFFECTS, moves_light
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 from occ_model.simulation.render import observe
@@ -147,3 +147,13 @@ def test_noise_left_out_changes_no_more_than_its_bound(
         1 + 4 / math.sqrt(2 * noisy.size)
     )
     assert 0.0 < change <= largest
+
+
+@pytest.mark.parametrize("name", MEANS)
+def test_a_scene_has_an_effect_once_its_parameter_is_not_nothing(name: str) -> None:
+    bare = Scene().replace(full_well=1e9, gain_variation=0.0)
+    present = {effect.name for effect in EFFECTS if effect.is_present(bare)}
+    assert present == {"sensor-noise"}  # light comes in photons
+    scene = bare.replace(**ALONE[name])
+    assert {effect.name for effect in EFFECTS if effect.is_present(scene)} == {*present, name}
+    assert moves_light(scene) == (name != "full-well")

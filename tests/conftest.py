@@ -46,7 +46,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what only CI runs whole; it counts as deselected, not as skipped."""
+    """Begin with what takes long in one piece, and leave out what only CI runs whole.
+
+    What is left out counts as deselected, not as skipped.
+    """
+    items.sort(key=lambda item: item.get_closest_marker("first") is None)
     if config.getoption("--whole"):
         return
     left_out = [item for item in items if item.get_closest_marker("whole")]

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from round_trips import Found, round_trips
 
+pytestmark = pytest.mark.first
+
 SAMPLE, WHOLE = 60, 500
 
 

@@ -68,7 +68,7 @@ def test_the_application_replaces_the_script_with_its_arguments(
     assert became == [[str(start.PYTHON), "-m", "occ_gui", "--screenshot", "a b.png"]]
 
 
-TESTS = "pytest -n auto -k 'one or two'"
+TESTS = "pytest -n auto --dist worksteal -k 'one or two'"
 CHECKS = {
     TESTS,
     "ruff check .",
@@ -112,7 +112,7 @@ def test_other_checks_keep_their_output_until_the_tests_end(
     assert start.run_checks([]) == 0
     lines = [line for line in capfd.readouterr().out.splitlines() if line]
     assert lines == [
-        "Check 1 of 5: pytest -n auto", "pytest output",
+        "Check 1 of 5: pytest -n auto --dist worksteal", "pytest output",
         "Check 2 of 5: ruff check .", "ruff output", "ruff error",
         "Check 3 of 5: ruff format --check .", "ruff output", "ruff error",
         "Check 4 of 5: mypy", "mypy output", "mypy error",

@@ -1,6 +1,5 @@
 """Read a photograph: the samples of one channel, its columns being the scan axis."""
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
@@ -16,16 +15,11 @@ from occ_model.photo.reading.channels import CHANNELS, take_channel, white_of
 from occ_model.photo.reading.decoding import DECODED, DecodedPicture, Samples
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.reading.file import open_picture
+from occ_model.photo.reading.scan_axis import SCAN_AXES, means_along, stripes_are_lines
 from occ_model.photo.reading.watched_file import Progress, Reporter
 from occ_model.scene.argument_checks import check_choice, check_count
 
 __all__ = ["CHANNELS", "SCAN_AXES", "Photo", "column_means", "load_photo"]
-
-_USUAL = 0.97
-"""Share of the differences between neighbours that are not at a panel's edges."""
-
-SCAN_AXES = ("auto", "columns", "lines")
-"""The axis of the file that the rolling shutter scanned; ``"auto"``: the one across the stripes."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -126,7 +120,7 @@ def _loaded(path: Path, read: tuple[Samples, str, bool, CameraNotes]) -> Photo:
         samples=samples,
         white=white,
         image=_in_grey_levels(samples),
-        profile=_means(samples, 0) * (WHITE / white),
+        profile=means_along(samples, 0) * (WHITE / white),
         turned=turned,
         channel=taken,
         exposure_time=notes.exposure_time,
@@ -162,7 +156,7 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
             f"The rows from {first_row} to before {last_row} were asked for; "
             f"allowed: at least one, from 0 to before {rows}."
         )
-    means = _means(photo.samples[first_row:last_row], 0)
+    means = means_along(photo.samples[first_row:last_row], 0)
     return means * (WHITE / photo.white)
 
 
@@ -175,9 +169,7 @@ def _read(
     """
     samples, taken, notes, orientation = _taken(path, channel, max_pixels, report)
     transpose, mirror_rows, mirror_columns = turns_of(orientation)
-    turned = scan_axis == "lines" or (
-        scan_axis == "auto" and _stripes_are_lines(samples, transpose)
-    )
+    turned = scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, transpose))
     if turned:
         transpose, mirror_rows, mirror_columns = not transpose, mirror_columns, mirror_rows
     # Each step frees the array before it.
@@ -210,27 +202,3 @@ def _in_grey_levels(samples: Samples) -> ByteArray:
     if samples.dtype == np.uint8:
         return np.asarray(samples, dtype=np.uint8)  # the same array
     return np.asarray(cv2.convertScaleAbs(samples, alpha=WHITE / white_of(samples)), np.uint8)
-
-
-def _means(samples: Samples, axis: int) -> FloatArray:
-    """Average samples along an axis, many times faster than numpy."""
-    sums = cv2.reduce(samples, axis, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
-    means: FloatArray = np.asarray(sums, dtype=np.float64).ravel() / samples.shape[axis]
-    return means
-
-
-def _stripes_are_lines(samples: Samples, lying: bool) -> bool:
-    """Whether the means of lines differ more, from one to the next, than those of columns.
-
-    Lines and columns are those of the upright photo, of which ``samples`` may be transposed.
-    """
-    axes = (1, 0) if lying else (0, 1)
-    columns, lines = (_roughness(_means(samples, axis)) for axis in axes)
-    return lines > columns
-
-
-def _roughness(means: FloatArray) -> float:
-    """Give the mean difference of neighbours, without the largest: those are a panel's edges."""
-    steps = np.sort(np.abs(np.diff(means)))
-    usual = steps[: math.ceil(_USUAL * len(steps))]
-    return float(usual.mean()) if usual.size else 0.0

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.detection_map.advice_view import AdviceView
+from occ_gui.detection_map.decoder_maps import MapPlots
 from occ_gui.detection_map.map_legend import MapLegend
-from occ_gui.detection_map.map_plots import MapPlots
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox

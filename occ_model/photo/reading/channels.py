@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.reading.decoding import DecodedPicture, Samples
+from occ_model.photo.reading.image_decoding import DecodedPicture, Samples
 from occ_model.photo.reading.watched_file import Progress
 
 _Take: TypeAlias = Callable[[Samples], Samples]

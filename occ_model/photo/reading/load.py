@@ -12,9 +12,9 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, shown
 from occ_model.photo.reading.channels import CHANNELS, take_channel, white_of
-from occ_model.photo.reading.decoding import DECODED, DecodedPicture, Samples
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.reading.file import open_picture
+from occ_model.photo.reading.image_decoding import DECODED, DecodedPicture, Samples
 from occ_model.photo.reading.scan_axis import SCAN_AXES, means_along, stripes_are_lines
 from occ_model.photo.reading.watched_file import Progress, Reporter
 from occ_model.scene.argument_checks import check_choice, check_count

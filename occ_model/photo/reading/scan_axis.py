@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.reading.decoding import Samples
+from occ_model.photo.reading.image_decoding import Samples
 
 SCAN_AXES = ("auto", "columns", "lines")
 """The axis of the file that the rolling shutter scanned; ``"auto"``: the one across the stripes."""

@@ -1,0 +1,319 @@
+"""The user's own presets: saved, listed and deleted, and what may stand among them."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from occ_model.cli import main
+from occ_model.errors import OccError, OutputError, ParameterError, PresetError, SceneFileError
+from occ_model.receiver.decoders import decoder_named
+from occ_model.scene import toml_format
+from occ_model.scene.presets import (
+    USER_FOLDER,
+    all_presets,
+    delete_preset,
+    load_preset,
+    preset_named,
+    presets,
+    save_preset,
+    unreadable_presets,
+    user_folder,
+    user_presets,
+)
+from occ_model.scene.scene import Scene
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Keep the user's own presets in a folder that is not there yet."""
+    folder = tmp_path / "own" / "presets"
+    monkeypatch.setenv(USER_FOLDER, str(folder))
+    return folder
+
+
+MINE = Scene().replace(readout_time=14.565e-6, pattern="10", iso=321.0)
+
+
+def test_a_saved_preset_keeps_its_scene_title_and_sources(own: Path) -> None:
+    sources = {"readout_time": "measured: photo a.png"}
+    path = save_preset("My phone", MINE, title="My phone's camera", sources=sources)
+    assert path == own / "My phone.toml"
+    preset = preset_named("My phone")
+    assert (preset.scene, preset.title, preset.sources) == (MINE, "My phone's camera", sources)
+    assert load_preset("My phone") == MINE
+    assert list(own.iterdir()) == [path]
+
+
+def test_the_users_presets_are_listed_after_the_programs(own: Path) -> None:
+    built_in = presets()
+    for name in ("b", "a 1", "zz"):
+        save_preset(name, MINE)
+    assert user_presets() == ("a 1", "b", "zz")
+    assert presets() == (*built_in, "a 1", "b", "zz")
+    assert preset_named("b").title == "b"
+
+
+def test_saving_under_the_name_of_an_own_preset_replaces_it(own: Path) -> None:
+    save_preset("mine", MINE)
+    save_preset("mine", MINE.replace(iso=400.0))
+    assert load_preset("mine").camera.iso == 400.0
+    assert user_presets() == ("mine",)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["", " a", "a ", ".a", "../a", "a/b", "a\\b", "a.b", "ä", "a\n", "a\0", "x" * 61, "NUL", 3],
+)
+def test_an_impossible_preset_name_is_refused_without_a_file(own: Path, name: object) -> None:
+    with pytest.raises(PresetError, match=r"^A preset cannot be named ") as refused:
+        save_preset(name, MINE)  # type: ignore[arg-type]
+    assert str(refused.value).endswith(".")
+    assert not own.exists()
+
+
+@pytest.mark.parametrize("name", ["phone-136us", "PHONE-136us"])
+def test_the_name_of_a_preset_of_the_program_is_refused(own: Path, name: str) -> None:
+    with pytest.raises(PresetError, match=r"is a preset of the program; choose another name\.$"):
+        save_preset(name, MINE)
+    assert not own.exists()
+
+
+def test_a_source_of_an_unknown_parameter_is_refused(own: Path) -> None:
+    with pytest.raises(ParameterError, match="isoo"):
+        save_preset("mine", MINE, sources={"isoo": "a book"})
+    with pytest.raises(ParameterError, match=r"^scene is "):
+        save_preset("mine", "a scene")  # type: ignore[arg-type]
+    assert not own.exists()
+
+
+def test_a_deleted_preset_is_gone(own: Path) -> None:
+    save_preset("mine", MINE)
+    delete_preset("mine")
+    assert user_presets() == ()
+    with pytest.raises(PresetError, match=r"^There is no preset 'mine'\."):
+        load_preset("mine")
+    with pytest.raises(PresetError, match=r"^There is no preset 'mine'\. Known are none\.$"):
+        delete_preset("mine")
+
+
+def test_a_preset_of_the_program_cannot_be_deleted(own: Path) -> None:
+    with pytest.raises(PresetError, match="comes with the program"):
+        delete_preset("phone-136us")
+    assert "phone-136us" in presets()
+
+
+RUBBISH = {
+    "no toml": b"this is no preset",
+    "bytes": b"\xff\xfe\x00",
+    "empty": b"",
+    "title": b"format = 1\ntitle = 5\n",
+    "base": b"format = 1\nbased_on = 5\n",
+    "elsewhere": b"format = 1\nbased_on = '../../elsewhere'\n",
+    "itself": b"format = 1\nbased_on = 'itself'\n",
+    "notes": b"format = 1\nsources = 3\n",
+    "note": b"format = 1\n[sources]\niso = 3\n",
+    "value": b"format = 1\n[camera]\niso = -5.0\n",
+    "key": b"format = 1\n[camera]\nshutter = 1\n",
+}
+
+
+@pytest.mark.parametrize("name", RUBBISH)
+def test_rubbish_among_the_users_presets_is_left_out(own: Path, name: str) -> None:
+    built_in = presets()
+    save_preset("good", MINE)
+    (own / f"{name}.toml").write_bytes(RUBBISH[name])
+    (own / "a folder.toml").mkdir()
+    (own / "phone-136us.toml").write_bytes(b"not the program's")
+    assert presets() == (*built_in, "good")
+    with pytest.raises((SceneFileError, ParameterError)) as refused:
+        load_preset(name)
+    assert str(own / f"{name}.toml") in str(refused.value)
+    assert load_preset("phone-136us").camera.exposure_time == 136e-6
+    delete_preset(name)
+    assert not (own / f"{name}.toml").exists()
+
+
+def nested(levels: int) -> list[Any]:
+    value: list[Any] = []
+    for _ in range(levels):
+        value = [value]
+    return value
+
+
+HOSTILE = {
+    "hexadecimal": "title = 0x" + "f" * 4000,
+    "hexadecimal value": "[camera]\nrows = 0x" + "f" * 4000,
+    "decimal": "title = " + "9" * 5000,
+    "deep notes": "[sources]\n" + "a." * 30 + "a = 1",
+    "deep key": "[sources]\n" + "a." * 1500 + "a = 1",
+    "deep quoted key": "[sources]\n" + "'a' . \"b\"\t." * 750 + "a = 1",
+    "deep array": "title = " + "[" * 3000 + "]" * 3000,
+    "deep tables": "title = " + "{a=" * 1500 + "1" + "}" * 1500,
+    "shallow array": "title = " + "[" * 150 + "]" * 150,
+    "bases": "based_on = [" + "'phone-68us'," * 50_000 + "]",
+    "base": f"based_on = '{'a' * 10**5}'",
+    "table": f"[{'a' * 10**5}]",
+    "note": f"[sources]\n{'a' * 10**5} = 'x'",
+    "escapes": '["a\\u001b[31m\\n"]',
+    "twice": f"{'a' * 10**5} = 1\n" * 2,
+    "large": "#" * 2_000_000,
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_preset_gets_a_short_reason_and_stops_nothing(
+    own: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = presets()
+    save_preset("good", MINE)
+    (own / f"{name}.toml").write_text(f"format = 1\n{HOSTILE[name]}\n")
+    assert presets() == (*before, "good")
+    assert [preset.name for preset in all_presets()] == [*before, "good"]
+    ((file, reason),) = unreadable_presets().items()
+    assert file == name
+    with pytest.raises((SceneFileError, ParameterError)) as refused:
+        load_preset(name)
+    assert reason == str(refused.value)
+    assert str(own / f"{name}.toml") in reason
+    assert reason.isprintable()
+    assert len(reason) < len(str(own)) + 2000
+    assert main(["presets"]) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert listed[-1] == f"{name:20}cannot be used: {reason}"
+    assert [line.split()[0] for line in listed[:-1]] == [*before, "good"]
+
+
+def test_an_internal_error_over_one_file_hides_no_other(
+    own: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_preset("good", MINE)
+    save_preset("bad", MINE, title="bad")
+    read = toml_format.from_toml
+
+    def mistaken(text: str) -> dict[str, Any]:
+        if "bad" in text:
+            raise ZeroDivisionError("of ours")
+        return read(text)
+
+    monkeypatch.setattr(toml_format, "from_toml", mistaken)
+    assert user_presets() == ("good",)
+    assert "ZeroDivisionError" in unreadable_presets()["bad"]
+
+
+ODD_NAMES = {
+    "Mon téléphone": "Mon téléphone",
+    "a\nb": "a\\nb",
+    "\x1b[31mred": "\\x1b[31mred",
+    "no\udcffutf-8": "no\\udcffutf-8",
+    " leading": " leading",
+    "a.b": "a.b",
+    "x" * 200: "x" * 200,
+    "PHONE-136us": "PHONE-136us",
+}
+
+
+@pytest.mark.parametrize("name", ODD_NAMES)
+def test_a_file_whose_name_no_preset_can_have_is_listed_as_such(
+    own: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = presets()
+    save_preset("good", MINE)
+    (own / "good.toml").with_name(f"{name}.toml").write_bytes((own / "good.toml").read_bytes())
+    assert presets() == (*before, "good")
+    ((file, reason),) = unreadable_presets().items()
+    assert file == ODD_NAMES[name]
+    assert reason.endswith(".")
+    assert reason.isprintable()
+    assert main(["presets"]) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert listed[-1] == f"{file:20}cannot be used: {reason}"
+    assert len(listed) == len(before) + 2
+
+
+def test_hidden_files_of_editors_and_systems_are_not_listed(own: Path) -> None:
+    save_preset("good", MINE)
+    (own / "._good.toml").write_bytes(b"\0\5\26\7")
+    (own / ".#good.toml").symlink_to("somebody@somewhere.1")
+    assert user_presets() == ("good",)
+    assert unreadable_presets() == {}
+
+
+def test_a_folder_and_a_link_to_nothing_are_listed_as_unreadable(own: Path) -> None:
+    own.mkdir(parents=True)
+    (own / "a folder.toml").mkdir()
+    (own / "link.toml").symlink_to("nowhere")
+    assert user_presets() == ()
+    reasons = unreadable_presets()
+    assert reasons["a folder"] == f"{own / 'a folder.toml'} cannot be read: it is a folder."
+    assert reasons["link"].endswith("cannot be read: No such file or directory.")
+
+
+def test_control_characters_of_titles_and_notes_are_escaped(
+    own: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = "\x1b[31mred\n\x1b]0;title\x07 \u202e\x9b"
+    save_preset("mine", MINE, title=text, sources={"iso": text})
+    for arguments in (["presets"], ["presets", "mine"]):
+        assert main(arguments) == 0
+        printed = capsys.readouterr().out
+        assert "\\x1b[31mred\\n\\x1b]0;title\\x07 \\u202e\\x9b" in printed
+        assert all(line.isprintable() for line in printed.split("\n"))
+    assert "iso  " in printed
+
+
+@pytest.mark.parametrize("value", [10**5000, "x" * 10**6, nested(5000)], ids=["n", "x", "["])
+def test_any_value_is_refused_in_a_short_sentence(own: Path, value: Any) -> None:
+    calls: list[Callable[[], object]] = [
+        lambda: load_preset(value),
+        lambda: delete_preset(value),
+        lambda: save_preset(value, MINE),
+        lambda: save_preset("mine", value),
+        lambda: save_preset("mine", MINE, sources={"x": value}),
+        lambda: MINE.replace(rows=value),
+        lambda: MINE.replace(averaging=value),
+        lambda: MINE.replace(iso=value),
+        lambda: MINE.with_tables({"camera": value}),
+        lambda: decoder_named(value),
+    ]
+    for call in calls:
+        with pytest.raises(OccError) as refused:
+            call()
+        assert len(str(refused.value)) < 1200
+    if not isinstance(value, str):
+        with pytest.raises(ParameterError, match=r"^title is .*; allowed: a text\.$"):
+            save_preset("mine", MINE, title=value)
+
+
+def test_an_own_preset_may_be_based_on_one_of_the_program(own: Path) -> None:
+    own.mkdir(parents=True)
+    (own / "mine.toml").write_text(
+        'format = 1\nbased_on = "phone-136us"\ntitle = "Mine"\n[camera]\niso = 400\n'
+        '[sources]\niso = "my camera"\n'
+    )
+    mine = preset_named("mine")
+    assert mine.scene == load_preset("phone-136us").replace(iso=400)
+    assert mine.sources["iso"] == "my camera"
+    assert mine.sources["readout_time"].startswith("paper, ")
+
+
+def test_a_preset_that_cannot_be_written_says_so(own: Path) -> None:
+    own.parent.mkdir()
+    own.write_text("a file where the folder should be")
+    with pytest.raises(OutputError, match=r"\.$"):
+        save_preset("mine", MINE)
+    assert presets() == tuple(sorted(presets()))
+
+
+def test_a_text_that_no_file_can_hold_is_saved_all_the_same(own: Path) -> None:
+    save_preset("mine", MINE, title="photo \udcff.png")
+    assert preset_named("mine").title == "photo ?.png"
+
+
+def test_the_users_folder_is_the_systems_where_none_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delenv(USER_FOLDER)
+    assert user_folder().is_absolute()
+    assert user_folder().parts[-2:] == ("occ-explorer", "presets")

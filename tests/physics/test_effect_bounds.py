@@ -151,7 +151,7 @@ def test_noise_left_out_changes_no_more_than_its_bound(
 
 @pytest.mark.parametrize("name", MEANS)
 def test_a_scene_has_an_effect_once_its_parameter_is_not_nothing(name: str) -> None:
-    bare = Scene().replace(full_well=1e9, gain_variation=0.0)
+    bare = Scene().replace(iso=50.0, luminance=1e5, full_well=1e9, gain_variation=0.0)
     present = {effect.name for effect in EFFECTS if effect.is_present(bare)}
     assert present == {"sensor-noise"}  # light comes in photons
     scene = bare.replace(**ALONE[name])

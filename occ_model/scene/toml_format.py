@@ -14,8 +14,16 @@ FORMAT = 1
 _MAX_KEY_PARTS = 32
 """Most parts of a dotted key: the parser's time grows with their square, and ours have two."""
 
-_KEY_PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
-_LONG_KEY = re.compile(rf"(?:{_KEY_PART}[ \t]*+\.[ \t]*+){{{_MAX_KEY_PARTS}}}")
+_LONG_KEY = re.compile(rf"(?:(?<![\w-])[\w-]++[ \t]*+\.[ \t]*+){{{_MAX_KEY_PARTS}}}")
+
+_STRING_OR_COMMENT = re.compile(
+    r'''"""(?:[^"\\]|\\.|"(?!""))*+(?:"""|\Z)'''
+    r"""|'''(?:[^']|'(?!''))*+(?:'''|\Z)"""
+    r"""|"(?:[^"\\\n]|\\[^\n])*+"?"""
+    r"""|'[^'\n]*+'?|#[^\n]*+""",
+    re.DOTALL,
+)
+"""One that has no end is taken to end with its line or with the text: nothing is looked at twice."""
 
 
 def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:
@@ -52,7 +60,8 @@ def parse_toml(text: str) -> dict[str, Any]:
     """
     if not isinstance(text, str):
         raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
-    if _LONG_KEY.search(text):
+    # What stands in a string is no key, and a string that is a part of a key is one part.
+    if _LONG_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
         raise SceneFileError(
             f"This is not a scene file: a key has more than {_MAX_KEY_PARTS} parts."
         )

@@ -199,3 +199,15 @@ def test_a_damaged_file_is_a_scene_or_refused(data: st.DataObject) -> None:
         assert refusal.endswith((".", "?"))
     else:
         assert Scene.from_toml(read.to_toml()) == read
+
+
+@pytest.mark.parametrize("part", ["a", '"a"', '"\\""', "'a'", '"#"', "'\"'"])
+def test_a_key_of_many_parts_is_refused_however_it_is_quoted(part: str) -> None:
+    with pytest.raises(SceneFileError, match="more than 32 parts"):
+        parse_toml("format = 1\n" + f"{part}." * 100_000 + "b = 1\n")
+
+
+@pytest.mark.parametrize("quote", ['"', "'", '"""', "'''"])
+def test_a_text_with_many_full_stops_is_no_key(quote: str) -> None:
+    text = ".".join(str(number) for number in range(60))
+    assert parse_toml(f"title = {quote}{text}{quote}  # {text}\n") == {"title": text}

@@ -106,7 +106,7 @@ def say(name: str, sentence: str) -> None:
     try:
         print(f"{name}: {one_line(sentence, _LONGEST_SENTENCE)}", file=sys.stderr, flush=True)  # noqa: T201 - what this is for
     except (OSError, ValueError):
-        _discard(sys.stderr)
+        discard(sys.stderr)
 
 
 def ignore_interrupts() -> None:
@@ -205,7 +205,7 @@ def _flush_output() -> None:
         sys.stdout.flush()
 
 
-def _discard(stream: "TextIO | None") -> None:
+def discard(stream: "TextIO | None") -> None:
     """Discard what a stream still holds: Python would write it at exit, and fail again."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # type: ignore[union-attr]
@@ -234,7 +234,7 @@ def _discard_unwritten_output() -> None:
     try:
         _flush_output()
     except (OSError, ValueError):
-        _discard(sys.stdout)
+        discard(sys.stdout)
 
 
 def _place(trace: TracebackType | None) -> str:

@@ -12,6 +12,7 @@ from occ_model.commands.options import (
     scene_of,
     simulation_settings_of,
 )
+from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.results import AccuracyPoint
@@ -32,14 +33,12 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from tqdm import tqdm
-
     scene, settings = scene_of(options), simulation_settings_of(options)
     measured = accuracy(scene, settings)
     if options.out:
         make_folder(options.out)  # a refusal must not come after minutes of work
     points = []
-    with tqdm(total=point_count(scene, settings), unit="point", file=sys.stderr) as bar:
+    with progress_bar(total=point_count(scene, settings), unit="point") as bar:
         for point in measured:
             points.append(point)
             bar.write(_line(point), file=sys.stdout)

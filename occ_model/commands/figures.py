@@ -7,6 +7,7 @@ from typing import Any
 
 from occ_model.commands.files import folder_of_figures
 from occ_model.commands.options import Commands
+from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo
@@ -59,8 +60,6 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> None:
-    from tqdm import tqdm
-
     from occ_model.figures import paper
 
     paper.write_process_figure(options.out)
@@ -68,7 +67,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
     paper.write_profile_figure(options.out, 4, "phone-136us", photos[1])
     requests = _requests(options)
     points = sum(request.points for request in requests.values())
-    with tqdm(total=points, unit="point", file=sys.stderr) as bar:
+    with progress_bar(total=points, unit="point") as bar:
         for number, (device, presets) in enumerate(DEVICES.items(), start=5):
             bar.set_description(device)
             tables = {

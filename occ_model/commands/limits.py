@@ -2,9 +2,9 @@
 
 import argparse
 import math
-import sys
 
 from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import Trial
@@ -38,10 +38,8 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from tqdm import tqdm
-
     scene = scene_of(options)
-    with tqdm(unit="image", file=sys.stderr, leave=False, delay=0.5) as bar:
+    with progress_bar(unit="image", leave=False, delay=0.5) as bar:
         found = limits(
             scene,
             options.decoder,

@@ -1,11 +1,11 @@
 """The command ``occ-model match``: find the settings that explain a photo."""
 
 import argparse
-import sys
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE
 from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
@@ -53,15 +53,11 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from tqdm import tqdm
-
     scene = scene_of(options)
     if options.led_frequency is not None:
         scene = _square_wave(scene, options.led_frequency)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
-    with tqdm(
-        total=1.0, file=sys.stderr, bar_format="{l_bar}{bar}|", leave=False, disable=None
-    ) as bar:
+    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
         match = match_photo(
             photo,
             scene,

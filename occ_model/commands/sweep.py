@@ -11,6 +11,7 @@ from typing import Any
 from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
 from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError, one_line, shown
@@ -132,8 +133,6 @@ def _check_plot(path: Path, axes: int) -> None:
 
 def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable | None:
     """Measure with a progress bar that shows the time left; None after Ctrl-C."""
-    from tqdm import tqdm
-
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
     reached = 0
     with ExitStack() as stack:
@@ -142,7 +141,7 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
         def progress(done: int, total: int, _left: float) -> None:
             nonlocal bar, reached
             if bar is None:  # not before the first point: a refused sweep shows none
-                bar = stack.enter_context(tqdm(total=total, unit="point", file=sys.stderr))
+                bar = stack.enter_context(progress_bar(total=total, unit="point"))
             reached = done
             bar.update(done - bar.n)
 
@@ -168,10 +167,9 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
 @contextmanager
 def _warnings_as_sentences() -> Iterator[None]:
     """Print warnings as plain sentences, above the progress bar if there is one."""
-    from tqdm import tqdm
 
     def show(message: Warning | str, *_others: object, **_options: object) -> None:
-        tqdm.write(f"occ-model: {message}", file=sys.stderr)
+        print_above_bar(f"occ-model: {message}")
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", RuntimeWarning)

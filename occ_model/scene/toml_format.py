@@ -23,7 +23,7 @@ _STRING_OR_COMMENT = re.compile(
     r"""|'[^'\n]*+'?|#[^\n]*+""",
     re.DOTALL,
 )
-"""One that has no end is taken to end with its line or with the text: nothing is looked at twice."""
+"""One that has no end ends with its line or with the text, so that nothing is read twice."""
 
 
 def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:

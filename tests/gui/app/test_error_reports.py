@@ -83,7 +83,7 @@ def test_an_exception_in_the_simulation_keeps_the_last_picture(
 ) -> None:
     shown = application.image.simulation.level_at(10, 10)
     with monkeypatch.context() as patched:
-        patched.setattr("occ_model.render", broken)
+        patched.setattr("occ_gui.simulation.controller.render_with", broken)
         application.store.change(iso=333.0)
         user.wait_until_idle()
         assert user.message == "The simulation failed: ZeroDivisionError: a mistake."

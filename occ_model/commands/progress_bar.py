@@ -1,0 +1,72 @@
+"""Progress bars on standard error, which never stop the command that shows them."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from typing import Any
+
+from occ_model.program import discard
+
+_SETTINGS = "TQDM_"
+"""What the environment variables begin with by which a user changes tqdm's bars."""
+
+
+def progress_bar(**options: Any) -> Any:
+    """Return a bar of tqdm's, whatever the user's environment holds for tqdm.
+
+    Parameters
+    ----------
+    **options
+        As for ``tqdm.tqdm``, but ``file``.
+    """
+    return _bar_class()(file=sys.stderr, **options)
+
+
+def print_above_bar(sentence: str) -> None:
+    """Print a line on standard error, above the bar if one is shown."""
+    with _full_disk_ignored():
+        _bar_class().write(sentence, file=sys.stderr)
+
+
+@lru_cache(maxsize=1)
+def _bar_class() -> Any:
+    with _settings_hidden():
+        # Slow to import, and only needed where a command takes long. It reads its settings then.
+        from tqdm import tqdm
+
+    class Bar(tqdm):  # type: ignore[misc]  # tqdm has no types
+        """A bar that is given up where it cannot be written: the result counts."""
+
+        def display(self, *arguments: Any, **options: Any) -> None:
+            with _full_disk_ignored():
+                super().display(*arguments, **options)
+
+        def clear(self, *arguments: Any, **options: Any) -> None:
+            with _full_disk_ignored():
+                super().clear(*arguments, **options)
+
+        def close(self) -> None:
+            with _full_disk_ignored():
+                super().close()
+
+    return Bar
+
+
+@contextmanager
+def _settings_hidden() -> Iterator[None]:
+    hidden = {name: os.environ.pop(name) for name in list(os.environ) if name.startswith(_SETTINGS)}
+    try:
+        yield
+    finally:
+        os.environ.update(hidden)
+
+
+@contextmanager
+def _full_disk_ignored() -> Iterator[None]:
+    """Send all of standard error nowhere from the first write on that fails."""
+    try:
+        yield
+    except OSError:
+        discard(sys.stderr)

@@ -80,7 +80,7 @@ def test_the_map_looks_as_stored(
     rates.enter([*known, *refused], 1)
     places = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 5)
     slope = places[0][:, None] + 0.2 * places[1]
-    sides = {line: slope - 0.3 * place for place, line in enumerate(LINES, 1)}
+    sides = {line: slope - 0.22 * place for place, line in enumerate(LINES, 1)}
     rates.theory = TheoryFields(places, sides)
     view.show_map(rates)
     view.show_scene(small_scene)

@@ -14,7 +14,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.formats import format_and_factory
-from occ_model.photo.reading.limits import check_decoder, check_file_size, check_memory
+from occ_model.photo.reading.limits import (
+    check_decoder,
+    check_file_size,
+    check_memory,
+    check_sides,
+)
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -153,6 +158,7 @@ def _first_picture(
             f"{shown} has {width:,} x {height:,} pixels, {_count(width * height)}; "
             f"allowed: at most {_allowed(max_pixels)}"
         )
+    check_sides(path, picture)
     # A wrong size in the header would otherwise be decoded, in seconds, to black.
     if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
         raise PhotoError(

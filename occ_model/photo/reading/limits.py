@@ -15,6 +15,13 @@ A picture of 170 million pixels takes 4 bytes for each of them while it is decod
 colours, and 1 for the channel.
 """
 
+_LONGEST_SIDE = 1_000_000
+"""Pixels of a photo's longer side: as many as a scene has columns, and ten times its rows.
+
+The means of columns and of lines are of 64 bits, and are sorted: of a photo of one line they
+would take many times the memory and time of its pixels.
+"""
+
 _MOST_BYTES = {
     "JPEG": 170_000_000,
     "PNG": 150_000_000,
@@ -75,6 +82,21 @@ def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
         raise PhotoError(
             f"{one_line(str(path))} has {size:,} bytes; allowed for a photo of this kind "
             f"({kind}): up to {largest:,}, which are read within seconds."
+        )
+
+
+def check_sides(path: Path, picture: "ImageFile") -> None:
+    """Refuse a picture with a side longer than any camera's, before any of it is decoded.
+
+    Raises
+    ------
+    PhotoError
+        It is too wide or too high.
+    """
+    if max(picture.size) > _LONGEST_SIDE:
+        raise PhotoError(
+            f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels; "
+            f"allowed: at most {_LONGEST_SIDE:,} along each side."
         )
 
 

@@ -105,6 +105,23 @@ def test_a_photo_too_large_to_be_honest_is_refused_by_its_header(
     assert "at most 170 million" in refusal(path) or width == 12_000
 
 
+@pytest.mark.parametrize("across", [True, False])
+def test_a_photo_with_a_side_longer_than_a_scene_has_columns_is_refused(
+    tmp_path: Path, across: bool
+) -> None:
+    path = tmp_path / "x.png"
+    for longer in (1_000_000, 1_000_001):
+        size = (longer, 1) if across else (1, longer)
+        Image.new("L", size, 80).save(path)
+        if longer == 1_000_000:
+            assert load_photo(path).image.size == longer
+        else:
+            assert refusal(path) == (
+                f"{path} has {size[0]:,} x {size[1]:,} pixels; "
+                "allowed: at most 1,000,000 along each side."
+            )
+
+
 def test_a_size_that_so_few_bytes_cannot_hold_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x.png").write_bytes(png(10_000, 10_000))
     assert "bytes cannot hold 10,000 x 10,000 pixels)." in refusal(tmp_path / "x.png")

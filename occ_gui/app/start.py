@@ -93,19 +93,23 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     return Start(scene, settings, asked, preferences, session, session_file, options.fresh)
 
 
-def kept_settings() -> "QSettings":
-    """Open the stored preferences."""
+def kept_settings() -> "QSettings | None":
+    """Open the stored preferences; None if no file can store them, as Qt would block on each."""
     from PySide6.QtCore import QSettings, QStandardPaths
 
-    from occ_gui.files.kept_file import is_something_else
+    from occ_gui.files.kept_file import is_something_else, usable_settings_path
     from occ_gui.files.session import STATE_FOLDER, state_folder
 
     is_named = bool(os.environ.get(STATE_FOLDER))
     if is_named:
-        path = state_folder() / "settings.ini"
+        preferred = state_folder() / "settings.ini"
     else:
         place = QStandardPaths.StandardLocation.GenericConfigLocation
-        path = Path(QStandardPaths.writableLocation(place), *_NAMES).with_suffix(".conf")
-    if is_something_else(path):  # Qt would block on a pipe: use another file beside it
-        return QSettings(str(path.with_stem(f"{path.stem}-new")), QSettings.Format.IniFormat)
-    return QSettings(str(path), QSettings.Format.IniFormat) if is_named else QSettings(*_NAMES)
+        preferred = Path(QStandardPaths.writableLocation(place), *_NAMES).with_suffix(".conf")
+    path = usable_settings_path(preferred)
+    if path is None:
+        return None
+    shared = preferred.parent.with_suffix(".conf")  # Qt reads the organisation's file as well
+    if is_named or path != preferred or is_something_else(shared):
+        return QSettings(str(path), QSettings.Format.IniFormat)
+    return QSettings(*_NAMES)

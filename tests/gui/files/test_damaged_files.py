@@ -14,9 +14,10 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.app.start import kept_settings
 from occ_gui.explorations.exploration_controller import ExplorationController
 from occ_gui.explorations.exploration_view import ExplorationView
-from occ_gui.files.kept_file import LARGEST
+from occ_gui.files.kept_file import LARGEST, MOST_NAMES, usable_settings_path
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
 from occ_model.effects.registry import NAMES
@@ -126,17 +127,83 @@ sys.exit(app.main([]))
 
 
 @pytest.mark.parametrize("damage", NO_FILES.values(), ids=NO_FILES)
-@pytest.mark.parametrize("name", ["session-1.json", "session-1.lock", "settings.ini"])
+@pytest.mark.parametrize(
+    "names",
+    [
+        ["session-1.json"],
+        ["session-1.lock"],
+        ["settings.ini"],
+        ["settings.ini.lock"],
+        ["settings.ini", "settings-new.ini"],
+    ],
+    ids=" ".join,
+)
 def test_what_is_no_file_does_not_keep_the_window_from_starting(
-    tmp_path: Path, name: str, damage: Damage
+    tmp_path: Path, names: list[str], damage: Damage
 ) -> None:
-    damage(tmp_path / name)
+    for name in names:
+        damage(tmp_path / name)
     environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "OCC_STATE": str(tmp_path)}
     window = subprocess.run(
         [sys.executable, "-c", LOOK],
         cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
     )  # fmt: skip
     assert (window.returncode, window.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("damage", NO_FILES.values(), ids=NO_FILES)
+@pytest.mark.parametrize("ending", ["", ".lock"])
+def test_settings_are_stored_where_qt_does_not_wait(
+    tmp_path: Path, ending: str, damage: Damage
+) -> None:
+    preferred = tmp_path / "settings.ini"
+    chosen = []
+    while (path := usable_settings_path(preferred)) is not None:
+        chosen.append(path)
+        damage(tmp_path / f"{path.name}{ending}")
+        assert len(chosen) <= MOST_NAMES
+    assert chosen[:2] == [preferred, tmp_path / "settings-new.ini"]
+    assert len(set(chosen)) == MOST_NAMES
+
+
+def test_files_that_qt_can_use_are_not_replaced(tmp_path: Path) -> None:
+    preferred = tmp_path / "settings.ini"
+    preferred.touch()
+    (tmp_path / "settings.ini.lock").touch()  # that of another window
+    assert usable_settings_path(preferred) == preferred
+
+
+def test_without_a_usable_file_no_settings_are_stored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OCC_STATE", str(tmp_path))
+    while (path := usable_settings_path(tmp_path / "settings.ini")) is not None:
+        path.mkdir()
+    assert kept_settings() is None
+
+
+READ_SETTINGS = """
+from occ_gui.app.start import kept_settings
+print(kept_settings().value("view/margins"))
+"""
+
+
+@pytest.mark.parametrize("damaged", [None, "occ-explorer.conf"])
+def test_what_is_no_file_beside_the_default_settings_does_not_block(
+    tmp_path: Path, damaged: str | None
+) -> None:
+    folder = tmp_path / "occ-explorer"
+    folder.mkdir()
+    (folder / "occ-gui.conf").write_text("[view]\nmargins=no\n", "ascii")
+    if damaged is not None:
+        os.mkfifo(tmp_path / damaged)
+    environment = {**os.environ, "XDG_CONFIG_HOME": str(tmp_path)}
+    del environment["OCC_STATE"]
+    read = subprocess.run(
+        [sys.executable, "-c", READ_SETTINGS],
+        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert (read.stdout, read.stderr) == ("no\n", "")
 
 
 @pytest.mark.parametrize("folder", ["/" + "a" * 300, "/a" * 4000, "/\x00", "/dev/null/a", "a" * 9])

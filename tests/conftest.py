@@ -1,8 +1,10 @@
 """What all tests share."""
 
 import os
+import shutil
 from collections.abc import Generator
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import Protocol
 
 # Before Qt is imported anywhere: no test opens a window on a real screen.
@@ -11,8 +13,8 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 # No test sees or touches the presets of whoever runs it.
 os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
 
-# Nor the session that they have left.
-os.environ["OCC_STATE"] = str(Path(__file__).with_name("no-state"))
+# Nor the session that they have left; what a window stores ends with the tests.
+os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
 import pytest
 from hard_cases import laws
@@ -22,6 +24,11 @@ settings.register_profile("everyday", deadline=None, print_blob=True)
 settings.load_profile("everyday")
 
 _PHOTOS = Path(__file__).parents[2] / "shared" / "photos"
+
+
+def pytest_unconfigure() -> None:
+    """Remove what the windows of the tests have stored."""
+    shutil.rmtree(os.environ["OCC_STATE"], ignore_errors=True)
 
 
 @pytest.fixture(scope="session")

@@ -18,6 +18,7 @@ from occ_model.photo.reading.limits import (
     check_decoder,
     check_file_size,
     check_memory,
+    check_scans,
     check_sides,
 )
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
@@ -169,7 +170,18 @@ def _first_picture(
         _check_tiff(shown, picture)
     check_decoder(path, picture, size)
     check_memory(path, picture, file.total, file.last)
+    check_scans(path, picture, file.last, lambda: _content(file, size))
     return picture
+
+
+def _content(file: WatchedFile, size: int) -> bytearray:
+    """Read a whole file without a report of progress: its decoder reads it again."""
+    content = bytearray(size)
+    place = file.tell()
+    file.seek(0, os.SEEK_SET)
+    del content[file.readinto(content) :]
+    file.seek(place, os.SEEK_SET)
+    return content
 
 
 def _check_tiff(shown: str, picture: "ImageFile") -> None:

@@ -1,9 +1,11 @@
 """Limit the size of a photo by its format, so that reading it takes bounded memory and time."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_model.errors import PhotoError, one_line
+from occ_model.photo.reading.jpeg_scans import count_scans
 
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
@@ -21,6 +23,15 @@ _LONGEST_SIDE = 1_000_000
 The means of columns and of lines are of 64 bits, and are sorted: of a photo of one line they
 would take many times the memory and time of its pixels.
 """
+
+_MOST_SCANS = 500
+"""Scans of a JPEG; encoders write about 10."""
+
+_MOST_PIXELS_OF_SCANS = 3_000_000_000
+"""Pixels of a JPEG times its scans: 17 scans of 170 million pixels, which take some seconds."""
+
+_MOST_SEGMENTS = 10_000
+"""Segments of a JPEG in several scans; 3,000 of full length are as large as a file may be."""
 
 _MOST_BYTES = {
     "JPEG": 170_000_000,
@@ -130,6 +141,38 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
         )
 
 
+def check_scans(
+    path: Path, picture: "ImageFile", scan_header: int, content: Callable[[], bytes | bytearray]
+) -> None:
+    """Refuse a JPEG of too many scans, before any of them is decoded.
+
+    Parameters
+    ----------
+    path
+        The file.
+    picture
+        The picture as opened, not yet decoded.
+    scan_header
+        Bytes of the header of its first scan.
+    content
+        Gives the bytes of the file; called only for a JPEG in several scans.
+
+    Raises
+    ------
+    PhotoError
+        They would take its decoder too long.
+    """
+    if picture.format != "JPEG" or _is_in_one_scan(picture, scan_header):
+        return
+    most = min(_MOST_SCANS, _MOST_PIXELS_OF_SCANS // (picture.width * picture.height))
+    if count_scans(content(), most, _MOST_SEGMENTS) > most:
+        raise PhotoError(
+            f"{one_line(str(path))} is a JPEG of {picture.width:,} x {picture.height:,} pixels in "
+            f"too many scans; allowed for this size: up to {most:,} scans and "
+            f"{_MOST_SEGMENTS:,} segments, which are read within seconds."
+        )
+
+
 def is_deep_in_colours(raw_modes: set[str]) -> bool:
     """Whether a file's samples, by their raw modes in Pillow, are colours of 16 bits."""
     return len(raw_modes) == 1 and all(
@@ -169,9 +212,9 @@ def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
     kind = picture.format
     if kind == "JPEG":
         layers = getattr(picture, "layer", [])
-        in_one_scan = scan_header == 4 + 2 * len(layers) and "progressive" not in picture.info
         # Coefficients of 16 bits, of all scans.
-        return 0.0 if in_one_scan else 2 * _samples_a_pixel(layers)
+        one_scan = _is_in_one_scan(picture, scan_header)
+        return 0.0 if one_scan else 2 * _samples_a_pixel(layers)
     if kind == "JPEG2000":  # whole numbers of 32 bits, and samples of 16
         return 6 * bands
     if kind == "TIFF":  # which Pillow rotates itself
@@ -182,6 +225,12 @@ def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
     if any(tile[0] in Image.DECODERS for tile in picture.tile):  # in Python, in an array
         return 5.0
     return {"WEBP": 13.0, "AVIF": 12.0, "HEIF": 12.0}.get(kind or "", 0.0)
+
+
+def _is_in_one_scan(picture: "ImageFile", scan_header: int) -> bool:
+    """Whether the first scan of a JPEG holds all its colours, so that no other is decoded."""
+    layers = getattr(picture, "layer", [])
+    return scan_header == 4 + 2 * len(layers) and "progressive" not in picture.info
 
 
 def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:

@@ -132,6 +132,44 @@ def test_a_jpeg_in_scans_counts_as_what_its_decoder_keeps(tmp_path: Path) -> Non
         load_photo(sequential)
 
 
+def jpeg_of_scans(side: int, scans: int, between: bytes = b"") -> bytes:
+    """Repeat the last scan of a progressive JPEG until it has this many."""
+    content = large("JPEG", side, "L", progressive=True)
+    last, end = content.rindex(b"\xff\xda"), content.rindex(b"\xff\xd9")
+    more = scans - content.count(b"\xff\xda")
+    return content[:end] + (between + content[last:end]) * more + content[end:]
+
+
+@pytest.mark.parametrize(("side", "most"), [(64, 500), (3_000, 333), (13_000, 17)])
+def test_a_jpeg_of_more_scans_than_are_read_within_seconds_is_refused(
+    tmp_path: Path, side: int, most: int
+) -> None:
+    path = tmp_path / "x.jpg"
+    if side == 64:
+        path.write_bytes(jpeg_of_scans(side, most))
+        assert load_photo(path).image.size == side * side
+    for between in (b"", b"\xff\xd0\0\xff\0\xff\xff", b"\xff\xfe\0\4\xff\xd9"):
+        path.write_bytes(jpeg_of_scans(side, most + 1, between))
+        with pytest.raises(PhotoError, match=rf" in too many scans; .* up to {most} scans and"):
+            load_photo(path)
+
+
+def test_what_looks_like_a_scan_inside_of_a_segment_is_not_counted(tmp_path: Path) -> None:
+    path = tmp_path / "x.jpg"
+    content = jpeg_of_scans(64, 8)
+    note = b"\xff\xda\0\2" * 600
+    comment = b"\xff\xfe" + struct.pack(">H", len(note) + 2) + note
+    path.write_bytes(content[:2] + comment + content[2:])
+    assert load_photo(path).image.size == 64 * 64
+
+
+def test_a_progressive_jpeg_of_many_empty_segments_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "x.jpg"
+    path.write_bytes(jpeg_of_scans(64, 8, b"\xff\xfe\0\2" * 10_000))
+    with pytest.raises(PhotoError, match=r" scans and 10,000 segments, which are read within"):
+        load_photo(path)
+
+
 @pytest.mark.parametrize("name", ["x.qoi", "x.ppm"])
 def test_what_is_decoded_in_python_is_refused_by_its_bytes(tmp_path: Path, name: str) -> None:
     noise = np.random.default_rng(0).integers(0, 256, (1100, 1100, 3), dtype=np.uint8)

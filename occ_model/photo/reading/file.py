@@ -20,6 +20,7 @@ from occ_model.photo.reading.limits import (
     check_memory,
     check_scans,
     check_sides,
+    check_transparency,
 )
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
@@ -170,6 +171,7 @@ def _first_picture(
         _check_tiff(shown, picture)
     check_decoder(path, picture, size)
     check_memory(path, picture, file.total, file.last)
+    check_transparency(path, picture)
     check_scans(path, picture, file.last, lambda: _content(file, size))
     return picture
 

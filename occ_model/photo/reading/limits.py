@@ -52,6 +52,9 @@ _MOST_BYTES_IN_PYTHON = 3_500_000
 _DEEP_COLOURS = 2
 """Pictures of 16-bit colours in memory at once: the upper and the lower bytes."""
 
+_MOST_DEEP_AND_TRANSPARENT = 50_000_000
+"""Pixels of 16-bit colours of which some may be transparent: each takes twice the time or more."""
+
 _LIBTIFF_COLOURS = 4
 """Bytes of a pixel where libtiff itself converts YCbCr colours."""
 
@@ -108,6 +111,24 @@ def check_sides(path: Path, picture: "ImageFile") -> None:
         raise PhotoError(
             f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels; "
             f"allowed: at most {_LONGEST_SIDE:,} along each side."
+        )
+
+
+def check_transparency(path: Path, picture: "ImageFile") -> None:
+    """Refuse a large picture of 16-bit colours with transparency, before any of it is decoded.
+
+    Raises
+    ------
+    PhotoError
+        Making its transparent parts black would take too long.
+    """
+    transparent = "A" in picture.mode or "transparency" in picture.info
+    large = picture.width * picture.height > _MOST_DEEP_AND_TRANSPARENT
+    if large and transparent and is_deep_in_colours(raw_modes_of(picture)):
+        raise PhotoError(
+            f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels of 16-bit "
+            f"colours with transparency; allowed: at most "
+            f"{_MOST_DEEP_AND_TRANSPARENT // 1_000_000} million, which are read within seconds."
         )
 
 

@@ -30,14 +30,14 @@ def refusal(path: object, **how: int) -> str:
     return sentence
 
 
-def png(width: int, height: int, *, bits: int = 8, chunks: bytes = b"") -> bytes:
+def png(width: int, height: int, *, bits: int = 8, colours: int = 0, chunks: bytes = b"") -> bytes:
     """Give a PNG of this size by its header, and little in it."""
 
     def chunk(name: bytes, content: bytes) -> bytes:
         check = zlib.crc32(name + content)
         return struct.pack(">I", len(content)) + name + content + struct.pack(">I", check)
 
-    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colours, 0, 0, 0))
     data = chunk(b"IDAT", zlib.compress(bytes(1000)))
     return b"\x89PNG\r\n\x1a\n" + header + chunks + data + chunk(b"IEND", b"")
 
@@ -120,6 +120,21 @@ def test_a_photo_with_a_side_longer_than_a_scene_has_columns_is_refused(
                 f"{path} has {size[0]:,} x {size[1]:,} pixels; "
                 "allowed: at most 1,000,000 along each side."
             )
+
+
+@pytest.mark.parametrize(("colours", "key"), [(6, False), (2, True), (2, False)])
+def test_deep_colours_with_transparency_are_limited_to_fifty_million_pixels(
+    tmp_path: Path, colours: int, key: bool
+) -> None:
+    path = tmp_path / "x.png"
+    content = b"tRNS" + bytes(6)
+    chunks = struct.pack(">I", 6) + content + struct.pack(">I", zlib.crc32(content)) if key else b""
+    refused = []
+    for rows in (6_250, 6_251):
+        # More bytes, so that so many pixels could be in the file.
+        path.write_bytes(png(8_000, rows, bits=16, colours=colours, chunks=chunks) + bytes(9_000))
+        refused.append("transparency; allowed: at most 50 million, which" in refusal(path))
+    assert refused == [False, colours == 6 or key]
 
 
 def test_a_size_that_so_few_bytes_cannot_hold_is_refused(tmp_path: Path) -> None:

@@ -9,7 +9,8 @@ from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
 from occ_gui.background.cancellable import Cancellable, Report
-from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
+from occ_model.photo.reading.load import CHANNELS, Photo
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 
 
 class PhotoPane(Protocol):

@@ -12,7 +12,7 @@ from occ_gui.picture.photo_overlay import MODES
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
-from occ_model.photo.reading.load import SCAN_AXES
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 
 _WITH_PHOTO = ("close_photo", "match", "use_settings")
 """Entries that are enabled while a photo is open."""

@@ -5,7 +5,8 @@ import sys
 from pathlib import Path
 
 from occ_model.commands.options import Commands, add_scene_options, scene_of
-from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
+from occ_model.photo.reading.load import CHANNELS, load_photo
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER

@@ -8,7 +8,8 @@ from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
-from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, load_photo
+from occ_model.photo.reading.load import CHANNELS, load_photo
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.parameter_kinds import Quantity

@@ -19,7 +19,7 @@ from occ_model.photo.reading.scan_axis import SCAN_AXES, means_along, stripes_ar
 from occ_model.photo.reading.watched_file import Progress, Reporter
 from occ_model.scene.argument_checks import check_choice, check_count
 
-__all__ = ["CHANNELS", "SCAN_AXES", "Photo", "column_means", "load_photo"]
+__all__ = ["CHANNELS", "Photo", "column_means", "load_photo"]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,7 +8,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.placement import Placement
-from occ_model.photo.reading.load import CHANNELS, SCAN_AXES, Photo
+from occ_model.photo.reading.load import CHANNELS, Photo
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Match
 
 

@@ -21,8 +21,8 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 class Enhancement:
     """The contrast enhancement of a picture with some column values.
 
-    Its curve follows from the columns' values alone, and is applied to pixels that a lens, noise or
-    a file has changed since.
+    Its curve gives each of a camera's 256 grey levels another one. It follows from the columns'
+    values alone, and is applied to pixels that a lens, noise or a file has changed since.
 
     A profile that spans less than one grey level is only rounded. One whose values differ by
     nothing but rounding errors has the same grey level everywhere, also half-way between two.
@@ -33,40 +33,38 @@ class Enhancement:
         Grey levels.
     method
         ``"equalization"``: histogram equalization of the rounded values, the paper's choice;
-        ``"stretch"``: the smallest value becomes 0, the largest 255; ``"none"``.
+        ``"stretch"``: the smallest rounded value becomes 0, the largest 255; ``"none"``.
+
+    Attributes
+    ----------
+    curve : ndarray of uint8, shape (256,)
+        The enhanced level of each grey level; nowhere falling.
     """
 
     def __init__(self, profile: FloatArray, method: str) -> None:
         low, high = float(profile.min()), float(profile.max())
-        is_flat = high - low < FLAT
         self._low, self._high = low, high
         self._is_even = 0.0 < high - low < _SAME
-        self._scale = WHITE / (high - low) if method == "stretch" and not is_flat else None
-        levels = np.arange(256)
-        if method == "equalization" and not is_flat:
-            self._curve = _equalization(to_bytes(profile))
-        elif self._scale is not None:
-            self._curve = to_bytes((levels - low) * self._scale)
-        else:
-            self._curve = levels.astype(np.uint8)
-
-    @property
-    def needs_fractions(self) -> bool:
-        """Whether rounding first would make the result coarser."""
-        return self._scale is not None
+        self.curve: ByteArray = np.arange(256, dtype=np.uint8)
+        if method == "none" or high - low < FLAT:
+            return
+        rounded = to_bytes(profile)
+        if method == "equalization":
+            self.curve = _equalization(rounded)
+        elif rounded.max() > rounded.min():
+            darkest, brightest = int(rounded.min()), int(rounded.max())
+            self.curve = to_bytes((np.arange(256) - darkest) * (WHITE / (brightest - darkest)))
 
     def __call__(self, values: NDArray[np.floating[Any]]) -> ByteArray:
-        """Enhance and round grey levels, of the profile or not, of any shape."""
-        if self._scale is not None:
-            return to_bytes((values - self._low) * self._scale)
+        """Round and enhance grey levels, of the profile or not, of any shape."""
         if self._is_even:
             same = (values >= self._low) & (values <= self._high)
             values = np.where(same, self._low, values)
-        return self._curve[to_bytes(values)]
+        return self.curve[to_bytes(values)]
 
     def of_bytes(self, image: ByteArray) -> ByteArray:
         """Enhance grey levels that are rounded already, shape (rows, columns)."""
-        return np.asarray(cv2.LUT(image, self._curve), dtype=np.uint8)
+        return np.asarray(cv2.LUT(image, self.curve), dtype=np.uint8)
 
 
 def _equalization(rounded: ByteArray) -> ByteArray:

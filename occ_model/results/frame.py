@@ -1,23 +1,27 @@
 """Result of a simulation: one picture."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Frame:
     """One simulated picture, with its scene, plan and profile.
+
+    The camera's picture and the receiver's are two: the receiver enhances the contrast within the
+    panel and decodes the result.
 
     Parameters
     ----------
     scene
         The scene.
     image : ndarray of uint8, shape (rows, columns)
-        The picture.
+        The receiver's picture, enhanced as the scene says: the one that is decoded.
     plan
         The effects simulated, and why.
     profile : ndarray of float64, shape (columns,)
@@ -30,6 +34,8 @@ class Frame:
         The panel's corners in the image, each as (column, row), in order round the panel.
     timings
         Seconds of each stage, an effect under its name, in the order of computation.
+    make_camera_image
+        Returns the camera's picture.
     """
 
     scene: Scene
@@ -39,3 +45,9 @@ class Frame:
     enhanced: ByteArray
     corners: FloatArray
     timings: Mapping[str, float]
+    make_camera_image: Callable[[], ByteArray] = field(repr=False)
+
+    @cached_property
+    def camera_image(self) -> ByteArray:
+        """The camera's picture, before the receiver's enhancement, shape as ``image``."""
+        return self.make_camera_image()

@@ -102,38 +102,40 @@ class PixelExposure:
             self._timer.stage_ended(limit.name)
         return np.minimum(mean, np.float32(WHITE))
 
-    def picture(
+    def pictures(
         self, enhancement: Enhancement, seed: int, source: NoiseSource
-    ) -> tuple[ByteArray, FloatArray]:
-        """Make the picture.
+    ) -> tuple[ByteArray, ByteArray, FloatArray]:
+        """Make the camera's picture and the receiver's.
 
         Returns
         -------
-        image : ndarray of uint8, shape (rows, columns)
-            Enhanced within the panel.
+        camera_image, image : ndarray of uint8, shape (rows, columns)
+            As the camera gives it, and enhanced within the panel.
         profile : ndarray of float64, shape (columns,)
-            Mean of the panel's pixels in each column before that; the column's value where the
-            picture does not show the panel.
+            Mean of the panel's pixels in each column before enhancement; the column's value where
+            the picture does not show the panel.
         """
         camera = self._scene.camera
-        image = np.empty((camera.rows, camera.columns), dtype=np.uint8)
+        camera_image = np.empty((camera.rows, camera.columns), dtype=np.uint8)
+        image = np.empty_like(camera_image)
         column_means = _ColumnMeans(camera.columns)
         panels: list[tuple[slice, Panel]] = []
         for exposed in self.rows(seed, source):
+            rows, panel = exposed.place, exposed.panel
+            exposed.to_bytes(out=camera_image[rows])
             if self._files:
-                exposed.to_bytes(out=image[exposed.place])
-                panels.append((exposed.place, exposed.panel))
+                panels.append((rows, panel))
             else:
-                _enhance(exposed, enhancement, image[exposed.place])
-                column_means.add(exposed.panel, exposed.values)
+                column_means.add(panel, exposed.values)
+                _enhance(camera_image[rows], enhancement, panel, out=image[rows])
             self._timer.stage_ended("image")
         if self._files:
-            image = self._through_files(image)
+            camera_image = self._through_files(camera_image)
             for rows, panel in panels:
-                column_means.add(panel, image[rows].astype(np.float32))
-                _enhance_bytes(image[rows], enhancement, panel)
+                column_means.add(panel, camera_image[rows].astype(np.float32))
+                _enhance(camera_image[rows], enhancement, panel, out=image[rows])
             self._timer.stage_ended("image")
-        return image, column_means.means(self._columns.profile)
+        return camera_image, image, column_means.means(self._columns.profile)
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
         """Return the observable: pixel values before enhancement and rounding.
@@ -162,23 +164,15 @@ class PixelExposure:
         return image
 
 
-def _enhance(exposed: ExposedRows, enhancement: Enhancement, out: ByteArray) -> None:
-    """Round pixel values, enhanced within the panel."""
-    exposed.to_bytes(out=out)
-    if not enhancement.needs_fractions:
-        _enhance_bytes(out, enhancement, exposed.panel)
-    elif isinstance(exposed.panel, slice):
-        out[:, exposed.panel] = enhancement(exposed.values[:, exposed.panel])
-    else:
-        np.copyto(out, enhancement(exposed.values), where=exposed.panel)
-
-
-def _enhance_bytes(image: ByteArray, enhancement: Enhancement, panel: Panel) -> None:
-    """Enhance rounded grey levels within the panel, in place."""
+def _enhance(
+    camera_image: ByteArray, enhancement: Enhancement, panel: Panel, out: ByteArray
+) -> None:
+    """Enhance grey levels within the panel, and copy them beside it."""
+    out[:] = camera_image
     if not isinstance(panel, slice):
-        np.copyto(image, enhancement.of_bytes(image), where=panel)
+        np.copyto(out, enhancement.of_bytes(camera_image), where=panel)
     elif panel.stop > panel.start:  # OpenCV has no pictures without columns
-        image[:, panel] = enhancement.of_bytes(image[:, panel])
+        out[:, panel] = enhancement.of_bytes(camera_image[:, panel])
 
 
 class _ColumnMeans:

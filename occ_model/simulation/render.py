@@ -1,6 +1,9 @@
 """Render a scene: simulate the picture, stage by stage as light travels, each stage timed."""
 
 from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
 
 from occ_model.arrays import Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
@@ -112,14 +115,17 @@ def render_plan(
     enhancement = Enhancement(columns.profile, scene.model.enhancement)
     enhanced = enhancement(columns.profile)
     timer.stage_ended("enhancement")
+    around, corners, rows = to_bytes(columns.around), view.corners, scene.camera.rows
     if chosen.kinds <= {"column"}:
         profile = columns.profile
-        image = paint(enhanced, view.corners, scene.camera.rows, to_bytes(columns.around))
+        image = paint(enhanced, corners, rows, around)
         timer.stage_ended("image")
+        camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
         exposure = PixelExposure(view, chosen, columns, timer)
-        image, profile = exposure.picture(enhancement, seed, noise)
-    return Frame(scene, chosen, image, profile, enhanced, view.corners, timer.timings)
+        taken, image, profile = exposure.pictures(enhancement, seed, noise)
+        camera_image = partial(np.asarray, taken)
+    return Frame(scene, chosen, image, profile, enhanced, corners, timer.timings, camera_image)
 
 
 def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "exact") -> Pixels:

@@ -51,6 +51,32 @@ def test_a_frame_holds_what_its_image_is_made_of(scene: Scene) -> None:
     np.testing.assert_array_equal(frame.corners, occ.panel_corners(scene))
 
 
+@pytest.mark.parametrize("method", ["equalization", "stretch", "none"])
+@pytest.mark.parametrize("tolerance", [0.0, np.inf])
+@pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
+def test_the_receivers_picture_is_the_cameras_enhanced(
+    preset: str, tolerance: float, method: str
+) -> None:
+    scene = occ.load_preset(preset).replace(rows=1200, columns=1600, enhancement=method)
+    frame = occ.render(scene, tolerance=tolerance)
+    camera, image = frame.camera_image, frame.image
+    assert camera.shape == image.shape
+    assert camera.dtype == np.uint8
+    outside = np.ones(image.shape, dtype=bool)
+    (left, top), (right, bottom) = frame.corners.min(axis=0), frame.corners.max(axis=0)
+    outside[int(top) - 9 : int(bottom) + 9, int(left) - 9 : int(right) + 9] = False
+    np.testing.assert_array_equal(image[outside], camera[outside])
+    rows = slice(int(top) + 20, int(bottom) - 20)
+    inside = rows, slice(int(left) + 20, int(right) - 20)
+    pairs = np.unique(np.stack([camera[inside].ravel(), image[inside].ravel()]), axis=1)
+    assert len(np.unique(pairs[0])) == pairs.shape[1]  # one enhanced level for each level
+    assert (np.diff(pairs[1].astype(int)) >= 0).all()
+    assert np.array_equal(camera[inside], image[inside]) == (method == "none")
+    # The profile is that of the camera's picture, to its rounding.
+    means = camera[inside].mean(axis=0)
+    assert np.abs(means - frame.profile[inside[1]]).max() <= 0.75
+
+
 def test_every_stage_is_timed_in_the_order_it_ran(scene: Scene) -> None:
     timings = occ.render(scene, tolerance=np.inf).timings
     assert list(timings) == ["projection", "exposure", "plan", "enhancement", "image"]

@@ -13,7 +13,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
-from occ_model.camera.photometry import ColumnLight
+from occ_model.camera.photometry import WHITE, ColumnLight
 from occ_model.effects.paper_view import PaperView
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
@@ -23,6 +23,9 @@ Kind: TypeAlias = Literal["column", "noise", "image"]
 
 Values = TypeVar("Values", FloatArray, Pixels)
 """Pixel values of either precision."""
+
+ROUNDING = 1.0
+"""Most grey levels by which rounding can enlarge a difference of two values."""
 
 _TABULATED: FloatArray = np.arange(0.0, 255.25, 0.25)
 
@@ -54,20 +57,27 @@ class Effect(ABC):
         view
             The paper's view of the scene.
         observable
-            ``"image"``: the pixels of the panel's bounding rectangle; ``"profile"``: the means of
-            its columns.
+            ``"image"``: the camera's pixels of the panel's bounding rectangle; ``"profile"``: the
+            means of its columns, both before rounding; ``"signal"``: the means of its columns after
+            rounding and the receiver's enhancement, which a decoder reads.
 
         Returns
         -------
         float
-            Root mean square in grey levels, before contrast enhancement and rounding; never too
-            small, whichever other effects are there. 0 where the scene does not have the effect.
+            Root mean square in grey levels of the observable; never too small, whichever other
+            effects are there. 0 where the scene does not have the effect.
         """
-        return self._bound(view, observable) if self.is_present(view.scene) else 0.0
+        if not self.is_present(view.scene):
+            return 0.0
+        if observable != "signal":
+            return self._bound(view, observable)
+        if view.scene.model.enhancement == "none":
+            return min(self._bound(view, "profile") + ROUNDING, WHITE)
+        return WHITE
 
     @abstractmethod
     def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Return the bound for a scene that has the effect."""
+        """Return the bound in the image or the profile for a scene that has the effect."""
 
 
 class LightEffect(Effect):

@@ -49,6 +49,11 @@ class NoiseBounds:
             for place, effect in enumerate(self._noises)
         }
 
+    @property
+    def largest_spread(self) -> float:
+        """The largest standard deviation of a pixel by all noise together, in grey levels."""
+        return math.sqrt(float(np.sum(self._variances, axis=0).max())) if self._noises else 0.0
+
     def _seen(self, place: int, observable: Observable) -> FloatArray:
         """Return the mean square of one noise in the observable, at each level."""
         own = self._variances[place]

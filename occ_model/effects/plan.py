@@ -5,10 +5,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.effect import Effect, FileEffect
+from occ_model.effects.effect import ROUNDING, Effect, FileEffect
 from occ_model.effects.noise_bound import NoiseBounds
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS, moves_light
+from occ_model.effects.signal_bound import SignalView, signal_view
 from occ_model.results import Decision, Plan
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE, Observable, SimulationSettings
@@ -29,6 +30,7 @@ def plan(
     within the tolerance: root mean squares obey the triangle inequality, so that what is observed
     then differs by no more from what it is with all effects. Bounds and tolerance are counted in
     levels of the stretched profile, grey levels times 255 / swing: what a decoder sees is contrast.
+    The swing is that of the profile, and for the signal that of the enhanced profile.
 
     A file's rounding turns small changes into steps. With a file in the plan, each bound is that of
     the change after the file.
@@ -41,8 +43,9 @@ def plan(
         Root mean square in levels of the stretched profile. 0: every effect that is not exactly
         nothing; infinity: none, the paper's model.
     observable
-        ``"image"``: the pixels of the panel's bounding rectangle; ``"profile"``: the means of its
-        columns, which is what a decoder sees.
+        ``"image"``: the camera's pixels of the panel's bounding rectangle; ``"profile"``: the means
+        of its columns; ``"signal"``: the means of its columns after the receiver's contrast
+        enhancement, which is what a decoder reads.
     force
         Effects that are always simulated (True) or left out (False). The tolerance does not cover
         what is left out by hand.
@@ -79,18 +82,19 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     settings
         Checked; the seed and the source of noise are not used.
     """
-    tolerance, forced = settings.tolerance, settings.force
-    stretch = WHITE / view.swing
+    tolerance, forced, observable = settings.tolerance, settings.force, settings.observable
     noise = _noise_bounds(view)
-    bounds = _bounds(view, noise, settings.observable)
+    signal = signal_view(view) if observable == "signal" else None
+    stretch = WHITE / (view.swing if signal is None else signal.swing)
+    bounds = _bounds(view, noise, signal, observable, stretch)
     if tolerance == math.inf:  # even an infinite bound is within it
         left_out, spent, file = set(NAMES), 0.0, None
     else:
         left_out, spent = _leave_out(bounds, forced, tolerance)
         file = _file_in(left_out, bounds, forced)
-        if file is not None:
+        if file is not None and (signal is None or not signal.is_enhanced):
             # A file is made of pixels, whatever is observed of it later.
-            pixels = bounds if settings.observable == "image" else _bounds(view, noise, "image")
+            pixels = _bounds(view, noise, None, "image", stretch)
             dithers = _noise_that_dithers(pixels, forced, stretch)
             through = _ThroughFile(file, view, stretch, bool(dithers))
             kept = {**forced, **dict.fromkeys(dithers, True)}
@@ -103,7 +107,7 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
         _decide(effect, bounds[effect.name], effect.name in left_out, tolerance, forced, file)
         for effect in EFFECTS
     )
-    return Plan(tolerance, settings.observable, decisions, spent, stretch)
+    return Plan(tolerance, observable, decisions, spent, stretch)
 
 
 def _noise_bounds(view: PaperView) -> NoiseBounds:
@@ -111,16 +115,43 @@ def _noise_bounds(view: PaperView) -> NoiseBounds:
     return NoiseBounds(noises, view, moves_light=moves_light(view.scene))
 
 
-def _bounds(view: PaperView, noise: NoiseBounds, observable: Observable) -> dict[str, float]:
+def _bounds(
+    view: PaperView,
+    noise: NoiseBounds,
+    signal: SignalView | None,
+    observable: Observable,
+    stretch: float,
+) -> dict[str, float]:
     """Return every effect's bound in levels of the stretched profile, by name."""
-    stretch = WHITE / view.swing
+    if signal is not None and signal.is_enhanced:
+        found = _enhanced_bounds(view, noise, signal)
+    else:
+        found = _plain_bounds(view, noise, "profile" if observable == "signal" else observable)
+        if observable == "signal":
+            found = {name: min(bound + ROUNDING, WHITE) for name, bound in found.items() if bound}
+    return {name: found.get(name, 0.0) * stretch for name in NAMES}
+
+
+def _plain_bounds(view: PaperView, noise: NoiseBounds, observable: Observable) -> dict[str, float]:
+    """Return the bounds of the effects in the image or the profile, in grey levels, by name."""
     of_noise = noise.bounds(observable)
     others = {effect.name: float(effect.bound(view, observable)) for effect in OTHERS}
     if any(of_noise.values()) and any(others.values()):
         factor = noise.amplification(observable)
         others = {name: bound * factor for name, bound in others.items()}
-    found = {**others, **of_noise}
-    return {name: found.get(name, 0.0) * stretch for name in NAMES}
+    return {**others, **of_noise}
+
+
+def _enhanced_bounds(view: PaperView, noise: NoiseBounds, signal: SignalView) -> dict[str, float]:
+    """Return the bounds of the effects in an enhanced signal, in its levels, by name.
+
+    Noise passes the enhancement as a whole: each of its effects has the bound of them all.
+    """
+    found = {effect.name: effect.bound(view, "signal") for effect in EFFECTS}
+    if not any(found[effect.name] for effect in OTHERS):
+        of_noise = signal.noise_bound(noise.largest_spread)
+        found = {name: min(bound, of_noise) for name, bound in found.items()}
+    return found
 
 
 @dataclass(frozen=True, slots=True)

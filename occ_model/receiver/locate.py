@@ -125,7 +125,7 @@ def _growth_to_one(cells: ByteArray) -> int:
 
 def _bounds(bright: ByteArray, within: Region) -> Region:
     """Return the bounding rectangle of the bright pixels in a part of the image."""
-    part = bright[within.first_row : within.last_row, within.first_column : within.last_column]
+    part = within.crop(bright)
     x, y, width, height = cv2.boundingRect(part)
     top, left = within.first_row + y, within.first_column + x
     return Region(top, top + height, left, left + width)

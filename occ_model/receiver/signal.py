@@ -21,7 +21,7 @@ def column_means(image: ByteArray, region: Region) -> FloatArray:
     ndarray of float64, shape (columns of the region,)
         Grey levels.
     """
-    part = image[region.first_row : region.last_row, region.first_column : region.last_column]
+    part = region.crop(image)
     sums = np.zeros(region.columns)
     for first in range(0, region.rows, _WHOLE_ROWS):
         rows = part[first : first + _WHOLE_ROWS]

@@ -1,8 +1,10 @@
 """Results of decoding: region, runs, chips, bits and code, step by step."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
@@ -29,6 +31,10 @@ class Region:
     def columns(self) -> int:
         """Width in columns."""
         return self.last_column - self.first_column
+
+    def crop(self, image: NDArray[Any]) -> NDArray[Any]:
+        """Return the rectangle's pixels, a view of an image of shape (rows, columns)."""
+        return image[self.first_row : self.last_row, self.first_column : self.last_column]
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,10 +9,11 @@ from occ_model.scene.argument_checks import check_choice, check_seed, check_swit
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import LEVEL
 
-Observable: TypeAlias = Literal["profile", "image"]
-"""The quantity observed: pixels of the panel's bounding rectangle, or means of its columns."""
+Observable: TypeAlias = Literal["signal", "profile", "image"]
+"""The quantity observed: the camera's pixels of the panel's bounding rectangle, the means of its
+columns, or what a decoder reads, the means of its columns after the receiver's enhancement."""
 
-OBSERVABLES: tuple[Observable, ...] = ("profile", "image")
+OBSERVABLES: tuple[Observable, ...] = ("signal", "profile", "image")
 
 NoiseSource: TypeAlias = Literal["exact", "reused"]
 """Source of noise: drawn for every pixel, or taken repeatedly from one plane of noise."""

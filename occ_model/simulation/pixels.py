@@ -146,13 +146,13 @@ class PixelExposure:
             ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it; ``"profile"``:
             the means of its columns.
         """
-        region, camera = self._region, self._scene.camera
+        camera = self._scene.camera
         image = np.empty((camera.rows, camera.columns), dtype=np.float32)
         for exposed in self.rows(seed, source):
             image[exposed.place] = exposed.values
         if self._files:
             image = self._through_files(to_bytes(image)).astype(np.float32)
-        seen = image[region.first_row : region.last_row, region.first_column : region.last_column]
+        seen = self._region.crop(image)
         if observable == "image":
             return seen
         return np.asarray(seen.mean(axis=0, dtype=np.float64), dtype=np.float32)

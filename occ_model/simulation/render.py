@@ -143,11 +143,15 @@ def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "
     Returns
     -------
     ndarray of float32
-        Pixel values before enhancement and rounding. ``"image"``: the pixels of the panel's
-        bounding rectangle, shape (rows, columns) of it; ``"profile"``: the means of its columns.
+        Grey levels of the panel's bounding rectangle. ``"image"``: the camera's pixels before
+        rounding, shape (rows, columns) of it; ``"profile"``: the means of its columns;
+        ``"signal"``: the means of its columns in the receiver's picture.
     """
     check_size(scene.camera)
     view, timer = paper_view_of(scene), StageTimer()
+    if chosen.observable == "signal":
+        image = render_plan(view, chosen, seed=seed, noise=noise).image
+        return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
     exposure = PixelExposure(view, chosen, columns, timer)
     return exposure.observed(chosen.observable, seed, noise)

@@ -5,6 +5,7 @@ without its pixels. Noise passes through the enhancement as it does in each pixe
 distribution, and is averaged over the rows.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,12 +22,6 @@ from occ_model.receiver.locate import bright_level
 from occ_model.results import DecodeResult, Plan, Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import Columns, expose_columns
-
-_REACH = 5.0
-"""Standard deviations after which the noise's distribution is cut off."""
-
-_NODES = 81
-"""Points of the distribution at which the enhancement is evaluated."""
 
 _LEVELS = 512
 """Column values at which it is evaluated where there are more columns; between them linearly."""
@@ -164,13 +159,11 @@ def _noisy_means(
     if len(panel) > _LEVELS and spread.min() < (high - low) / _LEVELS:
         # Steps of the enhancement would show between the levels.
         levels = panel
-        spread = pixel_spread(noise, scene, levels[None, :].astype(np.float32))[0]
-    node = np.linspace(-_REACH, _REACH, _NODES)
-    weight = np.exp(-0.5 * node**2)
-    weight /= weight.sum()
-    enhanced = enhancement(saturate(levels)[:, None] + spread[:, None] * node).astype(np.float64)
-    mean = enhanced @ weight
-    deviation = np.sqrt(np.maximum((enhanced**2) @ weight - mean**2, 0.0) / span.rows)
+        spread = pixel_spread(noise, scene, levels[None, :].astype(np.float32))[0].astype(
+            np.float64
+        )
+    mean, deviation = enhancement.moments(saturate(levels), spread)
+    deviation /= math.sqrt(span.rows)
     if levels is not panel:
         mean, deviation = np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
     return np.asarray(mean + deviation * random.standard_normal(len(panel)))

@@ -39,7 +39,7 @@ def success_rate(
 
     SR = correct bits / (images x bits) x 100, the paper's definition. The images differ in start
     time, evenly distributed over one packet, and in noise. An image in which no bits are read
-    counts with none right. The effects are planned for the profile, from which a decoder reads.
+    counts with none right. The effects are planned for the signal, which a decoder reads.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def _read(
 ) -> list[DecodeResult]:
     """Simulate one image, or its profile, and decode it with every decoder."""
     view = paper_view_of(scene)
-    own = SimulationSettings(settings.tolerance, "profile", settings.force)
+    own = SimulationSettings(settings.tolerance, "signal", settings.force)
     chosen = plan_of(view, own.checked(NAMES))
     if span is not None and "image" not in chosen.kinds:
         observed = observe_profile(view, span, chosen, random)

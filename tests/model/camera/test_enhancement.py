@@ -1,5 +1,7 @@
 """Contrast enhancement of a profile, and rounding."""
 
+import math
+
 import numpy as np
 import pytest
 import skimage.exposure
@@ -143,3 +145,32 @@ def test_a_profile_is_not_changed_by_enhancing_it(profile: np.ndarray, method: s
 )
 def test_rounding_stays_within_what_a_byte_holds(values: list[float], levels: list[int]) -> None:
     assert to_bytes(np.array(values)).tolist() == levels
+
+
+@given(
+    profile=wide,
+    level=st.floats(0.0, 255.0),
+    spread=st.one_of(st.floats(0.05, 40.0), st.just(1e-6)),
+    method=methods,
+)
+def test_moments_of_a_noisy_pixel_are_those_of_its_levels(
+    profile: np.ndarray, level: float, spread: float, method: str
+) -> None:
+    curve = Enhancement(profile, method)
+    # The probability of each of the 256 levels, those beyond black and white at the ends.
+    limits = np.concatenate([[-np.inf], np.arange(255) + 0.5, [np.inf]])
+    below = np.array([0.5 * math.erfc((level - limit) / spread / math.sqrt(2)) for limit in limits])
+    share = np.diff(below)
+    levels = curve.curve.astype(float)
+    mean, square = share @ levels, share @ levels**2
+    found, deviation = curve.moments(np.array([level]), np.array([spread]))
+    assert abs(found[0] - mean) <= 1e-3 * 255
+    assert abs(deviation[0] ** 2 - (square - mean**2)) <= 2e-3 * 255**2
+
+
+def test_an_equalization_raises_noise_where_many_columns_are_alike() -> None:
+    profile = np.repeat([20.0, 100.0, 101.0, 200.0], [10, 40, 40, 10])
+    curve = Enhancement(profile, "equalization")
+    mean, deviation = curve.moments(np.array([100.4]), np.array([0.5]))
+    assert abs(mean[0] - float(curve.curve[100])) > 20.0
+    assert deviation[0] > 30.0

@@ -116,7 +116,7 @@ def test_a_plan_is_a_value(scene: Scene) -> None:
         ({"tolerance": -1}, "tolerance is -1 levels; allowed: "),
         ({"tolerance": math.nan}, "tolerance is nan"),
         ({"tolerance": None}, "tolerance is None, which is not a number"),
-        ({"observable": "pixels"}, "observable is 'pixels'; allowed: profile, image"),
+        ({"observable": "pixels"}, "observable is 'pixels'; allowed: signal, profile, image"),
         ({"observable": None}, "observable is None"),
         ({"force": {"blur": True}}, "effect is 'blur'; allowed: led-edges, flicker, "),
         ({"force": {3: True}}, "effect is 3; allowed: "),

@@ -109,7 +109,8 @@ def test_the_papers_decoder_reads_from_two_packets_to_the_null(preset: str) -> N
     found = occ.limits(scene, images=3)
     works, fails = ends(found.frequency.highest)
     null = theory.null_frequency(scene)
-    assert 0.97 * null < works < fails < 1.01 * null
+    # Before the null the equalization of what is left of the stripes raises the noise.
+    assert 0.95 * null < works < fails < 1.01 * null
     least = theory.two_packets_frequency(scene)
     assert least is not None
     assert found.frequency.lowest is not None

@@ -1,0 +1,59 @@
+"""The profile path and the image path give the same success rates, as far as counting can tell."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from physics.paths import TwoPaths, compared, significance
+
+import occ_model as occ
+from occ_model.results import RateSettings
+from occ_model.study.success_rate import right_bits
+
+
+@cache
+def found(scenes: int, images: int) -> list[TwoPaths]:
+    return list(compared(scenes, images, seed=5))
+
+
+def agreement_holds(pairs: list[TwoPaths]) -> None:
+    probability, terms = significance(pairs)
+    assert terms >= len(pairs) / 5  # rates in doubt, by which paths can differ
+    assert probability > 0.01
+    for pair in pairs:
+        if not pair.is_in_doubt:
+            assert abs(pair.profile.mean() - pair.image.mean()) <= 0.1, pair
+
+
+def test_both_paths_give_the_same_rates() -> None:
+    agreement_holds(found(10, 40))
+
+
+@pytest.mark.whole
+def test_both_paths_give_the_same_rates_at_many_scenes() -> None:
+    agreement_holds(found(40, 100))
+
+
+@pytest.mark.parametrize("frequency", [14.2e3, 14.4e3, 14.6e3])
+def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
+    # Every second column and a part of the rows, read in the same time.
+    scene = occ.load_preset("phone-136us")
+    scene = scene.replace(
+        rows=scene.camera.rows // 8,
+        columns=scene.camera.columns // 2,
+        readout_time=scene.camera.readout_time * 2,
+        panel_width=scene.transmitter.panel_width * 1.2,
+        switching_frequency=frequency,
+    )
+    by_study = occ.success_rate(scene, images=20)
+    (read,) = right_bits(scene, RateSettings(20, ("threshold",), 99, path="image"))
+    assert abs(by_study - 100.0 * read / (20 * scene.transmitter.bits)) <= 10.0
+
+
+def test_noise_left_out_by_hand_makes_the_paths_differ() -> None:
+    # The test's own power: what the old plan left out is seen at once.
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
+    with_noise = occ.success_rate(scene, images=5)
+    without = occ.success_rate(scene, images=5, force=dict.fromkeys(["sensor-noise", "fixed-pattern"], False))
+    assert without - with_noise > 50.0
+    assert np.isfinite(without)

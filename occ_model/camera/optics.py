@@ -4,7 +4,7 @@ Rows are computed while they are in the processor's cache, and the largest pictu
 memory than its own bytes.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -75,6 +75,9 @@ class Optics:
         return plain_outline and not (self.blur or self.emission or self.transmission)
 
 
+Band: TypeAlias = tuple[int, int]
+"""Rows of a picture: the first, and the one after the last."""
+
 Panel: TypeAlias = slice | NDArray[np.bool_]
 """Where the panel is in some rows: the same columns of each, or an array of them all."""
 
@@ -110,6 +113,7 @@ def picture_rows(
     panel: FloatArray,
     surroundings: FloatArray,
     stage_ended: Callable[[str], object],
+    bands: Sequence[Band] | None = None,
 ) -> Iterator[Rows]:
     """Compute the picture's mean pixel values, from the first rows to the last.
 
@@ -123,18 +127,30 @@ def picture_rows(
         Pixel values of each column before saturation.
     stage_ended
         Called with the name of each stage that has just ended.
+    bands
+        The rows that are computed, in order; None for the whole picture.
     """
+    bands = bands or whole_picture(scene.camera.rows)
     if optics.is_plain:
-        parts = _plain_rows(scene.camera, optics.outline, panel, surroundings)
+        parts = _plain_rows(scene.camera, optics.outline, panel, surroundings, bands)
     else:
-        parts = _mixed_rows(scene.camera, optics, panel, surroundings, stage_ended)
+        parts = _mixed_rows(scene.camera, optics, panel, surroundings, bands, stage_ended)
     for rows in parts:
         stage_ended(STAGE)
         yield rows
 
 
+def whole_picture(rows: int) -> list[Band]:
+    """Return bands that a picture is made of."""
+    return [(start, min(start + BLOCK_ROWS, rows)) for start in range(0, rows, BLOCK_ROWS)]
+
+
 def _plain_rows(
-    camera: Camera, corners: FloatArray, panel: FloatArray, surroundings: FloatArray
+    camera: Camera,
+    corners: FloatArray,
+    panel: FloatArray,
+    surroundings: FloatArray,
+    bands: Sequence[Band],
 ) -> Iterator[Rows]:
     first, last = row_spans(corners, camera.rows, camera.columns)
     panel_row = panel.astype(np.float32)[None, :]
@@ -142,20 +158,21 @@ def _plain_rows(
     changed = (first[1:] != first[:-1]) | (last[1:] != last[:-1])
     # Where the span changes every row or two, blocks of different rows are faster.
     level = np.count_nonzero(changed) <= camera.rows / BLOCK_ROWS
-    breaks = np.flatnonzero(changed) + 1 if level else np.empty(0, np.int64)
-    starts = [0, *breaks.tolist(), camera.rows]
+    breaks = (np.flatnonzero(changed) + 1).tolist() if level else []
     column = np.arange(camera.columns)
-    for top, bottom in pairwise(starts):
-        span = slice(int(first[top]), int(last[top]))
-        row = dark_row.copy()
-        row[:, span] = panel_row[:, span]
-        for start in range(top, bottom, BLOCK_ROWS):
-            stop = min(start + BLOCK_ROWS, bottom)
-            if level:
-                yield Rows(start, stop, row, span)
-            else:
+    shown, row = None, dark_row
+    for top, bottom in bands:
+        starts = [top, *(at for at in breaks if top < at < bottom), bottom]
+        for start, stop in pairwise(starts):
+            if not level:
                 inside = (column >= first[start:stop, None]) & (column < last[start:stop, None])
                 yield Rows(start, stop, np.where(inside, panel_row, dark_row), inside)
+                continue
+            span = slice(int(first[start]), int(last[start]))
+            if span != shown:  # the same array again is known to have the same noise
+                shown, row = span, dark_row.copy()
+                row[:, span] = panel_row[:, span]
+            yield Rows(start, stop, row, span)
 
 
 def _mixed_rows(
@@ -163,6 +180,7 @@ def _mixed_rows(
     optics: Optics,
     panel: FloatArray,
     surroundings: FloatArray,
+    bands: Sequence[Band],
     stage_ended: Callable[[str], object],
 ) -> Iterator[Rows]:
     coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
@@ -170,8 +188,7 @@ def _mixed_rows(
     own = (luminance_of(panel, camera) - dark).astype(np.float32)
     around = dark.astype(np.float32)
     unit = float(pixel_value(np.ones(1), camera)[0])
-    for start in range(0, camera.rows, BLOCK_ROWS):
-        stop = min(start + BLOCK_ROWS, camera.rows)
+    for start, stop in bands:
         light = coverage.rows(start, stop)
         inside = light >= np.float32(0.5)
         stage_ended(optics.cover_stage)

@@ -14,6 +14,8 @@ from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits
 
+_BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
+
 _DIGITS = 4
 """Significant digits of a limit that is known to a few thousandths."""
 
@@ -39,14 +41,19 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
-    with progress_bar(unit="image", leave=False, delay=0.5) as bar:
+    with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
+
+        def show(share: float, what: str) -> None:
+            bar.set_description_str(what, refresh=False)
+            bar.update(round(100.0 * share) - bar.n)
+
         found = limits(
             scene,
             options.decoder,
             rate=options.rate,
             images=options.images,
             seed=options.seed,
-            heartbeat=bar.update,
+            progress=show,
         )
     for line in sentences(advice_of(found)):
         print(line)
@@ -64,8 +71,8 @@ def sentences(advice: Advice) -> list[str]:
     return [
         *_on_range(f"At an exposure of {exposure} and {distance} {reads}", advice.frequency),
         *_on_range(f"At {frequency} and {distance} {reads}", advice.exposure),
-        f"Each value was tried with {found.images} images, seed {found.seed}; the intervals hold "
-        "the rate in 95 of 100 cases if bits err independently of each other.",
+        f"Each of these values was tried with {found.images} images, seed {found.seed}; the "
+        "intervals hold the rate in 95 of 100 cases if bits err independently of each other.",
         *_by_theory(advice),
     ]
 

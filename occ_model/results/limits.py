@@ -17,6 +17,8 @@ class Trial:
         Bits read rightly, and bits sent.
     low, high
         Wilson's 95 % interval of the success rate, percent.
+    images
+        Images that were read: fewer than asked for where the rate could not be reached any more.
     """
 
     value: float
@@ -24,6 +26,7 @@ class Trial:
     sent: int
     low: float
     high: float
+    images: int
 
     @property
     def rate(self) -> float:

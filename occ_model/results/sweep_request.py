@@ -10,11 +10,11 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 
-SignalPath: TypeAlias = Literal["auto", "profile", "image"]
-"""How a decoder's signal is simulated: as column means, as a whole image, or by column means
-wherever the plan allows."""
+SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
+"""How a decoder's signal is simulated: as column means, from a sample of the image's rows, from the
+whole image, or by the first of these that the plan allows."""
 
-SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "image")
+SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "rows", "image")
 
 MOST_POINTS = 1_000_000
 """Points of a sweep: their counts are kept in memory, and their table is written at once."""

@@ -10,6 +10,7 @@ import numpy as np
 from occ_model.arrays import Pixels
 from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import NoiseSource
 
 StageEnded: TypeAlias = Callable[[str], None]
 """Called with the name of a stage that has just ended."""
@@ -107,3 +108,15 @@ def _plane(columns: int) -> Pixels:
     numbers -= numbers.mean(dtype=np.float64)
     numbers /= numbers.std(dtype=np.float64)
     return np.lib.stride_tricks.sliding_window_view(numbers, columns)
+
+
+class NoiseMaker(Protocol):
+    """Makes the source of noise of one picture."""
+
+    def __call__(
+        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded, /
+    ) -> Noise:
+        """Return a source of these effects' noise together."""
+
+
+NOISE_MAKERS: dict[NoiseSource, NoiseMaker] = {"exact": ExactNoise, "reused": ReusedNoise}

@@ -1,6 +1,6 @@
 """The pixels of a picture whose rows differ: exposed, saturated and stored some rows at a time."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.optics import Optics, Panel, picture_rows
+from occ_model.camera.optics import Band, Optics, Panel, picture_rows, whole_picture
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
@@ -16,7 +16,7 @@ from occ_model.effects.registry import planned
 from occ_model.results import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
 from occ_model.simulation.columns import Columns
-from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise
+from occ_model.simulation.noise_source import NOISE_MAKERS, Noise, NoiseMaker
 from occ_model.simulation.stage_timer import StageTimer
 
 
@@ -27,7 +27,7 @@ class ExposedRows:
     Parameters
     ----------
     place
-        The rows of the picture.
+        The rows of the picture that is made: those exposed, one below the other.
     values : ndarray of float32, shape (rows, columns)
         Pixel values from 0 to 255.
     panel
@@ -56,6 +56,8 @@ class PixelExposure:
         The pixel values of each column.
     timer
         Times each stage.
+    bands
+        The rows that are exposed, in order; None for the whole picture.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class PixelExposure:
         plan: Plan,
         columns: Columns,
         timer: StageTimer,
+        bands: Sequence[Band] | None = None,
     ) -> None:
         self._scene = scene = view.scene
         self._region = view.region
@@ -72,19 +75,24 @@ class PixelExposure:
         self._limits = planned(plan, PixelEffect)
         self._noises = planned(plan, NoiseEffect)
         self._files = planned(plan, FileEffect)
+        self._bands = bands or whole_picture(scene.camera.rows)
+        height = sum(stop - start for start, stop in self._bands)
+        self._shape = (height, scene.camera.columns)
         self._optics = Optics(view.corners)
         for effect in planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
             timer.stage_ended(effect.name)
 
-    def rows(self, seed: int, source: NoiseSource) -> Iterator[ExposedRows]:
+    def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
         """Expose the rows from first to last."""
-        make = ExactNoise if source == "exact" else ReusedNoise
+        make = NOISE_MAKERS[source] if isinstance(source, str) else source
         noise: Noise | None = None
+        place = 0
         if self._noises:
             noise = make(self._noises, self._scene, seed, self._timer.stage_ended)
         light = (self._columns.panel, self._columns.surroundings)
-        for rows in picture_rows(self._scene, self._optics, *light, self._timer.stage_ended):
+        ended = self._timer.stage_ended
+        for rows in picture_rows(self._scene, self._optics, *light, ended, self._bands):
             mean = self._saturated(rows.values)
             height = rows.last - rows.first
             if noise is None:
@@ -93,7 +101,8 @@ class PixelExposure:
                 values = noise.deviation(rows.values, height)
                 values += mean
                 np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
-            yield ExposedRows(rows.place, values, rows.panel)
+            yield ExposedRows(slice(place, place + height), values, rows.panel)
+            place += height
 
     def _saturated(self, mean: Pixels) -> Pixels:
         """Limit mean values to those that a pixel can hold."""
@@ -103,22 +112,21 @@ class PixelExposure:
         return np.minimum(mean, np.float32(WHITE))
 
     def pictures(
-        self, enhancement: Enhancement, seed: int, source: NoiseSource
+        self, enhancement: Enhancement, seed: int, source: NoiseSource | NoiseMaker
     ) -> tuple[ByteArray, ByteArray, FloatArray]:
         """Make the camera's picture and the receiver's.
 
         Returns
         -------
-        camera_image, image : ndarray of uint8, shape (rows, columns)
+        camera_image, image : ndarray of uint8, shape (exposed rows, columns)
             As the camera gives it, and enhanced within the panel.
         profile : ndarray of float64, shape (columns,)
             Mean of the panel's pixels in each column before enhancement; the column's value where
             the picture does not show the panel.
         """
-        camera = self._scene.camera
-        camera_image = np.empty((camera.rows, camera.columns), dtype=np.uint8)
+        camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
-        column_means = _ColumnMeans(camera.columns)
+        column_means = _ColumnMeans(self._shape[1])
         panels: list[tuple[slice, Panel]] = []
         for exposed in self.rows(seed, source):
             rows, panel = exposed.place, exposed.panel
@@ -146,8 +154,7 @@ class PixelExposure:
             ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it; ``"profile"``:
             the means of its columns.
         """
-        camera = self._scene.camera
-        image = np.empty((camera.rows, camera.columns), dtype=np.float32)
+        image = np.empty(self._shape, dtype=np.float32)
         for exposed in self.rows(seed, source):
             image[exposed.place] = exposed.values
         if self._files:

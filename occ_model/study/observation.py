@@ -1,8 +1,8 @@
-"""The column means that a decoder reads, computed without an image: the profile path.
+"""The column means that a decoder reads, computed without a whole image.
 
-A level panel shows the same column values in each of its rows, so that a column's mean is known
-without its pixels. Noise passes through the enhancement as it does in each pixel, by its
-distribution, and is averaged over the rows.
+The profile path: a level panel shows the same column values in each of its rows, so that a column's
+mean is known without its pixels. Noise passes through the enhancement as it does in each pixel, by
+its distribution, and is averaged over the rows. Where rows differ, a sample of them is simulated.
 """
 
 import math
@@ -18,10 +18,12 @@ from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import planned
 from occ_model.receiver.decode import decode
-from occ_model.receiver.locate import bright_level
+from occ_model.receiver.locate import bright_level, locate
+from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Plan, Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.row_sample import SampledPicture
 
 _LEVELS = 512
 """Column values at which it is evaluated where there are more columns; between them linearly."""
@@ -167,3 +169,37 @@ def _noisy_means(
     if levels is not panel:
         mean, deviation = np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
     return np.asarray(mean + deviation * random.standard_normal(len(panel)))
+
+
+def observe_sample(
+    sample: SampledPicture, scene: Scene, plan: Plan, random: np.random.Generator
+) -> Observation | None:
+    """Compute the column means of a whole picture from a sample of its rows.
+
+    Parameters
+    ----------
+    sample
+        The sample of rows.
+    scene
+        The scene.
+    plan
+        The effects that are simulated in it.
+    random
+        The source of the means' sampling error.
+
+    Returns
+    -------
+    Observation or None
+        None where no panel is found.
+    """
+    found = locate(sample.image, scene.receiver.bright_fraction)
+    if found is None:
+        return None
+    signal = column_means(sample.image, found.region)
+    if "noise" in plan.kinds:
+        # Of neighbouring rows: they differ by noise alone.
+        pairs = np.diff(found.region.crop(sample.image).astype(np.float32), axis=0)[::2]
+        variance = np.mean(pairs**2, axis=0, dtype=np.float64) / 2.0
+        rows = max(found.region.rows * sample.rows_each, 1.0)
+        signal = signal + np.sqrt(variance / rows) * random.standard_normal(len(signal))
+    return Observation(signal, found.region)

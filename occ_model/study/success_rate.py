@@ -1,7 +1,7 @@
 """Measure the success rate: the share of bits read rightly over several images."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -19,10 +19,18 @@ from occ_model.scene.argument_checks import check_choice, check_count, check_see
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.simulation.render import render_plan
-from occ_model.study.observation import Observation, observe_profile, panel_span
+from occ_model.simulation.row_sample import sample_picture
+from occ_model.study.observation import (
+    Observation,
+    observe_profile,
+    observe_sample,
+    panel_span,
+)
 from occ_model.transmitter.packet import bits_of, packet_length
 
 _SEEDS = 2**32
+
+_NO_PANEL = "No panel found: the rows that were simulated have one grey level."
 
 
 def success_rate(
@@ -56,7 +64,8 @@ def success_rate(
     path
         ``"image"``: simulate every image whole. ``"profile"``: decode its column means without it,
         which needs rows that differ by noise at most: a level panel, and no image effect in the
-        plan. ``"auto"``: the profile wherever that holds.
+        plan. ``"rows"``: a sample of the rows, from which the column means follow. ``"auto"``: the
+        profile wherever that holds, a sample of the rows elsewhere.
 
     Returns
     -------
@@ -103,23 +112,36 @@ def right_bits(
     ProjectionError
         The scene has no picture.
     """
+    correct = [0] * len(settings.decoders)
+    for counts in right_bits_of_images(scene, settings, heartbeat):
+        correct = [total + count for total, count in zip(correct, counts, strict=True)]
+    return tuple(correct)
+
+
+def right_bits_of_images(
+    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
+) -> Iterator[tuple[int, ...]]:
+    """Count the bits that each decoder reads rightly, one image after the other.
+
+    The arguments and errors are those of :func:`right_bits`; an image does not depend on how many
+    follow it.
+    """
     transmitter = scene.transmitter
     sent = np.array(bits_of(transmitter.code, transmitter.bits))
     duration = packet_length(transmitter.bits) * transmitter.switching_period
-    correct = [0] * len(settings.decoders)
     root = np.random.default_rng(settings.seed)
-    span = None if settings.path == "image" else panel_span(scene)
+    span = panel_span(scene) if settings.path in ("auto", "profile") else None
     for _ in range(settings.images):
         heartbeat()
         (stream,) = root.spawn(1)
         changes = {"start_time": float(stream.uniform(0.0, duration))}
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
             changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
-        at = scene.replace(**changes)
-        for place, seen in enumerate(_read(at, settings, span, stream)):
-            if seen.bits.size == sent.size:
-                correct[place] += int(np.count_nonzero(seen.bits == sent))
-    return tuple(correct)
+        read = _read(scene.replace(**changes), settings, span, stream)
+        yield tuple(
+            int(np.count_nonzero(seen.bits == sent)) if seen.bits.size == sent.size else 0
+            for seen in read
+        )
 
 
 def _read(
@@ -136,7 +158,14 @@ def _read(
         raise ParameterError(
             "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
         )
-    image = render_plan(view, chosen, seed=int(random.integers(_SEEDS))).image
+    seed = int(random.integers(_SEEDS))
+    sample = None if settings.path == "image" else sample_picture(view, chosen, seed)
+    if sample is not None:
+        seen = observe_sample(sample, scene, chosen, random)
+        if seen is None:
+            return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in settings.decoders]
+        return [seen.read(scene, decoder) for decoder in settings.decoders]
+    image = render_plan(view, chosen, seed=seed).image
     first = decode(image, scene, settings.decoders[0])
     if first.signal is None:  # no panel was found, which other decoders find no more
         return [replace(first, decoder=decoder) for decoder in settings.decoders]

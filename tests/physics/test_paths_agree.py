@@ -50,10 +50,36 @@ def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
     assert abs(by_study - 100.0 * read / (20 * scene.transmitter.bits)) <= 10.0
 
 
+@pytest.mark.parametrize("frequency", [10e3, 13.4e3, 14e3])
+def test_a_sample_of_the_rows_reads_what_whole_pictures_do(frequency: float) -> None:
+    scene = occ.load_preset("phone-136us-real").replace(switching_frequency=frequency)
+    scene = scene.replace(
+        rows=scene.camera.rows // 4,
+        columns=scene.camera.columns // 2,
+        readout_time=scene.camera.readout_time * 2,
+        panel_width=scene.transmitter.panel_width * 1.2,
+    )
+    rates = {
+        path: np.array(
+            [
+                right_bits(scene, RateSettings(1, ("threshold",), seed, path=path))
+                for seed in range(12)
+            ]
+        )
+        / scene.transmitter.bits
+        for path in ("rows", "image")
+    }
+    a, b = rates["rows"], rates["image"]
+    error = np.sqrt((a.var() + b.var()) / len(a))
+    assert abs(a.mean() - b.mean()) <= max(3.0 * error, 0.1)
+
+
 def test_noise_left_out_by_hand_makes_the_paths_differ() -> None:
     # The test's own power: what the old plan left out is seen at once.
     scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
     with_noise = occ.success_rate(scene, images=5)
-    without = occ.success_rate(scene, images=5, force=dict.fromkeys(["sensor-noise", "fixed-pattern"], False))
+    without = occ.success_rate(
+        scene, images=5, force=dict.fromkeys(["sensor-noise", "fixed-pattern"], False)
+    )
     assert without - with_noise > 50.0
     assert np.isfinite(without)

@@ -22,11 +22,11 @@ from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.scene.scene import Scene
 from occ_model.study.advice import advice_of
 
-GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0)
-BAD = Trial(14.73e3, 0, 200, 0.0, 1.9)
-SHORT = Trial(10e-6, 200, 200, 98.1, 100.0)
-LONG = Trial(196e-6, 200, 200, 98.1, 100.0)
-TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4)
+GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0, 20)
+BAD = Trial(14.73e3, 0, 200, 0.0, 1.9, 20)
+SHORT = Trial(10e-6, 200, 200, 98.1, 100.0, 20)
+LONG = Trial(196e-6, 200, 200, 98.1, 100.0, 20)
+TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4, 20)
 
 
 def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
@@ -96,7 +96,7 @@ def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
 
 
 def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) -> None:
-    best = Trial(2e3, 120, 200, 53.1, 66.5)
+    best = Trial(2e3, 120, 200, 53.1, 66.5, 20)
     ranges = [
         WorkingRange(name, searched, None, None, "The model's sentence.", best)
         for name, searched in (("switching_frequency", (500.0, 100e3)), ("exposure_time", (1, 3)))

@@ -1,7 +1,8 @@
 """Laws of the advisor, and of the limits that theory gives."""
 
 import math
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
@@ -26,11 +27,15 @@ SCENE = Scene()
 def reads_where(good: Callable[[float], bool], name: str = "switching_frequency") -> object:
     """Stand in for all decoding: bits are right where ``good`` says so, half of them elsewhere."""
 
-    def right_bits(scene: Scene, settings: RateSettings, _heartbeat: object) -> tuple[int]:
-        all_bits = settings.images * scene.transmitter.bits
-        return (all_bits if good(float(scene.value(name))) else all_bits // 2,)
+    def right_bits_of_images(
+        scene: Scene, settings: RateSettings, heartbeat: Callable[[], object]
+    ) -> Iterator[tuple[int]]:
+        for _ in range(settings.images):
+            heartbeat()
+            bits = scene.transmitter.bits
+            yield (bits if good(float(scene.value(name))) else bits // 2,)
 
-    return right_bits
+    return right_bits_of_images
 
 
 def ends(range_end: RangeEnd | None) -> tuple[float, float]:
@@ -46,7 +51,7 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
 ) -> None:
     high = low * ratio
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "right_bits", reads_where(lambda f: low <= f <= high))
+        patch.setattr(module, "right_bits_of_images", reads_where(lambda f: low <= f <= high))
         found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
     for range_end, truth in ((found.lowest, low), (found.highest, high)):
         works, fails = ends(range_end)
@@ -65,7 +70,7 @@ def test_of_several_ranges_the_scenes_own_or_nearest_is_given(
     # Reading stops at 1, 8 and 60 kHz, and comes back at 2 and 25 kHz.
     monkeypatch.setattr(
         module,
-        "right_bits",
+        "right_bits_of_images",
         reads_where(lambda f: f <= 1e3 or 2e3 <= f <= 8e3 or 25e3 <= f <= 60e3),
     )
     found = occ.limits(SCENE.replace(switching_frequency=own), images=1)
@@ -77,7 +82,7 @@ def test_of_several_ranges_the_scenes_own_or_nearest_is_given(
 def test_a_range_that_reaches_the_search_limit_says_so(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(module, "right_bits", reads_where(lambda _: True))
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda _: True))
     far = SCENE.replace(switching_frequency=3e6)
     found = occ.limits(far, images=1)
     assert found.frequency.searched == (500.0, 3e6)
@@ -91,7 +96,7 @@ def test_a_range_that_reaches_the_search_limit_says_so(
 
 
 def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "right_bits", reads_where(lambda frequency: False))
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda frequency: False))
     found = occ.limits(SCENE, "matched", rate=75.0, images=2)
     assert found.highest_frequency is found.shortest_exposure is found.longest_exposure is None
     assert found.frequency.failure == (
@@ -133,6 +138,55 @@ def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
 
+def test_values_are_given_up_where_no_further_image_can_mend_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read: Counter[float] = Counter()
+
+    def counted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
+        for _ in range(settings.images):
+            read[scene.transmitter.switching_frequency] += 1
+            yield (10 if scene.transmitter.switching_frequency < 20e3 else 0,)
+
+    monkeypatch.setattr(module, "right_bits_of_images", counted)
+    found = occ.limits(SCENE, images=20)
+    works, fails = ends(found.frequency.highest)
+    far = [count for frequency, count in read.items() if frequency > 21e3]
+    assert far
+    assert set(far) == {1}
+    # What is reported rests on all images: no result has ended its own count.
+    assert (read[works] >= 20, read[fails] >= 20) == (True, True)
+    assert found.frequency.highest is not None
+    assert found.frequency.highest.fails is not None
+    assert found.frequency.highest.fails.sent == found.frequency.highest.works.sent == 200
+
+
+def test_an_end_that_more_images_refute_is_moved(monkeypatch: pytest.MonkeyPatch) -> None:
+    def doubtful(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
+        high = scene.transmitter.switching_frequency > 11e3
+        for image in range(settings.images):  # beyond 11 kHz every tenth image is not read
+            yield (0 if high and image % 10 == 9 else 10,)
+
+    monkeypatch.setattr(module, "right_bits_of_images", doubtful)
+    found = occ.limits(SCENE, images=20)
+    works, fails = ends(found.frequency.highest)
+    assert works <= 11e3 < fails
+
+
+def test_progress_rises_from_0_to_1_and_says_what_is_searched(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    said: list[tuple[float, str]] = []
+    occ.limits(SCENE, images=20, progress=lambda share, what: said.append((share, what)))
+    shares = [share for share, _ in said]
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert len(said) > 60
+    assert {what for share, what in said if share < 0.45} == {"switching frequency"}
+    assert {what for share, what in said if 0.55 < share < 1.0} == {"exposure time"}
+
+
 def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
     """The tablet at 2 kHz and 2 m: too few packets fit the picture."""
     slow = occ.load_preset("tablet-122us").replace(switching_frequency=2e3, distance=2.0)
@@ -146,7 +200,7 @@ def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
 def test_advice_holds_both_ends_found_and_the_limits_of_theory(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(module, "right_bits", reads_where(lambda f: f <= 20e3))
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
     found = occ.limits(SCENE, images=1)
     advice = advice_of(found)
     assert [end.side for end in advice.frequency.ends] == ["lowest", "highest"]

@@ -1,0 +1,176 @@
+"""A picture's signal from a sample of its rows.
+
+Stripes run along the rows; all else varies slowly from row to row. Some bands of rows, evenly over
+the panel, therefore show what the whole picture would. A band has eight rows, those of a block of
+a JPEG file: what becomes of a block depends on that block alone.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from statistics import NormalDist
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, Pixels
+from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.optics import Band
+from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.paper_view import PaperView
+from occ_model.results import Plan
+from occ_model.scene.scene import Scene
+from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.noise_source import StageEnded
+from occ_model.simulation.pixels import PixelExposure
+from occ_model.simulation.stage_timer import StageTimer
+
+BAND = 8
+"""Rows of a band."""
+
+BANDS = 24
+"""Bands across the panel."""
+
+_BESIDE = 6
+"""Bands above the panel, and below it: they show its surroundings, and stray light."""
+
+_STRIDE = 7
+"""Quantiles from a band to the next one: light varies from band to band, the noise not with it.
+Without a common divisor with the number of bands, so that each quantile is used once."""
+
+_ENTRIES = 4096
+"""Entries of the table of normal deviates."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SampledPicture:
+    """The receiver's picture of some rows.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (rows, columns)
+        The rows one below the other, those beside the panel repeated until each part has as many as
+        its share of the whole picture.
+    rows_each
+        Rows of the whole picture that each row across the panel stands for.
+    """
+
+    image: ByteArray
+    rows_each: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """Bands that a part of the picture is sampled by, and how often each stands in the sample."""
+
+    bands: tuple[Band, ...]
+    repeats: int
+
+
+def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | None:
+    """Simulate the receiver's picture of some rows.
+
+    Its noise is spread evenly over the bands, so that a column's mean over the panel has hardly any
+    sampling error; that of the whole picture has to be added.
+
+    Parameters
+    ----------
+    view
+        The paper's view of the scene.
+    plan
+        Its effects are simulated.
+    seed
+        Seed of the noise.
+
+    Returns
+    -------
+    SampledPicture or None
+        None where a sample would not be much smaller than the picture.
+    """
+    top, bottom = _span(view)
+    rows_each = (bottom - top) / (BANDS * BAND)
+    if rows_each < 2.0:
+        return None
+    parts = (
+        _beside((0, top), rows_each),
+        _Part(_spread((top, bottom), BANDS), 1),
+        _beside((bottom, view.scene.camera.rows), rows_each),
+    )
+    columns, timer = expose_columns(view, plan), StageTimer()
+    bands = [band for part in parts for band in part.bands]
+    exposure = PixelExposure(view, plan, columns, timer, bands)
+    enhancement = Enhancement(columns.profile, view.scene.model.enhancement)
+    _, image, _ = exposure.pictures(enhancement, seed, SystematicNoise)
+    return SampledPicture(_repeated(image, parts), rows_each)
+
+
+def _span(view: PaperView) -> Band:
+    """Return the rows that the panel spans, to whole bands; the whole picture if none is seen."""
+    rows = view.scene.camera.rows
+    first, last = (view.region.first_row, view.region.last_row) if view.is_seen else (0, rows)
+    return first // BAND * BAND, min(-(-last // BAND) * BAND, rows // BAND * BAND)
+
+
+def _beside(rows: Band, rows_each: float) -> _Part:
+    """Sample rows beside the panel by few bands, repeated in proportion to their number."""
+    height = rows[1] - rows[0]
+    if height < BAND:
+        return _Part((), 0)
+    count = min(_BESIDE, height // BAND)
+    return _Part(_spread(rows, count), max(1, round(height / (rows_each * BAND * count))))
+
+
+def _spread(rows: Band, count: int) -> tuple[Band, ...]:
+    """Return bands evenly over some rows, each the one in the middle of its part."""
+    blocks = (rows[1] - rows[0]) // BAND
+    places = ((np.arange(count) + 0.5) * (blocks / count)).astype(int)
+    starts = (rows[0] // BAND + places) * BAND
+    return tuple((int(start), int(start) + BAND) for start in starts)
+
+
+def _repeated(image: ByteArray, parts: tuple[_Part, ...]) -> ByteArray:
+    """Repeat the bands beside the panel."""
+    pieces, first = [], 0
+    for part in parts:
+        last = first + BAND * len(part.bands)
+        pieces += [image[first:last]] * part.repeats
+        first = last
+    return np.concatenate(pieces)
+
+
+class SystematicNoise:
+    """Noise whose values at one place of all bands are spread evenly over its distribution.
+
+    At a row of a band and a column, the bands have quantiles in equal steps from a random first one
+    (systematic sampling). Within a band the numbers are independent, as drawn ones are: what a file
+    makes of a block is not changed. Effects share the numbers, scaled to their total deviation.
+    """
+
+    def __init__(
+        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
+    ) -> None:
+        self._effects = effects
+        self._scene = scene
+        self._stage_ended = stage_ended
+        random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
+        self._first = random.random((BAND, scene.camera.columns), dtype=np.float32)
+        self._row = 0
+
+    def deviation(self, values: Pixels, rows: int) -> Pixels:
+        """Return the deviations of the next rows."""
+        place = self._row + np.arange(rows)
+        self._row += rows
+        step = (place // BAND * _STRIDE % BANDS / BANDS).astype(np.float32)
+        quantile = self._first[place % BAND] + step[:, None]
+        entry = (quantile * _ENTRIES).astype(np.int32) % _ENTRIES
+        total: Pixels = _deviates()[entry]
+        total *= pixel_spread(self._effects, self._scene, values)
+        self._stage_ended(self._effects[-1].name)  # all noises at once
+        return total
+
+
+@lru_cache(maxsize=1)
+def _deviates() -> Pixels:
+    """Return the normal deviates of evenly spaced quantiles."""
+    normal = NormalDist()
+    found = [normal.inv_cdf((place + 0.5) / _ENTRIES) for place in range(_ENTRIES)]
+    return np.array(found, dtype=np.float32)

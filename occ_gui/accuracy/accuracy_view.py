@@ -78,7 +78,7 @@ class AccuracyView(QWidget):
         for text, control in ((self.tr("of the"), self.observable), (self.tr("Noise"), self.noise)):
             row.addWidget(QLabel(text))
             row.addWidget(control)
-        left = QWidget()
+        left = self.effects = QWidget()
         left.setMaximumWidth(_WIDEST_TABLE)
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, 0, 0)

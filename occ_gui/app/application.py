@@ -11,6 +11,7 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
+from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
@@ -92,6 +93,11 @@ class Application(QObject):
         self.detection_map = DetectionMapWiring(
             self.store, self.settings, self.detection, self.slider_strips
         )
+        self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
+        self.outdated.mark_picture(self.image.simulation)
+        for pane in (self.profile, self.decode, self.accuracy.effects):
+            self.outdated.mark_results(pane)
+        self.learning.exposure_made.connect(self.outdated.mark_results)
         self.desktop = Desktop(self)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
@@ -186,7 +192,8 @@ class Application(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all requested results are shown."""
-        return self.simulation.runner.is_idle and self.photo_wiring.is_idle and self.desktop.is_idle
+        parts = (self.simulation.runner, self.outdated, self.photo_wiring, self.desktop)
+        return all(part.is_idle for part in parts)
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
         """Open a photo.

@@ -62,6 +62,9 @@ class LearningPanes(QObject):
     status_message = Signal(str)
     """The outcome of an action, shown until the scene changes."""
 
+    exposure_made = Signal(QWidget)
+    """The pane of a column's exposure has been created, which shows results."""
+
     def __init__(
         self,
         window: DockWindow,
@@ -88,6 +91,7 @@ class LearningPanes(QObject):
         explanation = ExplanationWiring(self._scenes, self._profile.plot)
         if self._snapshot is not None:
             explanation.show_snapshot(self._snapshot)
+        self.exposure_made.emit(explanation.pane.exposure)
         return explanation
 
     @cached_property

@@ -13,6 +13,9 @@ _CELL = 24
 _GAP = 3
 _LABEL = 66
 
+_FADED = 0.35
+"""Opacity of bits that are not of the present scene."""
+
 _RIGHT = QColor(colours.RIGHT)
 _WRONG = QColor(colours.WRONG)
 
@@ -63,6 +66,8 @@ class BitStrip(QWidget):
         """Draw both rows."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if not self.isEnabled():  # the bits are those of an earlier scene
+            painter.setOpacity(_FADED)
         rows = ((self.tr("sent"), self._sent), (self.tr("received"), self._received))
         count = max(1, len(self._sent))
         width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)

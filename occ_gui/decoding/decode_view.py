@@ -1,5 +1,7 @@
 """Pane of decoding: whether the code was read, the bits, and the steps of the decoder."""
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
 
@@ -20,6 +22,7 @@ class DecodeView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
+        self._is_outdated = False
         self.decoders = QTabBar()
         self.decoders.setDrawBase(False)
         self.decoders.setAccessibleName(self.tr("Decoder"))
@@ -79,11 +82,25 @@ class DecodeView(QWidget):
                 self.decoders.addTab("")
             while self.decoders.count() > len(results):
                 self.decoders.removeTab(self.decoders.count() - 1)
-            for place, result in enumerate(results):
-                mark = "✓" if self._is_right(result) else "✗"
-                self.decoders.setTabText(place, f"{result.decoder} {mark}")
+        self._mark_tabs(results)
         self.strip.setVisible(bool(snapshot.sent))
         self._show_chosen()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the results are of an earlier scene; they are not the present verdict."""
+        snapshot = self._snapshot
+        if snapshot is None or outdated == self._is_outdated:
+            return
+        self._is_outdated = outdated
+        self.strip.setEnabled(not outdated)
+        self._mark_tabs((snapshot.decoded, *snapshot.others))
+        self.verdict.setText(self._verdict(self._chosen(snapshot)))
+
+    def _mark_tabs(self, results: Iterable[DecodeResult]) -> None:
+        for place, result in enumerate(results):
+            mark = "✓" if self._is_right(result) else "✗"
+            mark = "…" if self._is_outdated else mark
+            self.decoders.setTabText(place, f"{result.decoder} {mark}")
 
     def _chosen(self, snapshot: Snapshot) -> DecodeResult:
         return (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
@@ -117,6 +134,12 @@ class DecodeView(QWidget):
         return decoded.code is not None and tuple(decoded.bits.tolist()) == sent
 
     def _verdict(self, decoded: DecodeResult) -> str:
+        verdict = self._reading(decoded)
+        if self._is_outdated:
+            return self.tr("Earlier scene: {verdict}").format(verdict=verdict)
+        return verdict
+
+    def _reading(self, decoded: DecodeResult) -> str:
         sent = self._snapshot.sent if self._snapshot is not None else ()
         if not sent:
             return self.tr("No code is sent")

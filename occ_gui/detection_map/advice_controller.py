@@ -1,7 +1,7 @@
 """Controller of the advisor: it searches for the limits of a scene when the user asks."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer
@@ -14,6 +14,7 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -22,6 +23,9 @@ RATE = 99.0
 
 IMAGES = 20
 """Images at each value that is tried."""
+
+LIMITED = ("switching_frequency", "exposure_time")
+"""The parameters whose limits are searched."""
 
 _USUAL = 95
 """Values that a search usually tries, from which its progress is estimated."""
@@ -50,6 +54,11 @@ class AdviceRequest:
     settings: SimulationSettings
     with_image_effects: bool
 
+    def along(self, name: str) -> "AdviceRequest":
+        """Give the request without the value of a parameter, which its limits do not depend on."""
+        scene = self.scene.replace(**{name: quantity(name).default})
+        return replace(self, scene=scene)
+
     def stages(self) -> Iterator[Stage]:
         """Give one job for each decoder."""
         jobs = []
@@ -74,8 +83,16 @@ class AdvicePane(Protocol):
     def show_advice_ended(self, sentence: str) -> None:
         """Show that the search has ended, and why where it is not complete."""
 
-    def show_advice_outdated(self) -> None:
-        """Show that the advice is not of the current scene."""
+    def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
+        """Show whether the advice is of an earlier scene.
+
+        Parameters
+        ----------
+        outdated
+            Whether it is.
+        reachable
+            The parameters whose limits hold all the same: only they were changed.
+        """
 
 
 class AdvisorController(QObject):
@@ -103,6 +120,7 @@ class AdvisorController(QObject):
         self._scenes, self._settings = scenes, settings
         self._queue, self._channel, self._pane = queue, channel, pane
         self._with_image_effects = False
+        self._advised: AdviceRequest | None = None
         self._counted = 0
         self._look = QTimer(self)
         self._look.setInterval(_LOOK_MS)
@@ -121,12 +139,14 @@ class AdvisorController(QObject):
     def use_image_effects(self, wanted: bool) -> None:
         """Make whole images where the scene calls for them, or leave out what needs them."""
         self._with_image_effects = wanted
+        self._move_on()
+
+    def _request(self) -> AdviceRequest:
+        return AdviceRequest(self._scenes.scene, self._settings.settings, self._with_image_effects)
 
     def start(self) -> None:
         """Search for the limits of the current scene."""
-        request = AdviceRequest(
-            self._scenes.scene, self._settings.settings, self._with_image_effects
-        )
+        request = self._advised = self._request()
         self._counted = self._count()
         self._pane.show_advice_begun()
         self._channel.put(request, request.stages)
@@ -154,11 +174,16 @@ class AdvisorController(QObject):
             self._pane.show_advice(advice)
 
     def _move_on(self) -> None:
-        if self._channel.is_idle:
-            self._pane.show_advice_outdated()
-        else:
+        request = self._request()
+        if self._advised is None:
+            return
+        if not self._channel.is_idle and request != self._advised:
             self._channel.cancel()
             self._end(self.tr("The scene has changed; ask again."))
+        reachable = frozenset(
+            name for name in LIMITED if self._advised.along(name) == request.along(name)
+        )
+        self._pane.show_advice_outdated(request != self._advised, reachable)
 
     def _end(self, sentence: str) -> None:
         self._look.stop()

@@ -39,6 +39,8 @@ class AdviceView(QWidget):
         self._sentences = AdviceSentences(self)
         self._lines: list[QWidget] = []
         self.destinations: list[QPushButton] = []
+        self._parameters: list[str] = []
+        self._ended = ""
         self.back = self._button(self.tr("Back to the map"), self.tr("Show the map again."))
         self.back.clicked.connect(self.back_asked)
         self.again = self._button(
@@ -87,7 +89,7 @@ class AdviceView(QWidget):
         for line in self._lines:
             self._column.removeWidget(line)
             line.deleteLater()
-        self._lines, self.destinations = [], []
+        self._lines, self.destinations, self._parameters = [], [], []
         self.progress.setValue(0)
         self._show_running(True)
 
@@ -102,13 +104,29 @@ class AdviceView(QWidget):
 
     def show_advice_ended(self, sentence: str) -> None:
         """Show that the search has ended; a sentence says why if it is incomplete."""
+        self._ended = sentence
         self.state.set_full_text(sentence)
         self._show_running(False)
 
-    def show_advice_outdated(self) -> None:
-        """Show that the scene has changed since the advice was given."""
-        if self._lines:
-            self.state.set_full_text(self.tr("This advice is on the scene before the change."))
+    def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
+        """Show whether the scene has changed since the advice was given.
+
+        Parameters
+        ----------
+        outdated
+            Whether it has.
+        reachable
+            The parameters whose limits hold all the same: only they were changed.
+        """
+        if not self._lines:
+            return
+        text = self.tr("This advice is on the scene before the change.")
+        self.state.set_full_text(text if outdated else self._ended)
+        for line in self._lines:
+            for label in line.findChildren(QLabel):
+                label.setEnabled(not outdated)
+        for button, parameter in zip(self.destinations, self._parameters, strict=True):
+            button.setEnabled(not outdated or parameter in reachable)
 
     def sentences(self) -> list[str]:
         """Return all sentences that are shown."""
@@ -141,4 +159,5 @@ class AdviceView(QWidget):
         button.setAccessibleName(self.tr("Take me there: {value}").format(value=text))
         button.clicked.connect(lambda: self.destination_chosen.emit(name, value))
         self.destinations.append(button)
+        self._parameters.append(name)
         return button

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 from PySide6.QtCore import QObject
 
+from occ_gui.background.result_age import ResultAges
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
@@ -52,6 +53,9 @@ class MapPane(Protocol):
 
     def show_failure(self, sentence: str) -> None:
         """Show why the map is not of the current scene, or what happened meanwhile."""
+
+    def show_age(self, age: float) -> None:
+        """Show for how many seconds the map has been of an earlier scene; zero if it is not."""
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
         """Show which of the scene's image effects the map leaves out."""
@@ -119,6 +123,7 @@ class DetectionMapController(QObject):
         self._asked: MapRequest | None = None
         self._shown: MapRequest | None = None
         self.map: RateMap | None = None
+        self._ages = ResultAges(self._request())
         channel.results_ready.connect(self._take)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._fail)
@@ -182,6 +187,8 @@ class DetectionMapController(QObject):
         self._pane.show_scene(self._scenes.scene)
         self._show_left_out()
         request = self._request()
+        self._ages.begin(request)
+        self._show_age()
         if request == self._asked:
             return
         self._asked = request
@@ -212,8 +219,12 @@ class DetectionMapController(QObject):
                 self.map.theory = result
             else:
                 self.map.enter(list(result.points), result.images)
+        self._show_age()
         self._pane.show_map(self.map)
         self._show_progress()
+
+    def _show_age(self) -> None:
+        self._pane.show_age(0.0 if self._shown is None else self._ages.age(self._shown))
 
     def _show_progress(self) -> None:
         assert self.map is not None  # noqa: S101 - it is called when there is a map

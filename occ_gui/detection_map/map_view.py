@@ -19,6 +19,7 @@ from occ_gui.detection_map.map_legend import MapLegend
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
@@ -53,9 +54,11 @@ class MapView(QWidget):
         super().__init__(parent)
         self._progress = self._failure = self._refusal = ""
         self._facts: PointFacts | None = None
+        self._is_outdated = False
         self._axes = (MAP_PARAMETERS[0], MAP_PARAMETERS[1])
         self._make_choices(decoders)
         self.plots, self.legend = MapPlots(decoders), MapLegend()
+        self.outdated = OutdatedMark(self.plots)
         self.image_effects = QCheckBox(self.tr("with image effects (slow)"))
         self.image_effects.setToolTip(
             self.tr("Simulate whole images where the scene needs them: 50 to 100 times slower.")
@@ -174,6 +177,12 @@ class MapView(QWidget):
         self._failure = sentence
         self._show_status()
 
+    def show_age(self, age: float) -> None:
+        """Show for how many seconds the map has been of an earlier scene; zero if it is not."""
+        self._is_outdated = age > 0.0
+        self.outdated.show_age(age, self.tr("computing…"))
+        self._show_status()
+
     def show_left_out(self, effects: tuple[str, ...]) -> None:
         """Show which of the scene's image effects the map leaves out."""
         self.left_out.setVisible(bool(effects))
@@ -191,11 +200,12 @@ class MapView(QWidget):
     def _show_status(self) -> None:
         facts = self._facts
         if facts is None:
-            self.status.set_full_text(self._failure or self._refusal or self._progress)
-        elif facts.note:
-            self.status.set_full_text(f"{self._position(facts)}: {facts.note}")
+            text = self._failure or self._refusal or self._progress
         else:
-            self.status.set_full_text(f"{self._position(facts)}: {self._counts(facts)}")
+            text = f"{self._position(facts)}: {facts.note or self._counts(facts)}"
+        if self._is_outdated and not self._failure:
+            text = self.tr("Earlier scene: {text}").format(text=text)
+        self.status.set_full_text(text)
 
     def _position(self, facts: PointFacts) -> str:
         x, y = (quantity(name) for name in self._axes)

@@ -1,16 +1,19 @@
 """Strips under the sliders: the share of bits that a decoder would read along each slider."""
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QWidget
 
 from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
 
 _HEIGHT = 6
+
+_OUTDATED_OPACITY = 0.35
 
 
 class SliderStrip(QWidget):
@@ -31,6 +34,10 @@ class SliderStrip(QWidget):
         self._slider = slider
         self._label = label
         self.shares: tuple[float | None, ...] = ()
+        self._is_outdated = self._is_faded = False
+        self._fading = QTimer(self, singleShot=True)
+        self._fading.setInterval(round(1e3 * DELAY))
+        self._fading.timeout.connect(lambda: self._fade(True))
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("Reading along {label}").format(label=label.lower()))
         self._explain()
@@ -41,16 +48,34 @@ class SliderStrip(QWidget):
             "Share of the bits that the decoder shown reads correctly along this slider, all "
             "else being equal: blue none, yellow all, grey not known."
         )
-        self.setToolTip(text)
         good = sum(share > 0.99 for share in known)
-        self.setAccessibleDescription(
-            self.tr("read at {good} of {all} positions").format(good=good, all=len(known))
-        )
+        read = self.tr("read at {good} of {all} positions").format(good=good, all=len(known))
+        if self._is_outdated:
+            text += "\n" + self.tr("Computing; what is shown is of an earlier scene.")
+            read = self.tr("earlier scene: {read}").format(read=read)
+        self.setToolTip(text)
+        self.setAccessibleDescription(read)
 
     def show_shares(self, shares: tuple[float | None, ...]) -> None:
         """Show the shares at evenly spaced positions of the slider, None if not known."""
         self.shares = shares
         self._explain()
+        self.update()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the shares are of an earlier scene; they fade if that lasts."""
+        if outdated == self._is_outdated:
+            return
+        self._is_outdated = outdated
+        self._explain()
+        if outdated:
+            self._fading.start()
+        else:
+            self._fading.stop()
+            self._fade(False)
+
+    def _fade(self, faded: bool) -> None:
+        self._is_faded = faded
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -88,8 +113,10 @@ class SliderStrip(QWidget):
         painter.setClipRect(QRectF(first, 0, last - first, self.height()))
         painter.fillRect(whole, self.palette().color(QPalette.ColorRole.Midlight))
         if self.shares:
+            painter.setOpacity(_OUTDATED_OPACITY if self._is_faded else 1.0)
             shares = np.array([[np.nan if share is None else share] for share in self.shares])
             painter.drawImage(whole, image_of(to_colours(shares, 0.0, 1.0, RATES)))
+        painter.setOpacity(1.0)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -133,3 +160,7 @@ class SliderStrips(QObject):
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of bits read correctly at positions along a slider, None if not known."""
         self.strips[name].show_shares(shares)
+
+    def show_outdated(self, name: str, outdated: bool) -> None:
+        """Show whether the strip of a slider is of an earlier scene."""
+        self.strips[name].show_outdated(outdated)

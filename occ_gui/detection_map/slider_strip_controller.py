@@ -62,6 +62,9 @@ class SliderStripPane(Protocol):
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of correct bits at positions along a slider, None: not known."""
 
+    def show_outdated(self, name: str, outdated: bool) -> None:
+        """Show whether a strip is of an earlier scene."""
+
 
 def strip_stages(missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"]) -> Iterator[Stage]:
     """Give the stages of the work that is left.
@@ -146,10 +149,13 @@ class SliderStripController(QObject):
         self._decoder = decoder
         self._move_on()
 
+    def _present(self) -> SliderStripRequest:
+        return SliderStripRequest(self._scenes.scene, self._settings.settings, self._decoder)
+
     def _move_on(self) -> None:
         if not self._seen:
             return
-        request = SliderStripRequest(self._scenes.scene, self._settings.settings, self._decoder)
+        request = self._present()
         if request == self._asked:
             return
         self._asked = request
@@ -157,7 +163,9 @@ class SliderStripController(QObject):
         for name in self._names:
             along = request.along(name)
             known = self._known.get(name)
-            there = set(known[1]) if known is not None and known[0] == along else set()
+            is_present = known is not None and known[0] == along
+            self._pane.show_outdated(name, known is not None and not is_present)
+            there = set(known[1]) if known is not None and is_present else set()
             missing[name] = (along, set(range(POSITIONS)) - there)
         self._channel.put(request, partial(strip_stages, missing))
 
@@ -169,7 +177,8 @@ class SliderStripController(QObject):
                 known = self._known[result.name] = (along, {})
             known[1].update({point.index: _share(point) for point in result.points})
         for name in {result.name for result in results}:
-            shares = self._known[name][1]
+            along, shares = self._known[name]
+            self._pane.show_outdated(name, along != self._present().along(name))
             self._pane.show_shares(name, tuple(_nearest(shares, p) for p in range(POSITIONS)))
 
 

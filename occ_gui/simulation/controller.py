@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 
 import occ_model as occ
 from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.result_age import ResultAges
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.preview import Picture
@@ -48,10 +49,10 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
     ProjectionError
         The panel has no picture in this pose.
     """
-    return _snapshot_of(render_with(scene, settings))
+    return _snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
 
 
-def _snapshot_of(frame: Frame) -> Snapshot:
+def _snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     """Decode a picture and compute the other results that the panes show."""
     scene = frame.scene
     start = perf_counter()
@@ -68,6 +69,7 @@ def _snapshot_of(frame: Frame) -> Snapshot:
     chip_columns = transmitter.switching_period / scene.camera.readout_time
     left, top = frame.corners.min(axis=0).tolist()
     return Snapshot(
+        request=request,
         frame=frame,
         decoded=decoded,
         sent=sent,
@@ -112,6 +114,9 @@ class SimulationController(QObject):
     failed = Signal(str)
     """The reason why a scene has no picture; the panes keep the last one."""
 
+    submitted = Signal()
+    """The scene or a setting has changed: results of the last request are outdated."""
+
     _rendered = Signal(object)
 
     def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
@@ -128,21 +133,30 @@ class SimulationController(QObject):
         self.runner.failed.connect(self.failed)
         for store in (scenes, settings):
             store.changed.connect(self._submit)
-        self._submit()
+        self.ages = ResultAges(self._request())
+        self.runner.submit(self.ages.present)
 
     def show_in(self, views: Sequence[SnapshotView]) -> None:
         """Set the panes that show the results; none arrives before the event loop runs."""
         self._views = views
 
+    def _request(self) -> SimulationRequest:
+        return SimulationRequest(self._scenes.scene, self._settings.settings)
+
     def _submit(self) -> None:
-        self.runner.submit(SimulationRequest(self._scenes.scene, self._settings.settings))
+        request = self._request()
+        if request == self.ages.present:  # one step has changed both stores
+            return
+        self.ages.begin(request)
+        self.runner.submit(request)
+        self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
         frame = render_with(request.scene, request.settings)
-        self._rendered.emit(Picture.of(frame))
+        self._rendered.emit(Picture.of(frame, request))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)
-        return _snapshot_of(frame)
+        return _snapshot_of(request, frame)
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:

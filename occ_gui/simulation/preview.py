@@ -6,6 +6,7 @@ from typing import Self
 import cv2
 import numpy as np
 
+from occ_gui.simulation.snapshot import SimulationRequest
 from occ_model.arrays import ByteArray
 from occ_model.results import Frame
 
@@ -23,20 +24,23 @@ class Picture:
         The picture.
     halves : tuple of ndarray of uint8
         The picture at a half of its size, at a quarter and so on; each pixel is the mean of four.
+    request
+        The scene and the settings that it was simulated from, where they are known.
     """
 
     frame: Frame
     halves: tuple[ByteArray, ...]
+    request: SimulationRequest | None = None
 
     @classmethod
-    def of(cls, frame: Frame) -> Self:
+    def of(cls, frame: Frame, request: SimulationRequest | None = None) -> Self:
         """Compute the smaller copies; to be called on a background thread."""
         halves = []
         pixels = frame.image
         while min(pixels.shape) >= 2 * _SMALLEST:
             pixels = halved(pixels)
             halves.append(pixels)
-        return cls(frame, tuple(halves))
+        return cls(frame, tuple(halves), request)
 
 
 def halved(pixels: ByteArray) -> ByteArray:

@@ -30,6 +30,8 @@ class Snapshot:
 
     Parameters
     ----------
+    request
+        The scene and the settings that they were computed from.
     frame
         The simulated picture.
     decoded
@@ -51,6 +53,7 @@ class Snapshot:
         Computing time of the paper's decoder.
     """
 
+    request: SimulationRequest
     frame: Frame
     decoded: DecodeResult
     sent: tuple[int, ...]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -208,3 +208,24 @@ def test_every_button_has_a_name_and_says_what_it_does(
     for button in view.findChildren(QPushButton):
         assert button.accessibleName()
         assert button.toolTip()
+
+
+def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
+    advised: Application,
+) -> None:
+    advice = advised.detection.advice
+
+    def state() -> tuple[set[bool], list[bool]]:
+        labels = {label.isEnabled() for row in advice._lines for label in row.findChildren(QLabel)}
+        return labels, [button.isEnabled() for button in advice.destinations[:3]]
+
+    assert state() == ({True}, [True, True, True])
+    advised.store.change(switching_frequency=9e3)  # its limits do not depend on it
+    assert state() == ({False}, [True, False, False])
+    advised.store.change(iso=200.0)
+    assert state() == ({False}, [False, False, False])
+    advised.store.undo_stack.undo()
+    advised.store.undo_stack.undo()
+    assert state() == ({True}, [True, True, True])
+    advised.detection.image_effects.click()
+    assert state() == ({False}, [False, False, False])

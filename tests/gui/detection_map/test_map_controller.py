@@ -34,6 +34,7 @@ class RecordingPane:
         self.failures: list[str] = []
         self.left_out: tuple[str, ...] = ()
         self.facts: PointFacts | None = None
+        self.ages: list[float] = []
         self.axes: tuple[str, str] | None = None
 
     def show_axes(self, x: str, y: str) -> None:
@@ -51,6 +52,9 @@ class RecordingPane:
     def show_failure(self, sentence: str) -> None:
         if sentence:
             self.failures.append(sentence)
+
+    def show_age(self, age: float) -> None:
+        self.ages.append(age)
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
         self.left_out = effects
@@ -282,3 +286,18 @@ def test_the_limits_of_theory_change_sides_where_theory_says(
         np.testing.assert_array_equal(
             found.theory.sides[name][:, 0] > 0, frequencies > limit, err_msg=name
         )
+
+
+def test_a_map_of_an_earlier_scene_ages_until_the_next_is_there(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    bench.look()
+    assert set(bench.pane.ages) == {0.0}
+    bench.pane.ages.clear()
+    bench.scenes.change(start_time=1e-3)  # the map does not depend on it
+    assert set(bench.pane.ages) == {0.0}
+    bench.scenes.change(exposure_time=136e-6)
+    assert bench.pane.ages[-1] > 0.0
+    bench.wait_until_idle()
+    assert bench.pane.ages[-1] == 0.0

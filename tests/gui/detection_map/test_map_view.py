@@ -248,3 +248,16 @@ def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[in
     assert plot.area().contains(plot.place_of((1.0, 1.0)))
     assert isinstance(plot.place_of((0.0, 0.0)), QPointF)
     assert (application.window.width(), application.window.height()) == size
+
+
+def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:
+    view.show_map(whole((5, 10)))
+    view.show_progress(91, 91, 20)
+    view.show_age(0.01)
+    assert view.status.toolTip() == "Earlier scene: 91 points, images at each: 20"
+    assert view.outdated.isHidden()
+    view.show_age(1.0)
+    assert view.outdated.isVisible()
+    view.show_age(0.0)
+    assert view.outdated.isHidden()
+    assert view.status.toolTip() == "91 points, images at each: 20"

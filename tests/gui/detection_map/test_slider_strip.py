@@ -16,11 +16,14 @@ from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.slider_strip import SliderStrip
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import MAIN
+from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
 POSITIONS = 9
@@ -33,9 +36,13 @@ class RecordingStrips:
 
     def __init__(self) -> None:
         self.shares: dict[str, Shares] = {}
+        self.outdated: dict[str, bool] = {}
 
     def show_shares(self, name: str, shares: Shares) -> None:
         self.shares[name] = shares
+
+    def show_outdated(self, name: str, outdated: bool) -> None:
+        self.outdated[name] = outdated
 
 
 class Bench:
@@ -186,3 +193,31 @@ def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
         place = round(first + share * (last - first))
         seen = picture.pixelColor(place, 3)
         assert [seen.red(), seen.green(), seen.blue()] == colour
+
+
+def test_strips_of_an_earlier_scene_are_marked_until_measured(bench: Bench) -> None:
+    bench.controller.set_seen(True)
+    bench.wait_until_idle()
+    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
+    bench.scenes.change(switching_frequency=40e3)
+    assert bench.strips.outdated == {"switching_frequency": False, "iso": True}
+    bench.wait_until_idle()
+    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
+
+
+def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None:
+    row = QuantityRow(quantity("iso"))
+    strip = SliderStrip(row.slider, "ISO speed")
+    for widget in (row, strip):
+        qtbot.addWidget(widget)
+    strip.resize(200, 6)
+    strip.show_shares((1.0,) * 5)
+    shown = strip.grab().toImage()
+    strip.show_outdated(True)
+    assert strip.accessibleDescription() == "earlier scene: read at 5 of 5 positions"
+    assert "of an earlier scene" in strip.toolTip()
+    assert strip.grab().toImage() == shown
+    qtbot.waitUntil(lambda: strip.grab().toImage() != shown)
+    strip.show_outdated(False)
+    assert strip.grab().toImage() == shown
+    assert strip.accessibleDescription() == "read at 5 of 5 positions"

@@ -1,0 +1,61 @@
+"""Age of results: for how long the request of a result has not been the present one."""
+
+import math
+from collections import deque
+from collections.abc import Callable
+from time import monotonic
+from typing import Generic, TypeVar
+
+Request = TypeVar("Request")
+
+PAUSE = 0.15
+"""Seconds: changes that follow each other faster are one movement, such as a drag."""
+
+_MOST = 64
+"""Former requests whose end is remembered; the result of an older one is of any age."""
+
+
+class ResultAges(Generic[Request]):
+    """The present request, and when each of the former ones ceased to be it.
+
+    Parameters
+    ----------
+    request
+        The present request.
+    clock
+        Returns the time in seconds.
+    """
+
+    def __init__(self, request: Request, clock: Callable[[], float] = monotonic) -> None:
+        self.present = request
+        self._clock = clock
+        self._ended: deque[tuple[Request, float]] = deque(maxlen=_MOST)
+        self._changed_at = -math.inf
+        self._is_moving = False
+
+    def begin(self, request: Request) -> None:
+        """Make this request the present one."""
+        if request == self.present:
+            return
+        now = self._clock()
+        self._is_moving = now - self._changed_at < PAUSE
+        self._changed_at = now
+        self._ended.append((self.present, now))
+        self.present = request
+
+    def age(self, request: Request | None) -> float:
+        """Return for how many seconds a request has not been the present one.
+
+        Zero for the present request, infinite for none and for one that is not remembered.
+        """
+        if request == self.present:
+            return 0.0
+        ends = (end for former, end in reversed(self._ended) if former == request)
+        end = next(ends, -math.inf)
+        return self._clock() - end
+
+    def rest(self) -> float:
+        """Return for how many seconds the movement may go on; zero after a single change."""
+        if not self._is_moving:
+            return 0.0
+        return max(0.0, self._changed_at + PAUSE - self._clock())

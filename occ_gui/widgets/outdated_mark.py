@@ -1,0 +1,98 @@
+"""Mark of an outdated result: a veil over the pane, with a word that says why."""
+
+import math
+
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.widgets.guarded_paint import guarded
+
+DELAY = 0.12
+"""Seconds: a pane that is behind for a shorter time is not marked, or it would flicker."""
+
+_FRESH = DELAY / 3
+"""A mark that is shown stays until a result is at most as old."""
+
+_OPACITY = 0.45
+_PADDING = 8
+
+
+class OutdatedMark(QWidget):
+    """Dims a pane while its result belongs to an earlier scene, and says so.
+
+    Parameters
+    ----------
+    pane
+        The pane, which still receives all input.
+    """
+
+    def __init__(self, pane: QWidget) -> None:
+        super().__init__(pane)
+        self.text = ""
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.hide()
+        self._waiting = QTimer(self, singleShot=True)
+        self._waiting.timeout.connect(self._appear)
+        pane.installEventFilter(self)
+
+    def show_age(self, age: float, text: str) -> None:
+        """Mark the pane once its result has been outdated for a moment.
+
+        Parameters
+        ----------
+        age
+            For how many seconds it has been outdated; zero if it is not.
+        text
+            Why it is outdated.
+        """
+        self._set_text(text)
+        if age == 0.0 or (self.isHidden() and age < DELAY) or age < _FRESH:
+            self.hide()
+        if age == 0.0:
+            self._waiting.stop()
+        elif age >= DELAY:
+            self._appear()
+        else:
+            self._waiting.start(math.ceil(1e3 * (DELAY - age)))
+
+    def _set_text(self, text: str) -> None:
+        if text != self.text:
+            self.text = text
+            self.setAccessibleName(text)
+            self.update()
+
+    def _appear(self) -> None:
+        self._waiting.stop()
+        if self.isHidden():
+            self.setGeometry(self.parentWidget().rect())
+            self.show()
+            self.raise_()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Cover the pane whatever its size."""
+        if event.type() == QEvent.Type.Resize:
+            self.setGeometry(self.parentWidget().rect())
+        return super().eventFilter(watched, event)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the veil, and the text on a plate at the top."""
+        painter = QPainter(self)
+        palette = self.palette()
+        painter.setOpacity(_OPACITY)
+        painter.fillRect(self.rect(), palette.color(QPalette.ColorRole.Window))
+        painter.setOpacity(1.0)
+        metrics = self.fontMetrics()
+        text = metrics.elidedText(
+            self.text, Qt.TextElideMode.ElideRight, self.width() - 4 * _PADDING
+        )
+        width = metrics.horizontalAdvance(text) + 2 * _PADDING
+        plate = QRectF((self.width() - width) / 2, _PADDING, width, metrics.height() + _PADDING)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(palette.color(QPalette.ColorRole.Mid))
+        painter.setBrush(palette.color(QPalette.ColorRole.ToolTipBase))
+        painter.drawRoundedRect(plate, 4, 4)
+        painter.setPen(palette.color(QPalette.ColorRole.ToolTipText))
+        painter.drawText(plate, Qt.AlignmentFlag.AlignCenter, text)

@@ -1,0 +1,199 @@
+"""What a pane shows of an earlier scene is marked; its verdict is never the present one's."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from threading import Event
+from typing import Any
+
+import numpy as np
+import pytest
+from gui.user import User
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.app.outdated_panes import OutdatedPanes
+from occ_gui.background.result_age import PAUSE, ResultAges
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
+from occ_gui.widgets.outdated_mark import DELAY
+from occ_model.scene.scene import Scene
+from occ_model.simulation.render import render_with
+
+RIGHT = "✓ Code 718 read, all bits right"
+
+
+@pytest.fixture
+def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
+    """Let no simulation end before this event is set."""
+    may_end = Event()
+
+    def wait_and_render(*arguments: Any) -> Any:
+        may_end.wait()
+        return render_with(*arguments)
+
+    monkeypatch.setattr("occ_gui.simulation.controller.render_with", wait_and_render)
+    yield may_end
+    may_end.set()
+
+
+def marks(application: Application) -> list[QWidget]:
+    return [*application.outdated.of_picture, *application.outdated.of_results]
+
+
+def tabs(application: Application) -> list[str]:
+    bar = application.decode.decoders
+    return [bar.tabText(place).split()[-1] for place in range(bar.count())]
+
+
+def test_a_verdict_is_that_of_an_earlier_scene_at_once(
+    application: Application, user: User, held: Event
+) -> None:
+    assert (application.decode.verdict.text(), tabs(application)) == (RIGHT, ["✓", "✓"])
+    application.store.change(switching_frequency=500.0)
+    assert application.decode.verdict.text() == f"Earlier scene: {RIGHT}"
+    assert tabs(application) == ["…", "…"]
+    assert not application.decode.strip.isEnabled()
+    held.set()
+    user.wait_until_idle()
+    assert application.decode.verdict.text() == "✗ No code read"
+    assert tabs(application) == ["✗", "✗"]
+    assert application.decode.strip.isEnabled()
+
+
+def test_each_pane_is_marked_while_its_result_is_outdated(
+    application: Application, user: User, held: Event, qtbot: QtBot
+) -> None:
+    application.learning.explanation.set_seen(True)
+    assert [mark.parentWidget() for mark in marks(application)] == [
+        application.image.simulation,
+        application.profile,
+        application.decode,
+        application.accuracy.effects,
+        application.learning.explanation.pane.exposure,
+    ]
+    assert all(mark.isHidden() for mark in marks(application))
+    application.settings.set_tolerance(7.0)
+    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)))
+    assert {mark.accessibleName() for mark in marks(application)} == {"computing…"}
+    held.set()
+    user.wait_until_idle()
+    assert all(mark.isHidden() for mark in marks(application))
+
+
+def test_after_a_refusal_the_last_picture_is_marked_as_older(
+    application: Application, user: User, qtbot: QtBot, small_scene: Scene
+) -> None:
+    shown = application.image._shown
+    application.store.change(distance=0.1, yaw=1.2)
+    user.wait_until_idle()
+    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:4]))
+    assert application.image._shown is shown
+    assert application.decode.verdict.text() == f"Earlier scene: {RIGHT}"
+    text = "of an earlier scene: this one has no picture"
+    assert {mark.accessibleName() for mark in marks(application)} == {text}
+    application.store.undo_stack.undo()
+    assert application.store.scene == small_scene
+    user.wait_until_idle()
+    assert application.decode.verdict.text() == RIGHT
+    assert all(mark.isHidden() for mark in marks(application))
+
+
+class Simulation(QObject):
+    """A simulation whose results are delivered by hand, at times set by hand."""
+
+    submitted = Signal()
+    picture_ready = Signal(object)
+    snapshot_shown = Signal(object)
+    failed = Signal(str)
+
+    def __init__(self, first: Snapshot) -> None:
+        super().__init__()
+        self.now = 0.0
+        self.ages = ResultAges(first.request, lambda: self.now)
+
+    def change(self, snapshot: Snapshot) -> None:
+        self.ages.begin(snapshot.request)
+        self.submitted.emit()
+
+    def deliver(self, snapshot: Snapshot) -> None:
+        self.picture_ready.emit(Picture.of(snapshot.frame, snapshot.request))
+        self.snapshot_shown.emit(snapshot)
+
+
+class Verdict:
+    """A pane that notes whether its verdict is the present one's."""
+
+    def __init__(self) -> None:
+        self.outdated: list[bool] = []
+
+    def show_outdated(self, outdated: bool) -> None:
+        self.outdated.append(outdated)
+
+
+class Drag:
+    """A slider that is moved every 16 ms while pictures take some time each."""
+
+    def __init__(self, qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> None:
+        self.pane = pane = QWidget()
+        qtbot.addWidget(pane)
+        first = snapshot_of()
+        scene, settings = first.request.scene, first.request.settings
+        self.snapshots = [
+            replace(first, request=SimulationRequest(scene.replace(iso=iso), settings))
+            for iso in np.geomspace(50.0, 200.0, 61).tolist()
+        ]
+        self.simulation, self.verdict = Simulation(self.snapshots[0]), Verdict()
+        self.outdated = OutdatedPanes(self.simulation, self.verdict, pane)  # type: ignore[arg-type]
+        self.outdated.mark_results(pane)
+        self.simulation.deliver(self.snapshots[0])
+
+    def move(self, takes: int, milliseconds: int = 960) -> list[bool]:
+        """Move, and return at each millisecond whether the pane was marked.
+
+        Pictures take so many milliseconds; while one is at work, only the newest move waits.
+        """
+        marked: list[bool] = []
+        at_work: tuple[Snapshot, int] | None = None
+        waiting: Snapshot | None = None
+        for tick in range(milliseconds):
+            self.simulation.now = 1e-3 * tick
+            if tick % 16 == 0:
+                waiting = self.snapshots[tick // 16 + 1]
+                self.simulation.change(waiting)
+            if at_work is not None and tick >= at_work[1]:
+                self.simulation.deliver(at_work[0])
+                at_work = None
+            if at_work is None and waiting is not None:
+                at_work, waiting = (waiting, tick + takes), None
+            marked.append(not self.outdated.of_results[0].isHidden())
+        return marked
+
+
+@pytest.fixture
+def drag(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> Drag:
+    return Drag(qtbot, snapshot_of)
+
+
+def test_a_drag_with_fast_pictures_is_never_marked(drag: Drag) -> None:
+    assert not any(drag.move(takes=14))
+
+
+def test_a_drag_with_slow_pictures_is_marked_and_stays_so(drag: Drag) -> None:
+    marked = drag.move(takes=round(3e3 * DELAY))
+    first = marked.index(True)
+    assert all(marked[first:])
+
+
+def test_the_verdict_does_not_flicker_during_a_drag(drag: Drag) -> None:
+    drag.move(takes=14)
+    first_moves = 9  # the first of all could be the only one
+    assert set(drag.verdict.outdated[first_moves:]) == {True}
+
+
+def test_the_verdict_is_the_present_ones_after_the_drag(drag: Drag, qtbot: QtBot) -> None:
+    drag.move(takes=14)
+    assert drag.verdict.outdated[-1]
+    drag.simulation.now += 2 * PAUSE
+    qtbot.waitUntil(lambda: not drag.verdict.outdated[-1])

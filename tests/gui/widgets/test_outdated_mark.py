@@ -1,0 +1,81 @@
+"""The mark of an outdated result appears after a moment, and lets all input through."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
+
+
+@pytest.fixture
+def pane(qtbot: QtBot) -> QWidget:
+    pane = QWidget()
+    qtbot.addWidget(pane)
+    QVBoxLayout(pane).addWidget(QPushButton("press"))
+    pane.resize(200, 100)
+    pane.show()
+    return pane
+
+
+@pytest.fixture
+def mark(pane: QWidget) -> OutdatedMark:
+    return OutdatedMark(pane)
+
+
+def test_a_result_that_is_a_moment_old_is_not_marked(mark: OutdatedMark) -> None:
+    for age in (0.01, DELAY / 2, 0.9 * DELAY, 0.0, 0.5 * DELAY):
+        mark.show_age(age, "computing…")
+        assert mark.isHidden(), age
+
+
+def test_a_result_that_stays_outdated_is_marked(mark: OutdatedMark, qtbot: QtBot) -> None:
+    mark.show_age(0.9 * DELAY, "computing…")
+    qtbot.waitUntil(mark.isVisible)
+
+
+def test_a_present_result_ends_the_wait_and_the_mark(mark: OutdatedMark, qtbot: QtBot) -> None:
+    mark.show_age(2 * DELAY, "computing…")
+    assert mark.isVisible()
+    mark.show_age(0.0, "computing…")
+    assert mark.isHidden()
+    mark.show_age(0.5 * DELAY, "computing…")
+    mark.show_age(0.0, "computing…")
+    qtbot.wait(round(2e3 * DELAY))
+    assert mark.isHidden()
+
+
+def test_a_mark_does_not_go_and_come_again(mark: OutdatedMark) -> None:
+    mark.show_age(2 * DELAY, "computing…")
+    mark.show_age(0.8 * DELAY, "computing…")
+    assert mark.isVisible()
+
+
+def test_the_mark_covers_the_pane_and_lets_input_through(
+    mark: OutdatedMark, pane: QWidget, qtbot: QtBot
+) -> None:
+    button = pane.findChild(QPushButton)
+    assert button is not None
+    mark.show_age(1.0, "computing…")
+    pane.resize(320, 160)
+    assert mark.geometry() == pane.rect()
+    assert pane.childAt(button.geometry().center()) is button
+    with qtbot.waitSignal(button.clicked):
+        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def test_the_mark_dims_the_pane_and_says_why(mark: OutdatedMark, pane: QWidget) -> None:
+    corner = pane.rect().bottomLeft()
+    palette = pane.palette()
+    pane.setAutoFillBackground(True)
+    palette.setColor(QPalette.ColorRole.Window, QColor("black"))
+    pane.setPalette(palette)
+    mark.setPalette(QPalette(QColor("white")))
+    assert pane.grab().toImage().pixelColor(corner).lightness() == 0
+    mark.show_age(1.0, "of an earlier scene")
+    assert mark.accessibleName() == "of an earlier scene"
+    before = pane.grab().toImage()
+    assert before.pixelColor(corner).lightness() > 64
+    mark.show_age(1.0, "computing…")
+    assert pane.grab().toImage() != before

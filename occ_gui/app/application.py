@@ -59,7 +59,8 @@ class Application(QObject):
         preferences: QSettings | None = None,
     ) -> None:
         super().__init__()
-        self.store, self.settings = SceneStore(scene), SettingsStore(settings)
+        self.settings = SettingsStore(settings)
+        self.store = SceneStore(scene, self.settings)
         self.editor = SceneEditor(self.store)
         self.preferences = Preferences(preferences)
         # Simulates the first picture while the panes are created.
@@ -95,8 +96,7 @@ class Application(QObject):
         )
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
         self.outdated.mark_picture(self.image.simulation)
-        for pane in (self.profile, self.decode, self.accuracy.effects):
-            self.outdated.mark_results(pane)
+        self.outdated.mark_results(self.profile, self.decode, self.accuracy.effects)
         self.learning.exposure_made.connect(self.outdated.mark_results)
         self.desktop = Desktop(self)
         self._photo_path: Path | None = None
@@ -126,6 +126,7 @@ class Application(QObject):
         self.store.refused.connect(self._refuse)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
         self.simulation.failed.connect(self.messages.show_failure)
+        self.simulation.failed.connect(self.learning.pins.give_up)
         self.files.status_message.connect(self.window.say)
         self.learning.status_message.connect(self.messages.show_refusal)
         self.window.closing.connect(self.stop)
@@ -135,7 +136,8 @@ class Application(QObject):
         self.accuracy.tolerance_edited.connect(self.settings.set_tolerance)
         self.accuracy.observable_chosen.connect(self.settings.set_observable)
         self.accuracy.noise_chosen.connect(self.settings.set_noise)
-        self.accuracy.effect_switched.connect(self.settings.force)
+        self.accuracy.effect_switched.connect(self.store.force)
+        self.controls.forced.released.connect(self.store.release_effects)
         self.accuracy.refused.connect(self.messages.show_refusal)
         self.accuracy.visibility_changed.connect(self.study.set_seen)
         self.accuracy.plan_changed.connect(self.window.show_plan_change)
@@ -238,6 +240,7 @@ class Application(QObject):
     def _show_settings(self, settings: SimulationSettings) -> None:
         self.messages.end_refusal()
         self.accuracy.show_settings(settings)
+        self.controls.forced.show_force(settings.force)
 
     def _refuse_setting(self, sentence: str) -> None:
         self.accuracy.show_settings(self.settings.settings)

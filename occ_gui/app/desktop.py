@@ -180,7 +180,8 @@ class Desktop(QObject):
         self._parts.window.actions_by_name["hold_brightness"].setChecked(on)
 
     def _reset_scene(self) -> None:
-        self._parts.store.put(load_preset(DEFAULT_PRESET), self.tr("reset of the scene"))
+        scene = load_preset(DEFAULT_PRESET)
+        self._parts.store.put(scene, self.tr("reset of the scene"), force={})
 
     def show_shortcuts(self) -> None:
         """Show the table of keyboard shortcuts."""

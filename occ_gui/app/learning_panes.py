@@ -15,7 +15,7 @@ from occ_gui.pins.pin_controller import PinController
 from occ_gui.pins.pinned import Pinned
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.lazy_pane import LazyPane, PaneContent
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class LearningPanes(QObject):
         self._profile = profile
         self._snapshot: Snapshot | None = None
         self.before = BeforeController(scenes, [profile, image.before])
-        self.pins = PinController(scenes, self)
+        self.pins = PinController(scenes, self, self._is_present)
         self._add_docks()
         self._connect_menus()
 
@@ -140,6 +140,10 @@ class LearningPanes(QObject):
         """Show the pinned states in the comparison, if that pane has been created."""
         if "compare" in vars(self):
             self.compare.show_pinned(pinned)
+
+    def _is_present(self, snapshot: Snapshot) -> bool:
+        present = SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
+        return snapshot.request == present
 
     def _add_docks(self) -> None:
         add = self._add_dock

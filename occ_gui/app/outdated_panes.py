@@ -64,9 +64,9 @@ class OutdatedPanes(QObject):
         self.of_picture.append(OutdatedMark(pane))
         self._update()
 
-    def mark_results(self, pane: QWidget) -> None:
-        """Mark from now on a pane of other results."""
-        self.of_results.append(OutdatedMark(pane))
+    def mark_results(self, *panes: QWidget) -> None:
+        """Mark from now on panes of other results."""
+        self.of_results += [OutdatedMark(pane) for pane in panes]
         self._update()
 
     def _on_picture(self, picture: Picture) -> None:

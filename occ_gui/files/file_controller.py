@@ -173,7 +173,8 @@ class FileController(QObject):
         except OccError as error:
             self.status_message.emit(str(error))
             return False
-        self._store.put(scene, self.tr("opening of {name}").format(name=one_line(path.name)))
+        title = self.tr("opening of {name}").format(name=one_line(path.name))
+        self._store.put(scene, title, force={})
         return True
 
     def ask_to_save_scene(self) -> None:

@@ -72,7 +72,8 @@ class PresetController(QObject):
             self.status_message.emit(one_line(str(error), LONGEST))
             self._update()
             return
-        self._store.put(scene, self.tr("preset {name}").format(name=name), new_gesture())
+        title = self.tr("preset {name}").format(name=name)
+        self._store.put(scene, title, new_gesture(), force={})
 
     def ask_to_save_match(self) -> None:
         """Let the user name a preset, and save the result of the match as it."""

@@ -1,11 +1,13 @@
 """Controller of the pins: keep two states, compare them, and return to either."""
 
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
+from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore
@@ -29,33 +31,61 @@ class ComparePane(Protocol):
 class PinController(QObject):
     """Keeps up to two states, A and B.
 
+    What is pinned is the present state: while it is being computed, the pin waits for it.
+
     Parameters
     ----------
     scenes
         The scene, which a return to A or B replaces.
     pane
         The pane that shows the differences.
+    is_present
+        Returns whether results are those of the present scene and settings.
     """
 
     status_message = Signal(str)
     """What was done, or why it could not be done."""
 
-    def __init__(self, scenes: SceneStore, pane: ComparePane) -> None:
+    def __init__(
+        self,
+        scenes: SceneStore,
+        pane: ComparePane,
+        is_present: Callable[[Snapshot], bool] = lambda _snapshot: True,
+    ) -> None:
         super().__init__()
+        self._is_present = is_present
+        self._waiting = ""
         self._scenes = scenes
         self._pane = pane
         self._snapshot: Snapshot | None = None
         self.pinned = Pinned()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Keep these results for the next pin."""
+        """Keep these results for the next pin, or for the one that waits for them."""
         self._snapshot = snapshot
+        if self._waiting and self._is_present(snapshot):
+            self.pin(self._waiting)
+
+    def give_up(self) -> None:
+        """Pin nothing any more: the present scene has no picture."""
+        if self._waiting:
+            name, self._waiting = self._waiting, ""
+            self.status_message.emit(
+                self.tr("{name} is not pinned: this scene has no picture.").format(name=name)
+            )
 
     def pin(self, name: str) -> None:
         """Keep the current state as A or as B."""
         if self._snapshot is None:
             self.status_message.emit(self.tr("There is no picture to pin yet."))
             return
+        if not self._is_present(self._snapshot):
+            self._waiting = name
+            self.status_message.emit(
+                self.tr("{name} is pinned as soon as this scene is computed.").format(name=name)
+            )
+            return
+        self._waiting = ""
         new = self._pin_of(self._snapshot)
         a, b = (new, self.pinned.b) if name == "A" else (self.pinned.a, new)
         self._put(a, b)
@@ -72,7 +102,8 @@ class PinController(QObject):
         if pin is None:
             self.status_message.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
             return
-        self._scenes.put(pin.scene, self.tr("return to {name}").format(name=name), new_gesture())
+        title = self.tr("return to {name}").format(name=name)
+        self._scenes.put(pin.scene, title, new_gesture(), force=pin.force)
 
     def _put(self, a: Pin | None, b: Pin | None) -> None:
         inputs: tuple[ComparedRow, ...] = ()
@@ -99,6 +130,10 @@ class PinController(QObject):
                 texts = _distinguished(declared, one, other)
                 first, second = (text or self.tr("none") for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
+        if a.force != b.force:
+            first, second = (forced_text(pin.force) or self.tr("none") for pin in (a, b))
+            meaning = self.tr("Effects that you have switched on or off; the plan decides others.")
+            rows.append(ComparedRow(self.tr("Effects by hand"), first, second, meaning))
         return rows
 
     def _pin_of(self, snapshot: Snapshot) -> Pin:
@@ -106,6 +141,7 @@ class PinController(QObject):
         return Pin(
             scene=frame.scene,
             tolerance=frame.plan.tolerance,
+            force=snapshot.request.settings.force,
             profile=frame.profile,
             first_column=snapshot.panel_origin[0],
             packet_columns=snapshot.packet_columns,

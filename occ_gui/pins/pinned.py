@@ -1,5 +1,6 @@
 """Two states that the user has pinned, and their differences."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
@@ -16,6 +17,8 @@ class Pin:
         The scene.
     tolerance
         The tolerance of its simulation.
+    force
+        The effects forced on (True) or off (False) by hand.
     profile : ndarray of float64, shape (columns,)
         Its profile in grey levels.
     first_column, packet_columns
@@ -26,6 +29,7 @@ class Pin:
 
     scene: Scene
     tolerance: float
+    force: Mapping[str, bool]
     profile: FloatArray
     first_column: float
     packet_columns: float

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.scene.code_entry import CodeEntry
+from occ_gui.scene.forced_effects import ForcedEffects
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow
 from occ_gui.scene.scene_editor import SceneEditor
@@ -64,6 +65,7 @@ class ControlPanel(QWidget):
             lambda index: self.preset_chosen.emit(self.preset.itemData(index))
         )
         self.code = CodeEntry()
+        self.forced = ForcedEffects()
         others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
         model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
         self.panels = {
@@ -87,6 +89,7 @@ class ControlPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.addWidget(QLabel(self.tr("Preset")))
         layout.addWidget(self.preset)
+        layout.addWidget(self.forced)
         layout.addWidget(QLabel(self.tr("Code, as a number and as bits")))
         layout.addWidget(self.code)
         pages = QTabWidget()

@@ -1,9 +1,14 @@
-"""Scene store: the current scene, an immutable value, with the steps to undo."""
+"""Scene store: the current scene and the effects forced by hand, with the steps to undo."""
+
+from collections.abc import Mapping
+from typing import TypeAlias
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
+from occ_gui.scene.forced_effects import switch_text
 from occ_gui.scene.gesture import NO_GESTURE
+from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError, one_line
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
@@ -13,13 +18,22 @@ _MOST_STEPS = 500
 """Steps that can be undone; each of them keeps two scenes in memory."""
 
 
+State: TypeAlias = tuple[Scene, Mapping[str, bool]]
+"""What a step changes: the scene, and the effects forced on (True) or off (False) by hand."""
+
+
 class SceneStore(QObject):
     """Stores the scene and emits a signal when it changes.
+
+    The effects forced by hand are a part of the settings, but they change in steps that can be
+    undone, together with the scene.
 
     Parameters
     ----------
     scene
         The first scene.
+    settings
+        The store of the settings; by default one of its own.
     """
 
     changed = Signal(object)
@@ -28,9 +42,10 @@ class SceneStore(QObject):
     refused = Signal(str)
     """The reason why a change was not made; the scene is unchanged."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, settings: SettingsStore | None = None) -> None:
         super().__init__()
         self._scene = scene
+        self.settings = SettingsStore() if settings is None else settings
         self.undo_stack = QUndoStack(self)
         self.undo_stack.setUndoLimit(_MOST_STEPS)
 
@@ -49,21 +64,55 @@ class SceneStore(QObject):
         labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
         self.put(scene, f"change of {labels}", gesture)
 
-    def put(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
-        """Replace the whole scene; ``title`` names the step in the undo menu."""
-        if scene == self._scene:
+    def force(self, effect: str, included: bool | None) -> None:
+        """Switch an effect on or off, or leave it to the plan (None)."""
+        force = {name: on for name, on in self._force.items() if name != effect}
+        if included is not None:
+            force[effect] = included
+        self.put(self._scene, f"switch: {switch_text(effect, included)}", force=force)
+
+    def release_effects(self) -> None:
+        """Leave all effects to the plan, as one step."""
+        self.put(self._scene, "return of all effects to the plan", force={})
+
+    @property
+    def _force(self) -> Mapping[str, bool]:
+        return self.settings.settings.force
+
+    def put(
+        self,
+        scene: Scene,
+        title: str,
+        gesture: int = NO_GESTURE,
+        force: Mapping[str, bool] | None = None,
+    ) -> None:
+        """Replace the whole scene, as one step.
+
+        Parameters
+        ----------
+        scene
+            The new scene.
+        title
+            The name of the step in the undo menu.
+        gesture
+            The number of the gesture: changes of one gesture are one step.
+        force
+            The effects forced by hand from now on; by default those of before.
+        """
+        before: State = (self._scene, self._force)
+        after: State = (scene, self._force if force is None else force)
+        if after == before:
             return
         last, new = self._last_step(), None
         if last is None or gesture == NO_GESTURE or gesture != last.gesture:
-            new = _Step(self, self._scene, scene, title, gesture)
+            new = _Step(self, before, after, title, gesture)
         else:
             # Not by QUndoCommand.mergeWith: PySide never frees a command that was merged.
-            last.after = scene
+            last.after = after
             if last.after == last.before:
                 last.setObsolete(True)  # a gesture that ends where it began is no step
                 self.undo_stack.undo()  # only removes the obsolete step
-        self._scene = scene
-        self.changed.emit(scene)
+        self._restore(after)
         if new is not None:
             self.undo_stack.push(new)
 
@@ -75,17 +124,21 @@ class SceneStore(QObject):
         step = self.undo_stack.command(index - 1)
         return step if isinstance(step, _Step) else None
 
-    def _restore(self, scene: Scene) -> None:
-        if scene != self._scene:  # equal where a step that was made already is pushed
-            self._scene = scene
+    def _restore(self, state: State) -> None:
+        # Both are equal where a step that was made already is pushed.
+        scene, force = state
+        is_new = scene != self._scene
+        self._scene = scene  # first, so that whoever hears of the settings reads both
+        self.settings.set_force(force)
+        if is_new:
             self.changed.emit(scene)
 
 
 class _Step(QUndoCommand):
-    """One step from a scene to another."""
+    """One step from a state to another."""
 
     def __init__(
-        self, store: SceneStore, before: Scene, after: Scene, title: str, gesture: int
+        self, store: SceneStore, before: State, after: State, title: str, gesture: int
     ) -> None:
         super().__init__(one_line(title).replace("&", "&&"))  # in a menu, & marks a shortcut
         self._store = store

@@ -1,5 +1,6 @@
 """Settings store: the current settings of the simulation, an immutable value."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal
@@ -55,11 +56,13 @@ class SettingsStore(QObject):
         """Change the source of the noise."""
         self._put(replace(self._settings, noise=noise))
 
-    def force(self, effect: str, included: bool | None) -> None:
-        """Switch an effect on or off, or leave it to the plan (None)."""
-        others = {name: on for name, on in self._settings.force.items() if name != effect}
-        by_hand = {} if included is None else {effect: included}
-        self._put(replace(self._settings, force={**others, **by_hand}))
+    def set_force(self, force: Mapping[str, bool]) -> None:
+        """Change which effects are forced; the scene store does it, as steps to undo."""
+        self._put(replace(self._settings, force=dict(force)))
+
+    def restore(self, settings: SimulationSettings) -> None:
+        """Change all settings but the forced effects to these."""
+        self._put(replace(settings, force=self._settings.force))
 
     def _put(self, settings: SimulationSettings) -> None:
         if settings != self._settings:

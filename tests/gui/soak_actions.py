@@ -144,7 +144,7 @@ class Monkey:
         settings = self._application.settings
         settings.set_tolerance(FIRST_SETTINGS.tolerance)
         for effect in NAMES:
-            settings.force(effect, None)
+            self._application.store.force(effect, None)
         self._application.store.put(scene, "home")
         self._show_a_photo_everywhere()
         self.close_the_photo()
@@ -196,7 +196,7 @@ class Monkey:
 
     def force_an_effect(self) -> None:
         included = self._random.choice([True, False, None, None])
-        self._application.settings.force(self._random.choice(NAMES), included)
+        self._application.store.force(self._random.choice(NAMES), included)
 
     def change_the_tolerance(self) -> None:
         self._application.settings.set_tolerance(10.0 ** self._random.uniform(-1.0, 2.0))

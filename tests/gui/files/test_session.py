@@ -67,7 +67,7 @@ def test_scene_settings_photo_and_options_are_there_again(
     with start() as application:
         application.store.change(iso=321.0)
         application.settings.set_tolerance(2.5)
-        application.settings.force("vignetting", True)
+        application.store.force("vignetting", True)
         application.open_photo(photo_file)
         qtbot.waitUntil(lambda: application.is_idle)
         application.window.actions_by_name["hold_brightness"].trigger()

@@ -204,3 +204,46 @@ def test_states_are_pinned_compared_and_restored_in_one_step(
     assert application.store.scene.camera.iso == 200.0
     compare.clear.click()
     assert application.learning.pins.pinned.a is None
+
+
+def test_effects_forced_by_hand_are_compared_and_returned_to(
+    application: Application, user: User
+) -> None:
+    pins = application.learning.pins
+    application.store.force("jpeg", True)
+    user.wait_until_idle()
+    pins.pin("A")
+    application.store.force("jpeg", None)
+    application.store.force("vignetting", False)
+    user.wait_until_idle()
+    pins.pin("B")
+    assert inputs(pins.pinned) == {"Effects by hand": ("JPEG on by hand", "Vignetting off by hand")}
+    pins.go_to("A")
+    user.wait_until_idle()
+    assert application.settings.settings.force == {"jpeg": True}
+    user.choose("&Undo")
+    assert application.settings.settings.force == {"vignetting": False}
+
+
+def test_a_pin_waits_for_the_results_of_the_present_scene(
+    application: Application, user: User
+) -> None:
+    pins = application.learning.pins
+    application.store.change(iso=200.0)
+    pins.pin("A")
+    assert pins.pinned.a is None
+    assert user.message == "A is pinned as soon as this scene is computed."
+    user.wait_until_idle()
+    pinned = pins.pinned.a
+    assert pinned is not None
+    assert pinned.scene.camera.iso == 200.0
+
+
+def test_a_scene_without_a_picture_is_not_pinned(application: Application, user: User) -> None:
+    pins = application.learning.pins
+    application.store.change(distance=0.1, yaw=1.2)
+    pins.pin("A")
+    user.wait_until_idle()
+    application.store.undo_stack.undo()
+    user.wait_until_idle()
+    assert pins.pinned.a is None

@@ -153,3 +153,56 @@ def test_gestures_have_numbers_that_qt_can_merge_by() -> None:
     assert len(set(numbers)) == 3
     assert NO_GESTURE not in numbers
     assert all(0 <= number < 2**31 for number in numbers)
+
+
+def test_effects_forced_by_hand_are_undone_and_redone(
+    store: SceneStore, told: list[Scene], small_scene: Scene
+) -> None:
+    store.force("jpeg", False)
+    store.force("vignetting", True)
+    store.force("jpeg", None)
+    forced = [dict(store.settings.settings.force)]
+    for _ in range(3):
+        store.undo_stack.undo()
+        forced.append(dict(store.settings.settings.force))
+    assert forced == [
+        {"vignetting": True}, {"jpeg": False, "vignetting": True}, {"jpeg": False}, {}
+    ]  # fmt: skip
+    store.undo_stack.redo()
+    assert store.settings.settings.force == {"jpeg": False}
+    assert "JPEG off by hand" in store.undo_stack.undoText()
+    assert (told, store.scene) == ([], small_scene)
+
+
+def test_one_step_changes_scene_and_forced_effects_together(
+    store: SceneStore, small_scene: Scene
+) -> None:
+    store.force("jpeg", False)
+    states: list[tuple[Scene, dict[str, bool]]] = []
+    for source in (store, store.settings):
+        source.changed.connect(
+            lambda _: states.append((store.scene, dict(store.settings.settings.force)))
+        )
+    other = small_scene.replace(iso=200.0)
+    store.put(other, "another scene", force={})
+    store.undo_stack.undo()
+    assert states == [(other, {})] * 2 + [(small_scene, {"jpeg": False})] * 2
+
+
+def test_releasing_all_effects_is_one_step(store: SceneStore) -> None:
+    store.force("jpeg", False)
+    store.force("vignetting", True)
+    store.release_effects()
+    assert store.settings.settings.force == {}
+    store.undo_stack.undo()
+    assert store.settings.settings.force == {"jpeg": False, "vignetting": True}
+
+
+def test_a_change_of_the_scene_keeps_the_forced_effects(store: SceneStore) -> None:
+    store.force("jpeg", False)
+    gesture = new_gesture()
+    store.change(gesture, iso=200.0)
+    store.change(gesture, iso=300.0)
+    assert store.settings.settings.force == {"jpeg": False}
+    store.undo_stack.undo()
+    assert store.settings.settings.force == {"jpeg": False}

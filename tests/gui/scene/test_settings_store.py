@@ -30,9 +30,9 @@ def test_each_change_is_emitted_once_and_leaves_the_rest(told: Told) -> None:
     told.store.set_tolerance(2.0)
     told.store.set_observable("profile")
     told.store.set_noise("exact")
-    told.store.force("jpeg", True)
-    told.store.force("flicker", False)
-    told.store.force("jpeg", None)
+    told.store.set_force({"jpeg": True})
+    told.store.set_force({"jpeg": True, "flicker": False})
+    told.store.set_force({"flicker": False})
     assert told.store.settings == SimulationSettings(2.0, "profile", {"flicker": False}, "exact")
     assert told.changes[-1] == told.store.settings
     assert len(told.changes) == 6
@@ -42,14 +42,15 @@ def test_a_setting_that_holds_already_is_not_emitted(told: Told) -> None:
     told.store.set_tolerance(told.store.settings.tolerance)
     told.store.set_observable("image")
     told.store.set_noise("reused")
-    told.store.force("jpeg", None)
+    told.store.set_force({})
     assert told.changes == []
 
 
 def test_settings_once_emitted_never_change(told: Told) -> None:
-    told.store.force("jpeg", True)
+    force = {"jpeg": True}
+    told.store.set_force(force)
     before = told.changes[0]
-    told.store.force("jpeg", False)
+    force["jpeg"] = False
     assert before.force == {"jpeg": True}
 
 
@@ -62,3 +63,9 @@ def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
     assert sentence.startswith("tolerance is ")
     assert sentence.endswith(".")
     assert told.changes == []
+
+
+def test_settings_are_restored_without_the_forced_effects(told: Told) -> None:
+    told.store.set_force({"jpeg": True})
+    told.store.restore(SimulationSettings(2.0, "profile", {"flicker": False}, "exact"))
+    assert told.store.settings == SimulationSettings(2.0, "profile", {"jpeg": True}, "exact")

@@ -36,8 +36,8 @@ class Bench:
     """A store and a controller on two mock views."""
 
     def __init__(self, scene: Scene, qtbot: QtBot) -> None:
-        self.store = SceneStore(scene)
         self.settings = SettingsStore()
+        self.store = SceneStore(scene, self.settings)
         self.views = (RecordingView(), RecordingView())
         self.controller = SimulationController(self.store, self.settings)
         self.controller.show_in(self.views)
@@ -77,12 +77,12 @@ def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None
 def test_every_change_of_settings_ends_with_a_picture_of_them(bench: Bench) -> None:
     bench.settings.set_tolerance(50.0)
     bench.settings.set_observable("profile")
-    bench.settings.force("jpeg", True)
+    bench.store.force("jpeg", True)
     bench.wait_until_idle()
     frame = bench.views[0].shown[-1].frame
     assert (frame.plan.tolerance, frame.plan.observable) == (50.0, "profile")
     assert frame.plan.included == ("jpeg",)
-    bench.settings.force("jpeg", None)
+    bench.store.force("jpeg", None)
     bench.wait_until_idle()
     assert bench.views[0].shown[-1].frame.plan.included == ()
 

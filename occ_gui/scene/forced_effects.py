@@ -1,0 +1,64 @@
+"""Forced effects: a line that lists the effects switched by hand, and gives them back."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QCoreApplication, Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+
+from occ_model.effects.registry import EFFECTS
+
+
+def switch_text(effect: str, included: bool | None) -> str:
+    """Say in words how an effect is switched: on or off by hand, or by the plan (None)."""
+    labels = {known.name: known.label for known in EFFECTS}
+    texts = {
+        True: QCoreApplication.translate("ForcedEffects", "{effect} on by hand"),
+        False: QCoreApplication.translate("ForcedEffects", "{effect} off by hand"),
+        None: QCoreApplication.translate("ForcedEffects", "{effect} as planned"),
+    }
+    return texts[included].format(effect=labels[effect])
+
+
+def forced_text(force: Mapping[str, bool]) -> str:
+    """List the effects that are switched by hand, in the order that light travels.
+
+    Parameters
+    ----------
+    force
+        The effects' names, and whether each is on.
+    """
+    names = (effect.name for effect in EFFECTS if effect.name in force)
+    return ", ".join(switch_text(name, force[name]) for name in names)
+
+
+class ForcedEffects(QWidget):
+    """The effects that are switched by hand, with a button that leaves them to the plan again.
+
+    It is hidden while there are none.
+    """
+
+    released = Signal()
+    """The user leaves all effects to the plan."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text.setAccessibleName(self.tr("Effects switched by hand"))
+        self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
+        self.back = QPushButton(self.tr("Back to the plan"))
+        self.back.setToolTip(
+            self.tr("Let the plan decide on these effects again, as one step that can be undone.")
+        )
+        self.back.clicked.connect(self.released)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.text, 1)
+        layout.addWidget(self.back, 0, Qt.AlignmentFlag.AlignTop)
+        self.hide()
+
+    def show_force(self, force: Mapping[str, bool]) -> None:
+        """List these effects; the names of those that are on are mapped to True."""
+        self.text.setText(forced_text(force))
+        self.setVisible(bool(force))

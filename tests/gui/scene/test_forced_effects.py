@@ -1,0 +1,84 @@
+"""Effects switched by hand are listed where they are seen, and one click ends them all."""
+
+import pytest
+from gui.user import User
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.app.application import Application
+from occ_gui.scene.forced_effects import forced_text
+from occ_model.effects.registry import EFFECTS
+
+
+def forced(application: Application) -> dict[str, bool]:
+    return dict(application.settings.settings.force)
+
+
+@pytest.fixture
+def by_hand(application: Application, user: User) -> Application:
+    """Switch two effects by hand."""
+    application.store.force("jpeg", False)
+    application.store.force("vignetting", True)
+    user.wait_until_idle()
+    return application
+
+
+def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
+    assert forced_text({"jpeg": False, "vignetting": True}) == (
+        "Vignetting on by hand, JPEG off by hand"
+    )
+    everything = forced_text({effect.name: True for effect in EFFECTS})
+    assert everything.split(", ") == [f"{effect.label} on by hand" for effect in EFFECTS]
+
+
+def test_the_list_is_seen_while_effects_are_forced(application: Application, user: User) -> None:
+    listed = application.controls.forced
+    assert not listed.isVisible()
+    application.store.force("jpeg", False)
+    assert listed.isVisible()
+    assert listed.text.text() == "JPEG off by hand"
+    user.choose("&Undo")
+    assert not listed.isVisible()
+
+
+def test_a_click_gives_all_effects_back_to_the_plan(by_hand: Application, user: User) -> None:
+    by_hand.controls.forced.back.click()
+    user.wait_until_idle()
+    assert forced(by_hand) == {}
+    assert not by_hand.controls.forced.isVisible()
+    assert by_hand.accuracy.table._force == {}
+    user.choose("&Undo")
+    assert forced(by_hand) == {"jpeg": False, "vignetting": True}
+
+
+def test_another_preset_ends_the_forced_effects(by_hand: Application, user: User) -> None:
+    name = user.choose_next_preset()
+    assert by_hand.store.scene == occ.load_preset(name)
+    assert forced(by_hand) == {}
+    user.choose("&Undo")
+    assert forced(by_hand) == {"jpeg": False, "vignetting": True}
+
+
+def test_reset_ends_the_forced_effects(by_hand: Application, user: User) -> None:
+    user.choose("Reset &scene")
+    assert forced(by_hand) == {}
+
+
+def test_reset_of_the_scene_it_already_is_ends_them_too(
+    application: Application, user: User
+) -> None:
+    user.choose("Reset &scene")
+    application.store.force("jpeg", True)
+    user.choose("Reset &scene")
+    assert forced(application) == {}
+
+
+def test_a_preset_is_simulated_once_without_the_forced_effects(
+    by_hand: Application, user: User, qtbot: QtBot
+) -> None:
+    simulated: list[dict[str, bool]] = []
+    by_hand.simulation.snapshot_shown.connect(
+        lambda snapshot: simulated.append(dict(snapshot.request.settings.force))
+    )
+    user.choose_next_preset()
+    assert simulated == [{}]

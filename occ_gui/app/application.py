@@ -4,11 +4,10 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QSettings
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QMessageBox
 
-import occ_model as occ
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.app.about import show_about
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
@@ -98,6 +97,8 @@ class Application(QObject):
         self.outdated.mark_picture(self.image.simulation)
         self.outdated.mark_results(self.profile, self.decode, self.accuracy.effects)
         self.learning.exposure_made.connect(self.outdated.mark_results)
+        # Before the session is written.
+        self.window.closing.connect(self._end_exploration)
         self.desktop = Desktop(self)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
@@ -172,7 +173,7 @@ class Application(QObject):
             "save_match": self.presets.ask_to_save_match,
             "use_settings": self.photo_wiring.matching.use_notes,
             "fit": self.image.fit,
-            "about": self._show_about,
+            "about": lambda: show_about(self.window),
         }.items():
             self.window.actions_by_name[name].triggered.connect(slot)
         menus = self.window.menus
@@ -281,15 +282,9 @@ class Application(QObject):
             self._match_next = False
             self.photo_wiring.matching.apply()
 
-    def _show_about(self) -> None:
-        QMessageBox.about(
-            self.window,
-            self.tr("About"),
-            self.tr(
-                "Optical Camera Communication {version}\n\nSimulates the pictures that a rolling-"
-                "shutter camera takes of a blinking LED panel, and decodes the code in them."
-            ).format(version=occ.__version__),
-        )
+    def _end_exploration(self) -> None:
+        self.simulation.stop()  # of the scene that is restored no picture is needed
+        self.learning.end_exploration()
 
     def stop(self) -> None:
         """Stop all work in the background."""

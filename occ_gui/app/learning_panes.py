@@ -128,6 +128,11 @@ class LearningPanes(QObject):
         controller.pane_wanted.connect(self._window.bring_to_front)
         return controller
 
+    def end_exploration(self) -> None:
+        """Restore what the user was working on, if an exploration is under way."""
+        if "explorations" in vars(self):
+            self.explorations.restore_user()
+
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Pass new results on to the panes and controllers that use them."""
         self._snapshot = snapshot

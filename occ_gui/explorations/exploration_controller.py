@@ -1,6 +1,7 @@
 """Exploration controller: each step sets its scene, opens its photo and shows its pane."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
@@ -10,10 +11,13 @@ from occ_gui.files.file_controller import sample_photos
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results.teaching import Exploration, Step
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.teaching.explorations import explorations
 
 
@@ -29,8 +33,28 @@ class ExplorationPane(Protocol):
         """Show a step of an exploration."""
 
 
+@dataclass(frozen=True, slots=True)
+class UserState:
+    """What the user was working on before an exploration began.
+
+    Parameters
+    ----------
+    scene, settings
+        The scene, and the settings of its simulation with the forced effects.
+    photo
+        The photo that was open, if any.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
+    photo: Path | None
+
+
 class ExplorationController(QObject):
     """Goes from step to step, and keeps the steps reached while the window is open.
+
+    An exploration begins with the window's first settings and no forced effects; when it ends,
+    the user's own scene, settings and photo are restored.
 
     Parameters
     ----------
@@ -58,6 +82,7 @@ class ExplorationController(QObject):
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
         self._open: Path | None = None
+        self._user: UserState | None = None
         photos.opened.connect(self._note_photo)
 
     def set_seen(self, seen: bool) -> None:
@@ -79,6 +104,7 @@ class ExplorationController(QObject):
         """Continue an exploration at the step reached."""
         for exploration in self._all:
             if exploration.name == name:
+                self._begin()
                 self._current = exploration
                 self._go(self._places.get(name, 0))
 
@@ -96,9 +122,31 @@ class ExplorationController(QObject):
         self.leave()
 
     def leave(self) -> None:
-        """Return to the list; the step reached is kept."""
+        """End the exploration and return to the list; the step reached is kept."""
         self._current = None
+        self.restore_user()
         self._pane.list_explorations(self._all, self._places | self._done, "")
+
+    def _begin(self) -> None:
+        if self._user is None:
+            settings = self._scenes.settings.settings
+            self._user = UserState(self._scenes.scene, settings, self._open)
+            self._scenes.settings.restore(FIRST_SETTINGS)
+
+    def restore_user(self) -> None:
+        """Restore what the user was working on; the scene in one step that can be undone."""
+        user, self._user = self._user, None
+        if user is None:
+            return
+        self._scenes.settings.restore(user.settings)
+        title = self.tr("end of the exploration")
+        self._scenes.put(user.scene, title, new_gesture(), force=user.settings.force)
+        if self._open == user.photo or self._open not in {None, *sample_photos()}:
+            return  # a photo that the user has opened meanwhile stays
+        if user.photo is None:
+            self._photos.close()
+        else:
+            self._photos.open(user.photo)
 
     def set_again(self) -> None:
         """Set the scene of the step again, undoing all changes to it."""
@@ -119,7 +167,7 @@ class ExplorationController(QObject):
         title = self.tr("step {number} of “{title}”").format(
             number=place + 1, title=exploration.title
         )
-        self._scenes.put(step.scene, title, new_gesture())
+        self._scenes.put(step.scene, title, new_gesture(), force={})
         self._open_photo(step)
         if step.pane:
             self.pane_wanted.emit(step.pane)

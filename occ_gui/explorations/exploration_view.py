@@ -94,7 +94,9 @@ class ExplorationView(QWidget):
         return page
 
     def _make_buttons(self) -> QVBoxLayout:
-        self.all = _button(self.tr("All"), self.tr("Go back to the list of explorations."))
+        self.all = _button(
+            self.tr("All"), self.tr("Go back to the list of explorations, and to your own scene.")
+        )
         self.back = _button(self.tr("Back"), self.tr("Go to the step before, and set its scene."))
         self.next = _button(self.tr("Next"), self.tr("Go to the next step, and set its scene."))
         self.again = _button(
@@ -123,7 +125,7 @@ class ExplorationView(QWidget):
             _set(failure)
             or self.tr(
                 "Choose an exploration. Each step sets a scene and asks a question that you answer "
-                "by trying."
+                "by trying. At the end your own scene returns."
             )
         )
         for button in self.choices:

@@ -12,6 +12,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
 from occ_gui.explorations import exploration_controller
 from occ_gui.explorations.exploration_view import ExplorationView
+from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
@@ -212,3 +213,69 @@ def test_the_list_follows_the_theme(application: Application, guide: Exploration
         picture = guide.choices[0].grab().toImage()
         back = picture.pixelColor(picture.width() - 12, picture.height() // 2)
         assert (back.lightness() > 128) == is_light, theme
+
+
+@pytest.mark.parametrize("how", ["all", "done"])
+def test_an_exploration_has_a_state_of_its_own_and_returns_the_users(
+    application: Application, guide: ExplorationView, user: User, small_scene: Scene, how: str
+) -> None:
+    application.settings.set_tolerance(7.0)
+    application.settings.set_noise("exact")
+    application.store.force("jpeg", True)
+    mine = application.settings.settings
+    guide.choices[0].click()
+    user.wait_until_idle()
+    assert application.settings.settings == FIRST_SETTINGS
+    application.store.force("vignetting", True)
+    application.store.change(distance=2.0)
+    guide.next.click()
+    assert application.settings.settings == FIRST_SETTINGS
+    if how == "all":
+        guide.all.click()
+    else:
+        guide.next.click()
+        guide.next.click()
+    user.wait_until_idle()
+    assert (application.store.scene, application.settings.settings) == (small_scene, mine)
+    assert "end of the exploration" in user.entry("&Undo").text()
+
+
+def test_the_users_photo_returns_after_an_exploration(
+    application: Application, guide: ExplorationView, user: User, photo_file: Any
+) -> None:
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    guide.choices[4].click()
+    user.wait_until_idle()
+    assert application.desktop._photo != photo_file
+    guide.all.click()
+    user.wait_until_idle()
+    assert application.desktop._photo == photo_file
+
+
+def test_a_photo_opened_during_an_exploration_stays_open(
+    application: Application, guide: ExplorationView, user: User, photo_file: Any
+) -> None:
+    guide.choices[1].click()
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    guide.all.click()
+    user.wait_until_idle()
+    assert application.desktop._photo == photo_file
+
+
+def test_a_window_closed_during_an_exploration_keeps_the_users_scene(
+    application: Application,
+    guide: ExplorationView,
+    user: User,
+    small_scene: Scene,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    written: list[Scene] = []
+    autosave = application.desktop.autosave
+    monkeypatch.setattr(autosave, "end", lambda: written.append(application.store.scene))
+    guide.choices[0].click()
+    user.wait_until_idle()
+    assert application.store.scene != small_scene
+    application.window.close()
+    assert written == [small_scene]

@@ -46,6 +46,9 @@ class MatchForm(QWidget):
     edited = Signal(str, object, int)
     """A known value was entered: name, value in SI units, and the number of the gesture."""
 
+    certain_changed = Signal(object)
+    """The known values that the user has confirmed for this photo, in SI units by name."""
+
     cancelled = Signal()
     refused = Signal(str)
     """Why an entered value is refused."""
@@ -53,6 +56,7 @@ class MatchForm(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._scene: Scene | None = None
+        self._certain: dict[str, float] = {}
         self.sent = KeyedComboBox(
             self.tr("What was sent"),
             self.tr(
@@ -90,7 +94,7 @@ class MatchForm(QWidget):
         self._lay_out()
         self.sent.chosen.connect(self._show_known)
         self.estimate.chosen.connect(self._show_known)
-        self.square.edited.connect(self._show_known)
+        self.square.edited.connect(self._confirm_square)
         self.square.refused.connect(self.refused)
         self._show_known()
 
@@ -106,9 +110,44 @@ class MatchForm(QWidget):
             field.edited.connect(lambda value, name=name: self._edit(name, value))
             field.refused.connect(self.refused)
         self.hint = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.certain = QCheckBox(self.tr("certain"))
+        self.certain.setToolTip(
+            self.tr(
+                "Whether this value is known of this photo. What is found with a value that is "
+                "only assumed is stated with the assumption. A value that you enter here is "
+                "certain."
+            )
+        )
+        self.certain.clicked.connect(self._click_certain)
 
     def _edit(self, name: str, value: float) -> None:
+        self._set_certain(name, value)
         self.edited.emit(name, value, new_gesture())
+
+    def _confirm_square(self, cycles: float) -> None:
+        self._set_certain(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
+
+    def _known_name(self) -> str:
+        """Return which of frequency and readout time is known."""
+        return next(name for name in KNOWN if name != self.estimate.key())
+
+    def _click_certain(self, certain: bool) -> None:
+        name = self._known_name()
+        self._set_certain(name, self.known[name].value() if certain else None)
+
+    def _set_certain(self, name: str, value: float | None) -> None:
+        if value is None:
+            self._certain.pop(name, None)
+        else:
+            self._certain[name] = value
+        self._show_known()
+        self.certain_changed.emit(dict(self._certain))
+
+    def forget_certain(self) -> None:
+        """Take no value as confirmed: another photo is open."""
+        self._certain.clear()
+        self._show_known()
+        self.certain_changed.emit({})
 
     def _make_run(self) -> None:
         self.start = QPushButton(self.tr("&Match photo"))
@@ -134,6 +173,7 @@ class MatchForm(QWidget):
         known = QHBoxLayout()
         for field in self.known.values():
             known.addWidget(field)
+        known.addWidget(self.certain)
         known.addWidget(self.hint, 1)
         grid.addWidget(QLabel(self.tr("Known")), 2, 0)
         grid.addLayout(known, 2, 1, 1, 2)
@@ -192,6 +232,8 @@ class MatchForm(QWidget):
                 field.set_value(float(self._scene.value(name)))
         if square:
             self.known[_FREQUENCY].set_value(CHIPS_OF_A_CYCLE * self.square.value())
+        name = self._known_name()
+        self.certain.setChecked(self._certain.get(name) == self.known[name].value())
         blinking = self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE
         self.hint.set_full_text(
             self.tr("chips: a blinking LED of {cycles}").format(cycles=HERTZ.format(blinking, 4))

@@ -1,6 +1,7 @@
 """Result of a match: estimates with their uncertainties, quality of the fit, and their use."""
 
 import math
+from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontDatabase
@@ -53,6 +54,7 @@ class MatchResult(QWidget):
             label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setWordWrap(name != "pattern")
             label.setAccessibleName(title)
             self.values[name] = label
             self._form.addRow(title, label)
@@ -61,6 +63,7 @@ class MatchResult(QWidget):
         self._match: Match | None = None
         self._scene: Scene | None = None
         self._given = math.nan
+        self._certain: Mapping[str, float] = {}
         self.stale = QLabel()
         self.stale.setWordWrap(True)
         self.stale.setTextFormat(Qt.TextFormat.PlainText)
@@ -99,7 +102,7 @@ class MatchResult(QWidget):
             **estimates,
             "others": self.tr("or exposed for"),
             "chip": self.tr("Chip length"),
-            "correlation": self.tr("Correlation"),
+            "correlation": self.tr("Correlation of fit"),
             "saturated": self.tr("Saturated"),
             "pattern": self.tr("Pattern"),
         }
@@ -110,6 +113,15 @@ class MatchResult(QWidget):
         if self._scene is not None:
             self._given = float(self._scene.value(_known_of(match)))
         self._show_stale()
+        self._show_values(match)
+
+    def show_certain(self, certain: Mapping[str, float]) -> None:
+        """Show which known values, in SI units by name, are confirmed and not only assumed."""
+        self._certain = certain
+        if self._match is not None:
+            self._show_values(self._match)
+
+    def _show_values(self, match: Match) -> None:
         for name, text in (self._estimates(match) | self._quality(match)).items():
             label = self.values[name]
             if isinstance(label, ElidedLabel):
@@ -140,19 +152,36 @@ class MatchResult(QWidget):
     def _estimates(self, match: Match) -> dict[str, str]:
         """Format the estimates and the given value; empty for a gamma that was not fitted."""
         texts = {}
+        condition = self._condition(match)
+        given = {name: self.tr("{value} (given)") for name in _ESTIMATES if name != "gamma"}
+        if condition:
+            given[_known_of(match)] = self.tr("{value} (assumed)")
         for name in _ESTIMATES:
             spread = match.uncertainties.get(name)
             texts[name] = with_uncertainty(quantity(name), getattr(match, name), spread)
             if spread is None:
-                known = name != "gamma"
-                texts[name] = self.tr("{value} (given)").format(value=texts[name]) if known else ""
+                texts[name] = given.get(name, "").format(value=texts[name])
+            elif name != "gamma":  # of the shape of the stripes, not of their timing
+                texts[name] = condition + texts[name]
         if len(match.pattern) == CHIPS_OF_A_CYCLE:
             # A blinking LED is specified by its cycles, not by its chips.
             cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, 4)
             texts["switching_frequency"] += self.tr(": blinks at {cycles}").format(cycles=cycles)
         exposure = quantity("exposure_time")
         others = (exposure.format(t, 4) for t in match.other_exposures)
-        return {**texts, "others": self.tr(" or ").join(others)}
+        other = self.tr(" or ").join(others)
+        return {**texts, "others": condition + other if other else ""}
+
+    def _condition(self, match: Match) -> str:
+        """Name the value that the estimates of time rest on, unless the user is certain of it."""
+        name = _known_of(match)
+        value, confirmed = float(getattr(match, name)), self._certain.get(name, math.nan)
+        if math.isclose(value, confirmed, rel_tol=1e-9):
+            return ""
+        known = quantity(name)
+        return self.tr("if {symbol} = {value}: ").format(
+            symbol=known.symbol, value=known.format(value)
+        )
 
     def _quality(self, match: Match) -> dict[str, str]:
         columns = 1.0 / (match.switching_frequency * match.readout_time)

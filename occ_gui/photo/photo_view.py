@@ -1,5 +1,7 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
+from pathlib import Path
+
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
@@ -48,6 +50,8 @@ class PhotoView(QWidget):
         layout.addWidget(self._pages)
         self.failure.hide()
         self.result.hide()
+        self._path: Path | None = None
+        self.form.certain_changed.connect(self.result.show_certain)
 
     def _make_invitation(self) -> QWidget:
         page = QWidget()
@@ -88,6 +92,10 @@ class PhotoView(QWidget):
         """Show this photo in place of the previous one, or none."""
         self._pages.setCurrentIndex(0 if photo is None else 1)
         self.failure.hide()
+        path = None if photo is None else photo.path
+        if path != self._path:  # else the same photo is read in another way
+            self._path = path
+            self.form.forget_certain()
         if photo is not None:
             self.facts.show_photo(photo)
 

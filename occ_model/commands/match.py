@@ -67,7 +67,7 @@ def _run(options: argparse.Namespace) -> int:
             fit_gamma=options.fit_gamma,
             progress=lambda share: bar.update(share - bar.n),
         )
-    for line in _report(match):
+    for line in _report(match, _assumption(match, options)):
         print(line)
     if options.out:
         write_scene_file(options.out, match.scene)
@@ -81,8 +81,21 @@ def _square_wave(scene: Scene, text: str) -> Scene:
     return scene.replace(pattern="10", switching_frequency=2.0 * float(frequency))
 
 
-def _report(match: Match) -> list[str]:
-    lines = [f"{name:22}{_with_uncertainty(match, name)}" for name in _ESTIMATED]
+def _assumption(match: Match, options: argparse.Namespace) -> str:
+    """Name the value that the estimates of time rest on, unless the command line states it."""
+    name = next(name for name in ESTIMATES if name not in match.uncertainties)
+    stated = {setting.partition("=")[0].strip() for setting in options.settings}
+    if options.led_frequency is not None:
+        stated.add("switching_frequency")
+    if name in stated:
+        return ""
+    known = PARAMETERS[name]
+    assert isinstance(known, Quantity)  # noqa: S101 - both are
+    return f"if {name} = {known.format(getattr(match, name))}: "
+
+
+def _report(match: Match, assumption: str) -> list[str]:
+    lines = [f"{name:22}{_with_uncertainty(match, name, assumption)}" for name in _ESTIMATED]
     how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
     chip = 1.0 / (match.switching_frequency * match.readout_time)
     region, stripes = match.region, match.stripes
@@ -104,17 +117,20 @@ def _report(match: Match) -> list[str]:
     if match.other_exposures:
         unit = PARAMETERS["exposure_time"]
         others = ", ".join(unit.format(t) for t in match.other_exposures)  # type: ignore[arg-type]
-        lines.append(f"{'or as well exposed':22}{others}")
+        lines.append(f"{'or as well exposed':22}{assumption}{others}")
     return lines
 
 
-def _with_uncertainty(match: Match, name: str) -> str:
-    """Write an estimate with its standard deviation, in the estimate's own unit."""
+def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
+    """Write an estimate with its standard deviation in its own unit, and what it rests on."""
     quantity = PARAMETERS[name]
     assert isinstance(quantity, Quantity)  # noqa: S101 - all that is estimated is one
     value = getattr(match, name)
     deviation = match.uncertainties.get(name)
     if deviation is None:
-        return f"{quantity.format(value)} (known)"
+        how = "assumed" if assumption and name in ESTIMATES else "known"
+        return f"{quantity.format(value)} ({how})"
     symbol, factor = quantity.unit.display(value)
-    return f"{value / factor:.6g} ± {deviation / factor:.2g} {symbol}".rstrip()
+    text = f"{value / factor:.6g} ± {deviation / factor:.2g} {symbol}".rstrip()
+    # Gamma is found from the shape of the stripes, not from their timing.
+    return text if name == "gamma" else assumption + text

@@ -132,3 +132,38 @@ def test_a_running_match_shows_progress_and_a_cancel_button(
         qtbot.mouseClick(form.cancel, Qt.MouseButton.LeftButton)
     view.show_match_cancelled()
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
+
+
+def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(occ.Scene().replace(switching_frequency=7e3))
+    told: list[dict[str, float]] = []
+    view.form.certain_changed.connect(told.append)
+    assert not view.form.certain.isChecked()
+    qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
+    view.show_scene(occ.Scene().replace(switching_frequency=8e3))  # by a slider, say
+    assert not view.form.certain.isChecked()
+    field = view.form.known["switching_frequency"]
+    field.selectAll()
+    qtbot.keyClicks(field, "9 kHz\r")
+    view.show_scene(occ.Scene().replace(switching_frequency=9e3))
+    assert view.form.certain.isChecked()
+    choose(qtbot, view.form.estimate, "switching_frequency")
+    assert not view.form.certain.isChecked()
+    choose(qtbot, view.form.estimate, "readout_time")
+    qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
+    assert told == [{"switching_frequency": 7e3}, {"switching_frequency": 9e3}, {}]
+
+
+def test_the_frequency_of_a_square_wave_is_certain_once_entered(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    choose(qtbot, view.form.sent, "square")
+    assert not view.form.certain.isChecked()
+    view.form.square.selectAll()
+    qtbot.keyClicks(view.form.square, "1.5 kHz\r")
+    assert view.form.certain.isChecked()
+    assert view.form._certain == {"switching_frequency": 3e3}

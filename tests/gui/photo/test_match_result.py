@@ -21,6 +21,7 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:
     view.show_photo(photo)
+    view.result.show_certain({"switching_frequency": 2e3})
     view.show_match(match)
     texts = {name: label.text() for name, label in view.result.values.items()}
     assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
@@ -38,7 +39,7 @@ def test_a_blinking_led_is_described_by_its_cycles_too(
     view.show_photo(photo)
     view.show_match(replace(match, pattern="10"))
     text = view.result.values["switching_frequency"].text()
-    assert text == "2 kHz (given): blinks at 1 kHz"
+    assert text == "2 kHz (assumed): blinks at 1 kHz"
 
 
 def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, match: Match) -> None:
@@ -48,7 +49,7 @@ def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, matc
         view.show_match(shown)
         titles = [label.text() for label in view.result.findChildren(QLabel) if label.isVisible()]
         assert ("Gamma" in titles) == there
-        assert ("1 ms or 2 ms" in titles) == there
+        assert ("if f = 2 kHz: 1 ms or 2 ms" in titles) == there
 
 
 @pytest.mark.parametrize(
@@ -85,3 +86,41 @@ def test_without_a_match_there_is_nothing_to_apply(
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
     view.show_match(None)
     assert not view.result.isVisible()
+
+
+def estimates(view: PhotoView) -> list[str]:
+    names = ("readout_time", "switching_frequency", "exposure_time")
+    return [view.result.values[name].text() for name in names]
+
+
+def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
+    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(match.scene.replace(switching_frequency=2e3))
+    view.show_match(match)
+    assumed = [
+        "if f = 2 kHz: 14.57770 ± 0.00027 µs",
+        "2 kHz (assumed)",
+        "if f = 2 kHz: 62.50 ± 0.21 µs",
+    ]
+    assert estimates(view) == assumed
+    qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
+    assert estimates(view) == ["14.57770 ± 0.00027 µs", "2 kHz (given)", "62.50 ± 0.21 µs"]
+    view.show_photo(replace(photo, channel="red"))  # the same photo, read in another way
+    assert estimates(view)[1] == "2 kHz (given)"
+    view.show_photo(replace(photo, path=photo.path.with_name("another.png")))
+    assert estimates(view) == assumed
+
+
+def test_a_frequency_that_rests_on_a_readout_time_says_so(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    spreads = {"switching_frequency": 1.0, "exposure_time": 2e-7, "gamma": 0.05}
+    view.show_match(replace(match, uncertainties=spreads))
+    readout, frequency, exposure = estimates(view)
+    assert readout == "14.5777 µs (assumed)"
+    assert frequency.startswith("if t_r = 14.5777 µs: 2.0000 ± 0.0010 kHz")
+    assert exposure.startswith("if t_r = ")
+    assert not view.result.values["gamma"].text().startswith("if ")

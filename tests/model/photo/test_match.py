@@ -173,11 +173,23 @@ class TestCommand:
         fitted = tmp_path / "fitted.toml"
         assert main(["match", str(file), "--scene", str(known), "--out", str(fitted)]) == 0
         lines = capsys.readouterr().out
-        assert re.search(r"readout_time +[\d.]+ ± [\d.e-]+ µs", lines)
-        assert re.search(r"switching_frequency .*\(known\)", lines)
+        assumed = r"if switching_frequency = [\d.]+ kHz: "
+        assert re.search(rf"readout_time +{assumed}[\d.]+ ± [\d.e-]+ µs", lines)
+        assert re.search(rf"exposure_time +{assumed}", lines)
+        assert re.search(r"switching_frequency .*\(assumed\)", lines)
         assert re.search(r"correlation +0\.9\d", lines)
         scene = occ.Scene.from_toml(fitted.read_text(encoding="utf-8"))
         assert scene.camera.readout_time == pytest.approx(SCENE.camera.readout_time, rel=1e-3)
+
+    def test_what_rests_on_a_value_that_is_stated_has_no_condition(
+        self, file: Path, known: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        stated = f"switching_frequency={KNOWN.transmitter.switching_frequency} Hz"
+        assert main(["match", str(file), "--scene", str(known), "--set", stated]) == 0
+        lines = capsys.readouterr().out
+        assert re.search(r"readout_time +[\d.]+ ± [\d.e-]+ µs", lines)
+        assert re.search(r"switching_frequency .*\(known\)", lines)
+        assert "if switching" not in lines
 
     def test_a_square_wave_is_two_chips_a_cycle(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str]

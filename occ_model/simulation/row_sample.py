@@ -33,9 +33,12 @@ BANDS = 24
 _BESIDE = 6
 """Bands above the panel, and below it: they show its surroundings, and stray light."""
 
+_PAIRS = BANDS // 2
+"""Pairs of neighbouring bands, whose noise is opposite: its mean is nothing."""
+
 _STRIDE = 7
-"""Quantiles from a band to the next one: light varies from band to band, the noise not with it.
-Without a common divisor with the number of bands, so that each quantile is used once."""
+"""Quantiles from a pair to the next one: light varies from band to band, the noise not with it.
+Without a common divisor with the number of pairs, so that each quantile is used once."""
 
 _ENTRIES = 4096
 """Entries of the table of normal deviates."""
@@ -141,8 +144,9 @@ class SystematicNoise:
     """Noise whose values at one place of all bands are spread evenly over its distribution.
 
     At a row of a band and a column, the bands have quantiles in equal steps from a random first one
-    (systematic sampling). Within a band the numbers are independent, as drawn ones are: what a file
-    makes of a block is not changed. Effects share the numbers, scaled to their total deviation.
+    (systematic sampling), each also with the opposite sign (antithetic variates). Within a band the
+    numbers are independent, as drawn ones are: what a file makes of a block is not changed. Effects
+    share the numbers, scaled to their total deviation.
     """
 
     def __init__(
@@ -159,10 +163,12 @@ class SystematicNoise:
         """Return the deviations of the next rows."""
         place = self._row + np.arange(rows)
         self._row += rows
-        step = (place // BAND * _STRIDE % BANDS / BANDS).astype(np.float32)
+        band = place // BAND
+        step = (band // 2 * _STRIDE % _PAIRS / _PAIRS).astype(np.float32)
         quantile = self._first[place % BAND] + step[:, None]
         entry = (quantile * _ENTRIES).astype(np.int32) % _ENTRIES
         total: Pixels = _deviates()[entry]
+        total[band % 2 == 1] *= np.float32(-1.0)
         total *= pixel_spread(self._effects, self._scene, values)
         self._stage_ended(self._effects[-1].name)  # all noises at once
         return total

@@ -7,7 +7,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.background.signals import JobChannel, WorkQueue
-from occ_gui.detection_map.worker import advise, rate_settings
+from occ_gui.detection_map.worker import advise, left_out, rate_settings
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -27,8 +27,8 @@ IMAGES = 20
 LIMITED = ("switching_frequency", "exposure_time")
 """The parameters whose limits are searched."""
 
-_USUAL = 95
-"""Values that a search usually tries, from which its progress is estimated."""
+_USUAL = 550
+"""Images that a search usually reads, from which its progress is estimated."""
 
 _LOOK_MS = 100
 
@@ -47,7 +47,7 @@ class AdviceRequest:
     settings
         How the window simulates.
     with_image_effects
-        Whether whole images are made where the scene calls for them.
+        Whether rows of the picture are simulated where the scene calls for them.
     """
 
     scene: Scene
@@ -71,8 +71,8 @@ class AdviceRequest:
 class AdvicePane(Protocol):
     """A pane that shows advice."""
 
-    def show_advice_begun(self) -> None:
-        """Show that a search has begun."""
+    def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
+        """Show that a search has begun, and what it leaves out."""
 
     def show_advice_progress(self, share: float) -> None:
         """Show the share of the search that is done, from 0 to 1."""
@@ -119,7 +119,7 @@ class AdvisorController(QObject):
         super().__init__()
         self._scenes, self._settings = scenes, settings
         self._queue, self._channel, self._pane = queue, channel, pane
-        self._with_image_effects = False
+        self._with_image_effects = True
         self._advised: AdviceRequest | None = None
         self._counted = 0
         self._look = QTimer(self)
@@ -137,7 +137,7 @@ class AdvisorController(QObject):
         return self._channel.is_idle
 
     def use_image_effects(self, wanted: bool) -> None:
-        """Make whole images where the scene calls for them, or leave out what needs them."""
+        """Simulate rows of the picture where the scene needs them, or leave such effects out."""
         self._with_image_effects = wanted
         self._move_on()
 
@@ -148,7 +148,8 @@ class AdvisorController(QObject):
         """Search for the limits of the current scene."""
         request = self._advised = self._request()
         self._counted = self._count()
-        self._pane.show_advice_begun()
+        without = () if self._with_image_effects else left_out(request.scene, request.settings)
+        self._pane.show_advice_begun(without)
         self._channel.put(request, request.stages)
         self._look.start()
 
@@ -166,7 +167,7 @@ class AdvisorController(QObject):
         return sum(self._queue.counted(counter) for counter, _ in enumerate(DECODERS, 1))
 
     def _show_progress(self) -> None:
-        share = (self._count() - self._counted) / (_USUAL * IMAGES * len(DECODERS))
+        share = (self._count() - self._counted) / (_USUAL * len(DECODERS))
         self._pane.show_advice_progress(min(share, 0.99))
 
     def _take(self, _request: AdviceRequest, results: list[Advice]) -> None:

@@ -61,6 +61,10 @@ class AdviceSentences(QObject):
         lines.append(AdviceLine(self._confidence(advice.limits)))
         return lines
 
+    def left_out(self, effects: tuple[str, ...]) -> str:
+        """Say which of the scene's effects the advice leaves out."""
+        return self.tr("This advice leaves out: {effects}.").format(effects=", ".join(effects))
+
     def _nowhere(self, limits: Limits, found: WorkingRange) -> str:
         if found.best is None:
             return found.failure or ""
@@ -102,7 +106,14 @@ class AdviceSentences(QObject):
                 value=_formatted(end.parameter, end.fails.value), counted=self._counted(end.fails)
             )
         sentence = f"{text.format(value=value)}: {inside}, {beyond}."
-        return AdviceLine(sentence, (end.parameter, end.value, value))
+        if end.inside is None:
+            return AdviceLine(f"{sentence} {self.tr('No value near it is read without errors.')}")
+        place = _formatted(end.parameter, end.inside.value)
+        if end.inside != end.works:
+            sentence += " " + self.tr(
+                "At {value}, {margin:.1f} % inside, it read every bit of {images} images."
+            ).format(value=place, margin=end.margin, images=end.inside.images)
+        return AdviceLine(sentence, (end.parameter, end.inside.value, place))
 
     def _counted(self, trial: Trial) -> str:
         return self.tr("{right} of {sent} bits ({low:.1f} to {high:.1f} %)").format(
@@ -137,8 +148,8 @@ class AdviceSentences(QObject):
 
     def _confidence(self, found: Limits) -> str:
         return self.tr(
-            "Each value was tried with {images} images; the intervals contain the rate in 95 of "
-            "100 cases if bit errors are independent of each other."
+            "Each of these values was tried with {images} images; the intervals contain the rate "
+            "in 95 of 100 cases if bit errors are independent of each other."
         ).format(images=found.images)
 
 

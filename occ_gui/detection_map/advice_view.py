@@ -84,14 +84,16 @@ class AdviceView(QWidget):
         self.again.setVisible(not running)
         self.state.setVisible(not running)
 
-    def show_advice_begun(self) -> None:
-        """Remove the previous advice, and show that a search is running."""
+    def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
+        """Remove the previous advice, and show that a search is running and what it leaves out."""
         for line in self._lines:
             self._column.removeWidget(line)
             line.deleteLater()
         self._lines, self.destinations, self._parameters = [], [], []
         self.progress.setValue(0)
         self._show_running(True)
+        if left_out:
+            self._add(AdviceLine(self._sentences.left_out(left_out), is_title=True))
 
     def show_advice_progress(self, share: float) -> None:
         """Show the fraction of the search that is done, from 0 to 1."""

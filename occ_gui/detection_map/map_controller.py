@@ -11,11 +11,10 @@ from occ_gui.background.result_age import ResultAges
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
-from occ_gui.detection_map.worker import leaves_out
+from occ_gui.detection_map.worker import left_out
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
-from occ_model.errors import OccError
 from occ_model.parallel.job import Stage
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import SweepPoint
@@ -77,7 +76,7 @@ class MapRequest:
     settings
         How the window simulates.
     with_image_effects
-        Whether whole images are made where the scene calls for them.
+        Whether rows of the picture are simulated where the scene calls for them.
     """
 
     scene: Scene
@@ -95,7 +94,8 @@ class MapRequest:
             )
             for number in IMAGES
         )  # fmt: skip
-        return map_stages(requests, images, with_theory, self.with_image_effects)
+        slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
+        return map_stages(requests, images, with_theory, slow)
 
 
 class DetectionMapController(QObject):
@@ -118,7 +118,7 @@ class DetectionMapController(QObject):
         self._scenes, self._settings = scenes, settings
         self._channel, self._pane = channel, pane
         self._axes = FIRST_AXES
-        self._with_image_effects = False
+        self._with_image_effects = True
         self._seen = False
         self._asked: MapRequest | None = None
         self._shown: MapRequest | None = None
@@ -177,7 +177,7 @@ class DetectionMapController(QObject):
         self._move_on()
 
     def use_image_effects(self, wanted: bool) -> None:
-        """Make whole images where the scene calls for them, or leave out what needs them."""
+        """Simulate rows of the picture where the scene needs them, or leave such effects out."""
         self._with_image_effects = wanted
         self._move_on()
 
@@ -203,13 +203,8 @@ class DetectionMapController(QObject):
         return RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), tuple(DECODERS))
 
     def _show_left_out(self) -> None:
-        effects: tuple[str, ...] = ()
-        if not self._with_image_effects:
-            try:
-                effects = leaves_out(self._scenes.scene, self._settings.settings)
-            except OccError:  # there is no picture, which other panes say
-                effects = ()
-        self._pane.show_left_out(effects)
+        scene, settings = self._scenes.scene, self._settings.settings
+        self._pane.show_left_out(() if self._with_image_effects else left_out(scene, settings))
 
     def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
         if request != self._shown or self.map is None:

@@ -36,7 +36,7 @@ def map_request(
     decoders: tuple[str, ...],
     *,
     images: int = IMAGES[0],
-    with_image_effects: bool = False,
+    with_image_effects: bool = True,
 ) -> SweepRequest:
     """Make the request for a map's sweep.
 
@@ -53,7 +53,7 @@ def map_request(
     images
         Images a point.
     with_image_effects
-        Whether whole images are made where the scene calls for them.
+        Whether rows of the picture are simulated where the scene calls for them.
     """
     axes = {x: lattice(x, SHAPE[0]), y: lattice(y, SHAPE[1])}
     measured = rate_settings(settings, images, decoders, with_image_effects)
@@ -61,7 +61,7 @@ def map_request(
 
 
 def map_stages(
-    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, whole_images: bool
+    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
 ) -> Iterator[Stage]:
     """Give the stages of a map.
 
@@ -73,8 +73,8 @@ def map_stages(
         Images that were read at each point already.
     with_theory
         Whether the limits of theory are computed, too.
-    whole_images
-        Whether points may take long.
+    slow
+        Whether points take long.
     """
     first, *others = requests
     order = list(first.in_order_of_work())
@@ -83,16 +83,16 @@ def map_stages(
         on = _on_lattice(first.shape, stride)
         new = [i for i in order if on[i] and done[i] < first.settings.images]
         done = np.where(on, np.maximum(done, first.settings.images), done)
-        jobs = _jobs(first, new, whole_images)
+        jobs = _jobs(first, new, slow)
         coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
             # Last, so that it occupies a process that has no more points to measure.
             jobs = (*jobs, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
-        # With whole images it takes too long to be completed for an older request.
-        yield Stage(COARSE if coarse else FINE, jobs, uninterruptible=coarse and not whole_images)
+        # Slow points take too long to be completed for an older request.
+        yield Stage(COARSE if coarse else FINE, jobs, uninterruptible=coarse and not slow)
     for request in others:
         new = [i for i in order if done[i] < request.settings.images]
-        yield Stage(SURE, _jobs(request, new, whole_images))
+        yield Stage(SURE, _jobs(request, new, slow))
 
 
 def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:
@@ -106,9 +106,9 @@ def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
     return np.asarray(np.logical_and.outer(*along).ravel())
 
 
-def _jobs(request: SweepRequest, indices: list[int], whole_images: bool) -> tuple[Job, ...]:
+def _jobs(request: SweepRequest, indices: list[int], slow: bool) -> tuple[Job, ...]:
     """Make a job of each line of points: along it decoders keep what they have prepared."""
-    if whole_images:
+    if slow:
         return tuple(_job(request, (index,)) for index in indices)
     along_y = request.shape[1]
     first, second = islice(request.in_order_of_work(), 2)

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_controller import UNSEEN
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.worker import Along, measure_along, rate_settings
+from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
@@ -66,28 +66,38 @@ class SliderStripPane(Protocol):
         """Show whether a strip is of an earlier scene."""
 
 
-def strip_stages(missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"]) -> Iterator[Stage]:
+def strip_stages(
+    missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"], slow: bool
+) -> Iterator[Stage]:
     """Give the stages of the work that is left.
 
     Parameters
     ----------
     missing
         For each slider its request and the positions that are not known.
+    slow
+        Whether points take long: then each is a job that a newer request ends.
     """
     done: set[int] = set()
     for stride, rank in zip(STRIDES, RANKS, strict=True):
         now = set(range(0, POSITIONS, stride)) - done
         done |= now
         jobs = tuple(
-            _job(request, name, sorted(now & places))
+            _job(request, name, part)
             for name, (request, places) in missing.items()
-            if now & places
+            for part in _parts(sorted(now & places), slow)
         )
-        yield Stage(rank, jobs, uninterruptible=stride == STRIDES[0])
+        yield Stage(rank, jobs, uninterruptible=stride == STRIDES[0] and not slow)
+
+
+def _parts(places: list[int], slow: bool) -> list[list[int]]:
+    if slow:
+        return [[place] for place in places]
+    return [places] if places else []
 
 
 def _job(request: SliderStripRequest, name: str, places: list[int]) -> Job:
-    settings = rate_settings(request.settings, IMAGES, (request.decoder,), False)
+    settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
     values = lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
     return Job(measure_along, (request.scene, settings, name, points))
@@ -167,7 +177,8 @@ class SliderStripController(QObject):
             self._pane.show_outdated(name, known is not None and not is_present)
             there = set(known[1]) if known is not None and is_present else set()
             missing[name] = (along, set(range(POSITIONS)) - there)
-        self._channel.put(request, partial(strip_stages, missing))
+        slow = bool(left_out(request.scene, request.settings))
+        self._channel.put(request, partial(strip_stages, missing, slow))
 
     def _take(self, request: SliderStripRequest, results: list[Along]) -> None:
         for result in results:

@@ -24,7 +24,7 @@ from occ_model.study.observation import panel_span
 from occ_model.study.sweep.points import measure_points
 
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
-"""Effects that need whole images, and make a point 50 to 100 times slower."""
+"""Effects that a profile cannot show: a point with them takes some twenty times as long."""
 
 SEED = 1
 """Of all rates: that of :func:`occ_model.sweep`, so that its table is the map's."""
@@ -63,8 +63,8 @@ def rate_settings(
     decoders
         The decoders that read them.
     with_image_effects
-        Whether whole images are made where the scene calls for them; otherwise what needs them is
-        left out, or refused where it cannot be.
+        Whether rows of the picture are simulated where the scene calls for them; otherwise what
+        needs them is left out, or refused where it cannot be.
     """
     force: Mapping[str, bool] = settings.force
     path: SignalPath = "auto"
@@ -73,17 +73,18 @@ def rate_settings(
     return RateSettings(images, decoders, SEED, settings.tolerance, force, path)
 
 
-def leaves_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
-    """Name the effects that the scene calls for and a profile cannot show.
+def left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
+    """Name what the scene calls for and a profile cannot show; points with it take long.
 
-    Raises
-    ------
-    ProjectionError
-        The scene has no picture.
+    Nothing is named where there is no picture, which the points themselves say.
     """
-    decided = plan(scene, settings.tolerance, "profile", settings.force).decisions
-    effects = tuple(d.label for d in decided if d.kind == "image" and d.included)
-    return effects if panel_span(scene) is not None else ("a panel that is not level", *effects)
+    try:
+        decided = plan(scene, settings.tolerance, "signal", settings.force).decisions
+        effects = tuple(d.label for d in decided if d.kind == "image" and d.included)
+        level = panel_span(scene) is not None
+    except OccError:
+        return ()
+    return effects if level else ("a panel that is not level", *effects)
 
 
 def measure_along(

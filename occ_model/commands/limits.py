@@ -89,8 +89,19 @@ def _on_end(end: EndFacts) -> str:
     works = f"at {_written(end.parameter, end.value)} {_counted(end.works)}"
     if end.fails is None:
         side = {"lowest": "below", "highest": "above"}[end.side]
-        return f"  {works}; {side} it was not searched."
-    return f"  {works}, at {_written(end.parameter, end.fails.value)} {_counted(end.fails)}."
+        return f"  {works}; {side} it was not searched.{_on_inside(end)}"
+    beyond = f"at {_written(end.parameter, end.fails.value)} {_counted(end.fails)}"
+    return f"  {works}, {beyond}.{_on_inside(end)}"
+
+
+def _on_inside(end: EndFacts) -> str:
+    if end.inside is None:
+        return " No value near it was read without an error."
+    if end.inside == end.works:
+        return ""
+    value = _written(end.parameter, end.inside.value)
+    images = f"every bit of {end.inside.images} images"
+    return f" At {value}, {end.margin:.1f} % inside, it read {images}."
 
 
 def _written(parameter: str, value: float) -> str:

@@ -50,17 +50,25 @@ class EndFacts:
     fails
         The first value beyond at which it does not: reading stopped. None: the search stopped, at
         the end of the values that it tries.
+    inside
+        A value a little further inside at which every bit was read; None where there is none near.
     """
 
     parameter: str
     side: Side
     works: Trial
     fails: Trial | None
+    inside: Trial | None = None
 
     @property
     def value(self) -> float:
         """The last value at which the decoder reads, in SI units."""
         return self.works.value
+
+    @property
+    def margin(self) -> float:
+        """How far ``inside`` lies from the last value at which the decoder reads, in percent."""
+        return 0.0 if self.inside is None else 100.0 * abs(self.inside.value / self.value - 1.0)
 
 
 @dataclass(frozen=True, slots=True)

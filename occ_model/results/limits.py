@@ -44,10 +44,14 @@ class RangeEnd:
         The last value at which the decoder reads.
     fails
         The first value beyond, at which it does not; None where it reads to the end of the search.
+    inside
+        A value a little further inside at which every bit of all images was read; None where there
+        is none near.
     """
 
     works: Trial
     fails: Trial | None
+    inside: Trial | None = None
 
     @property
     def value(self) -> float:

@@ -28,7 +28,7 @@ def _ends(found: WorkingRange) -> tuple[EndFacts, ...]:
         ("highest", found.highest),
     )
     return tuple(
-        EndFacts(found.parameter, side, end.works, end.fails)
+        EndFacts(found.parameter, side, end.works, end.fails, end.inside)
         for side, end in sides
         if end is not None
     )

@@ -46,6 +46,12 @@ NEAR = 1.003
 """Ratio of the values on both sides of an end of the interval at which its bisection stops."""
 
 
+MARGIN = 1.01
+"""Ratio between an end and the nearest value inside that is offered as one that is surely read."""
+
+MOST_MARGINS = 5
+"""How often that step is made until a value is found at which every bit is read."""
+
 COARSE_IMAGES = 5
 """Images at each value of the coarse search."""
 
@@ -218,7 +224,21 @@ class _Search:
                 break
             trial = self._try(middle, self._settings.images)
             works, fails = (trial, fails) if self._reads(trial) else (works, trial)
-        return RangeEnd(works, fails and self._whole(fails))
+        if fails is None:
+            return RangeEnd(works, None, self._inside(works, 0))
+        fails = self._whole(fails)
+        return RangeEnd(works, fails, self._inside(works, 1 if fails.value < works.value else -1))
+
+    def _inside(self, works: Trial, direction: int) -> Trial | None:
+        """Find a value at which every bit of all images is read, in small steps from an end."""
+        value = works.value
+        for _ in range(MOST_MARGINS):
+            value = float(f"{value * MARGIN**direction:.4g}")
+            trial = works if value == works.value else self._count(value)
+            if trial.right == trial.sent:
+                return trial
+            direction = direction or (1 if value <= self._low else -1)
+        return None
 
     def _whole(self, trial: Trial) -> Trial:
         """Return a trial of all images.

@@ -23,18 +23,23 @@ from occ_model.scene.scene import Scene
 from occ_model.study.advice import advice_of
 
 GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0, 20)
+INSIDE = Trial(14.55e3, 200, 200, 98.1, 100.0, 20)
 BAD = Trial(14.73e3, 0, 200, 0.0, 1.9, 20)
 SHORT = Trial(10e-6, 200, 200, 98.1, 100.0, 20)
 LONG = Trial(196e-6, 200, 200, 98.1, 100.0, 20)
+LONG_INSIDE = Trial(194e-6, 200, 200, 98.1, 100.0, 20)
 TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4, 20)
 
 
 def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
     frequency = WorkingRange(
-        "switching_frequency", (500.0, 100e3), RangeEnd(GOOD, None), RangeEnd(GOOD, BAD)
+        "switching_frequency", (500.0, 100e3), RangeEnd(GOOD, None), RangeEnd(GOOD, BAD, INSIDE)
     )
     exposure = WorkingRange(
-        "exposure_time", (1e-5, 2e-3), RangeEnd(SHORT, None), RangeEnd(LONG, TOO_LONG)
+        "exposure_time",
+        (1e-5, 2e-3),
+        RangeEnd(SHORT, None, SHORT),
+        RangeEnd(LONG, TOO_LONG, LONG_INSIDE),
     )
     return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
 
@@ -60,14 +65,16 @@ def view(qtbot: QtBot) -> AdviceView:
 
 
 @pytest.fixture
+def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: Any) -> None:
+    """Have workers of the window, whichever of its parts begins to measure first."""
+    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
+
+
+@pytest.fixture
 def advised(
-    qtbot: QtBot,
-    application: Application,
-    monkeypatch: pytest.MonkeyPatch,
-    inline_workers: Any,
+    qtbot: QtBot, workers: None, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> Application:
     """Ask for advice, and wait for it."""
-    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
     monkeypatch.setattr(worker, "limits", found)
     application.window.docks["map"].raise_()
     application.detection_map.map.set_seen(False)  # it is not what is looked at here
@@ -80,11 +87,21 @@ def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) ->
     lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
     assert lines[1] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 200 of 200 bits "
-        "(98.1 to 100.0 %), at 14.73 kHz 0 of 200 bits (0.0 to 1.9 %)."
+        "(98.1 to 100.0 %), at 14.73 kHz 0 of 200 bits (0.0 to 1.9 %). "
+        "At 14.55 kHz, 1.0 % inside, it read every bit of 20 images."
     )
     assert lines[3].startswith("The shortest exposure that it reads is 10 µs: ")
     assert lines[3].endswith("beyond it was not tried.")
     assert lines[4].startswith("The longest exposure that it reads is 196 µs: ")
+
+
+def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
+    advice = advice_on(small_scene)
+    ends = tuple(replace(end, inside=None) for end in advice.frequency.ends)
+    doubtful = replace(advice, frequency=replace(advice.frequency, ends=ends))
+    line = AdviceSentences().lines(doubtful)[1]
+    assert line.text.endswith("No value near it is read without errors.")
+    assert line.destination is None
 
 
 def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
@@ -134,7 +151,11 @@ def test_every_decoder_is_searched_and_each_end_has_a_button(advised: Applicatio
 
 @pytest.mark.parametrize(
     ("place", "name", "value"),
-    [(0, "switching_frequency", 14.7e3), (1, "exposure_time", 10e-6), (2, "exposure_time", 196e-6)],
+    [
+        (0, "switching_frequency", 14.55e3),
+        (1, "exposure_time", 10e-6),
+        (2, "exposure_time", 194e-6),
+    ],
 )
 def test_a_destination_button_changes_the_scene_in_one_step(
     advised: Application, place: int, name: str, value: float
@@ -194,7 +215,7 @@ def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
 
 
 def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:
-    view.show_advice_begun()
+    view.show_advice_begun(())
     view.show_advice_progress(0.4)
     assert (view.progress.value(), view.progress.isVisible()) == (40, True)
     view.show_advice_ended("")

@@ -227,20 +227,20 @@ def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., 
     assert bench.pane.facts.note
 
 
-def test_image_effects_are_left_out_with_a_note_until_chosen(
+def test_image_effects_are_simulated_or_left_out_with_a_note(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
     bench.look()
-    assert bench.pane.left_out == ("Vignetting",)
-    settings = bench.workers.jobs[0].arguments[1]
-    assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
-    bench.workers.jobs.clear()
-    bench.controller.use_image_effects(True)
-    bench.wait_until_idle()
     assert bench.pane.left_out == ()
     settings = bench.workers.jobs[0].arguments[1]
     assert (settings.force, settings.path) == ({}, "auto")
+    bench.workers.jobs.clear()
+    bench.controller.use_image_effects(False)
+    bench.wait_until_idle()
+    assert bench.pane.left_out == ("Vignetting",)
+    settings = bench.workers.jobs[0].arguments[1]
+    assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
 
 
 def test_a_failure_is_shown_and_the_last_map_stays(bench_of: Callable[..., Bench]) -> None:

@@ -115,11 +115,18 @@ class Quantity(Declaration):
     def parse(self, text: str, plain: float = 1.0) -> float:
         """Read a value as people write it; ``plain`` is the SI value of 1 without a unit."""
         self._check_length(text, self.allowed)
-        number = self.unit.parse(text, plain)
-        if number is None:
+        readings = self.unit.readings(text, plain)
+        if len(readings) > 1:
+            comma, thousands = (self.unit.format(value) for value in readings)
+            raise self.refuse(
+                f"is {shown(text)}, which means {comma} with a decimal comma and {thousands} with "
+                "a comma between thousands",
+                f"{self.allowed}, written without that comma",
+            )
+        if not readings:
             unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
             raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
-        return self.check(number)
+        return self.check(readings[0])
 
     def format(self, value: float, digits: int = 6) -> str:
         """Write a value with its unit."""

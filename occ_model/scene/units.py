@@ -20,8 +20,11 @@ _PREFIXES = {
     "G": 1e9,
 }
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_NUMBER = r"[+-]?(?:\d+(?:\.\d*|,\d+)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
+
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
+"""Numbers whose comma may also separate thousands: one to three digits before it, three after."""
 
 LONGEST_TEXT = 200
 """Most characters of a quantity's text: several times those of 17 digits and a unit."""
@@ -72,29 +75,43 @@ class Unit:
         Parameters
         ----------
         text
-            A number or a fraction, with or without a unit.
+            A number or a fraction, with a decimal point or comma, with or without a unit.
         plain
             The SI value of 1 without a unit.
 
         Returns
         -------
         float or None
-            The value in SI, None if the text is no quantity of this unit or is too long.
+            The value in SI, None if the text is no quantity of this unit, is too long, or can mean
+            two values.
+        """
+        readings = self.readings(text, plain)
+        return readings[0] if len(readings) == 1 else None
+
+    def readings(self, text: str, plain: float = 1.0) -> tuple[float, ...]:
+        """Return the values in SI that a text can mean: none, one, or two.
+
+        A comma is a decimal comma; with one to three digits before it and three after it, as in
+        ``1,000 Hz``, it may separate thousands as well. The first value is then that of the decimal
+        comma.
         """
         # Stripped before: the search for a unit's end among n spaces takes a time as n^2.
         match = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST_TEXT else None
         if match is None:
-            return None
+            return ()
         number, divisor, unit = match.groups()
         factor = plain if not unit else self.factor(unit)
         if factor is None:
-            return None
-        value = float(number)
-        if divisor is not None:
-            if float(divisor) == 0.0:
-                return None
-            value /= float(divisor)
-        return _scaled(value, factor)
+            return ()
+        parts = (number, divisor or "1")
+        points = [part.replace(",", ".") for part in parts]
+        texts = [points]
+        if any(_THOUSANDS.fullmatch(part) for part in parts):
+            texts.append(
+                [part.replace(",", "" if _THOUSANDS.fullmatch(part) else ".") for part in parts]
+            )
+        values = [(float(above), float(below)) for above, below in texts]
+        return tuple(_scaled(above / below, factor) for above, below in values if below != 0.0)
 
     def display(self, value: float) -> tuple[str, float]:
         """Choose the unit to show ``value`` in: its symbol and its value in SI."""

@@ -40,6 +40,8 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
         ("code=0x3ff", "code", 1023),
         ("code=007", "code", 7),
         ("code= 0000 ", "code", 0),
+        ("distance=1,5 m", "distance", 1.5),
+        ("exposure_time=0,136 ms", "exposure_time", 136e-6),
         ("averaging=light", "averaging", "light"),
         ("pattern=0101 1100", "pattern", "01011100"),
         ("pattern=", "pattern", ""),

@@ -100,7 +100,8 @@ def test_only_a_number_without_a_unit_is_worth_the_plain_unit(number: float, pla
 # fmt: off
 NONSENSE = (
     "", "  ", "1 2", "1 2 3", "1 V", "nan", "inf", "-inf", "infinity", "1/0", "1/0.0", "0/0", "/2",
-    "1/", "1/2/3", "1,5", "--1", "1e", "one", "0x10", "1_000", "1j", "s", "Hz", "°", "1V", "1kk",
+    "1/", "1/2/3", "1,5,2", "1,", "1,.5", "1.5,2", "1,234.5", "1,000,000",
+    "--1", "1e", "one", "0x10", "1_000", "1j", "s", "Hz", "°", "1V", "1kk",
 )
 # fmt: on
 
@@ -110,6 +111,26 @@ def test_what_is_no_quantity_is_not_understood(text: str) -> None:
     for unit in UNITS:
         assert unit.parse(text) is None
         assert unit.parse(f"{text} {unit.symbol or '!'}") is None
+
+
+@given(whole=st.integers(0, 10**9), decimals=st.from_regex(r"[0-9]{1,9}", fullmatch=True))
+def test_a_comma_is_a_point_where_it_cannot_separate_thousands(whole: int, decimals: str) -> None:
+    assume(len(decimals) != 3 or whole == 0 or whole > 999)
+    for unit in UNITS:
+        comma, point = f"{whole},{decimals} {unit.symbol}", f"{whole}.{decimals} {unit.symbol}"
+        assert unit.parse(comma) == unit.parse(point) == float(f"{whole}.{decimals}")
+        assert unit.parse(f",{decimals}") == float(f"0.{decimals}")
+
+
+@given(first=st.integers(1, 999), last=st.integers(0, 999), sign=st.sampled_from(("", "-", "+")))
+def test_a_comma_that_may_separate_thousands_has_two_readings(
+    first: int, last: int, sign: str
+) -> None:
+    text = f"{sign}{first},{last:03d}"
+    decimal, thousands = float(text.replace(",", ".")), float(text.replace(",", ""))
+    assert HERTZ.readings(f"{text} Hz") == (decimal, thousands)
+    assert HERTZ.parse(f"{text} Hz") is None
+    assert SECOND.readings(f"1/{text} s") == (1 / decimal, 1 / thousands)
 
 
 @pytest.mark.parametrize(

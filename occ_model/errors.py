@@ -1,6 +1,7 @@
 """Exceptions whose message is a sentence for the user, and how values are quoted in them."""
 
 import reprlib
+from collections.abc import Sequence
 
 _LONGEST_VALUE = 80
 """Characters of a value that a sentence quotes."""
@@ -10,7 +11,19 @@ _LONGEST_NAME = 200
 
 
 class OccError(Exception):
-    """Base of every error that this package raises on purpose."""
+    """Base of every error that this package raises on purpose.
+
+    Parameters
+    ----------
+    *args
+        The sentence.
+    parameters
+        Names of the scene's parameters that the sentence is about; none where it is about others.
+    """
+
+    def __init__(self, *args: object, parameters: Sequence[str] = ()) -> None:
+        super().__init__(*args)
+        self.parameters = tuple(parameters)
 
 
 class ParameterError(OccError, ValueError):

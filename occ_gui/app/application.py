@@ -74,7 +74,7 @@ class Application(QObject):
             self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
         )  # fmt: skip
-        self.messages = StatusMessages(self.window)
+        self.messages = StatusMessages(self.window, self.controls)
         self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
         self.photos = self.photo_wiring.photos
         self.presets = PresetController(self.window, self.store, self.photo_wiring.matching)
@@ -125,8 +125,9 @@ class Application(QObject):
         self.presets.status_message.connect(self.window.say)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
+        self.store.refused_for.connect(self.messages.show_refusal_for)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
-        self.simulation.failed.connect(self.messages.show_failure)
+        self.simulation.failed_for.connect(self.messages.show_failure)
         self.simulation.failed.connect(self.learning.pins.give_up)
         self.files.status_message.connect(self.window.say)
         self.learning.status_message.connect(self.messages.show_refusal)

@@ -1,9 +1,13 @@
-"""Status messages: which event ends the display of each message in the status line."""
+"""Status messages: which event ends each message in the status line and at the fields."""
+
+from collections.abc import Sequence
 
 from PySide6.QtCore import QObject
 
-from occ_gui.app.wording import with_labels
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.wording import with_labels
 from occ_gui.window.main_window import MainWindow
+from occ_model.scene.parameters import PARAMETERS
 
 _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
 
@@ -11,23 +15,35 @@ _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a pho
 class StatusMessages(QObject):
     """Shows messages in the status line of a window until the event that makes them obsolete.
 
+    A refused value's is shown at its field, too.
+
     Parameters
     ----------
     window
         The window.
+    controls
+        The fields of the scene.
     """
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: MainWindow, controls: ControlPanel) -> None:
         super().__init__(window)
-        self._window = window
+        self._window, self._controls = window, controls
+        self._failing: tuple[str, ...] = ()
 
     def show_refusal(self, sentence: str) -> None:
         """Show why an input is not valid, until the next change of scene or settings."""
         self._window.say(with_labels(sentence), until=_CHANGE)
 
-    def show_failure(self, sentence: str) -> None:
-        """Show why a scene has no picture, until the next picture."""
-        self._window.say(sentence, until=_PICTURE)
+    def show_refusal_for(self, sentence: str, parameters: Sequence[str]) -> None:
+        """Show at the fields of parameters why their values were refused, until as above."""
+        self._controls.show_refusal(sentence, parameters)
+
+    def show_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
+        """Show why a scene has no picture, also at the fields it is about, until the next one."""
+        self._window.say(with_labels(sentence), until=_PICTURE)
+        self._controls.end_refusals(self._failing)
+        self._failing = tuple(parameters)
+        self._controls.show_refusal(sentence, parameters)
 
     def show_photo_failure(self, sentence: str) -> None:
         """Show why a photo cannot be read, until the next photo."""
@@ -40,10 +56,13 @@ class StatusMessages(QObject):
     def end_refusal(self) -> None:
         """Remove a refusal: scene or settings change."""
         self._window.happened(_CHANGE)
+        self._controls.end_refusals(name for name in PARAMETERS if name not in self._failing)
 
     def end_failure(self) -> None:
         """Remove the failure of a simulation: there is a new picture."""
         self._window.happened(_PICTURE)
+        self._controls.end_refusals(self._failing)
+        self._failing = ()
 
     def end_photo_failure(self) -> None:
         """Remove the failure of a photo or its match: there is another photo, or none."""

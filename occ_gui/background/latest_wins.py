@@ -6,6 +6,7 @@ from typing import Any, Generic, TypeVar
 from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
 
 from occ_gui.background.failure import sentence_of
+from occ_model.errors import OccError
 
 Request = TypeVar("Request")
 Result = TypeVar("Result")
@@ -31,6 +32,9 @@ class LatestWins(QObject, Generic[Request, Result]):
 
     failed = Signal(str)
     """A sentence that says why there is none."""
+
+    failed_for = Signal(str, object)
+    """The same, and the names of the parameters that it is about."""
 
     idle = Signal()
     """Nothing is at work or waiting."""
@@ -70,8 +74,8 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._thread.quit()
         self._thread.wait()
 
-    @Slot(object, str)
-    def _on_done(self, result: Any, failure: str) -> None:
+    @Slot(object, str, object)
+    def _on_done(self, result: Any, failure: str, parameters: tuple[str, ...]) -> None:
         if self._stopped:  # what would show it is being closed
             return
         self._busy = False
@@ -82,6 +86,7 @@ class LatestWins(QObject, Generic[Request, Result]):
             self.submit(request)
         if failure:
             self.failed.emit(failure)
+            self.failed_for.emit(failure, parameters)
         else:
             self.finished.emit(result)
         if not self._busy:
@@ -91,7 +96,7 @@ class LatestWins(QObject, Generic[Request, Result]):
 class _Worker(QObject):
     """The part that lives on the other thread."""
 
-    done = Signal(object, str)
+    done = Signal(object, str, object)
 
     def __init__(self, work: Callable[[Any], Any], name: str) -> None:
         super().__init__()
@@ -100,9 +105,10 @@ class _Worker(QObject):
 
     @Slot(object)
     def run(self, request: Any) -> None:
-        result, failure = None, ""
+        result, failure, parameters = None, "", ()
         try:
             result = self._work(request)
         except Exception as error:  # noqa: BLE001 - the window must outlive any error
             failure = sentence_of(error, self._name, request)
-        self.done.emit(result, failure)
+            parameters = error.parameters if isinstance(error, OccError) else ()
+        self.done.emit(result, failure, parameters)

@@ -4,10 +4,14 @@ import re
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSpinBox, QWidget
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
 
+from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.gesture import Gestures
+from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_model.errors import shown
+from occ_model.scene.parameters import count
 from occ_model.scene.scene import Scene
 
 
@@ -24,22 +28,27 @@ class CodeEntry(QWidget):
         super().__init__(parent)
         self._bits, self._code = 0, -1
         self._gestures = Gestures()
-        self.number = QSpinBox()
-        self.number.setKeyboardTracking(False)
+        self.number = CountEdit(count("code"))
         self.number.setAccessibleName(self.tr("Code as a number"))
         self.bits = QLineEdit()
         self.bits.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.bits.setAccessibleName(self.tr("Code as bits"))
         self.bits.setToolTip(self.tr("The bits, the first sent first."))
-        layout = QHBoxLayout(self)
+        layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.number)
-        layout.addWidget(self.bits, 1)
+        layout.setVerticalSpacing(1)
+        layout.setColumnStretch(1, 1)
+        self.notices = (RefusalNotice(self.number), RefusalNotice(self.bits))
+        for place, field in enumerate((self.number, self.bits)):
+            layout.addWidget(field, 0, place)
+            layout.addWidget(self.notices[place], 1 + place, 0, 1, 2)
         for line in (self.number.lineEdit(), self.bits):
             line.textEdited.connect(self._gestures.end)
-        for field in (self.number, self.bits):
-            leave_undo_to_window(field)
+        leave_undo_to_window(self.bits)
         self.number.valueChanged.connect(self._enter)
+        self.number.accepted.connect(self.end_refusal)
+        self.number.refused.connect(self.show_refusal)
+        self.number.refused.connect(self.refused)
         self.bits.editingFinished.connect(self._read_bits)
 
     def show_scene(self, scene: Scene) -> None:
@@ -51,7 +60,7 @@ class CodeEntry(QWidget):
             return
         self._bits = transmitter.bits
         self.number.blockSignals(True)
-        self.number.setRange(0, 2**self._bits - 1)
+        self.number.limit(2**self._bits - 1)
         self.number.blockSignals(False)
         self.number.setToolTip(
             self.tr("The code sent, from 0 to {largest}.").format(largest=2**self._bits - 1)
@@ -65,7 +74,17 @@ class CodeEntry(QWidget):
         self.number.blockSignals(False)
         self.bits.setText(f"{code:0{self._bits}b}")
 
+    def show_refusal(self, sentence: str) -> None:
+        """Show why a code was refused."""
+        self.notices[0].show_sentence(sentence)
+
+    def end_refusal(self) -> None:
+        """Remove what was shown."""
+        for notice in self.notices:
+            notice.end()
+
     def _enter(self, code: int) -> None:
+        self.end_refusal()
         self._display(code)
         self.edited.emit("code", code, self._gestures.of_change())
 
@@ -73,12 +92,13 @@ class CodeEntry(QWidget):
         text = "".join(self.bits.text().split())
         if re.fullmatch(f"[01]{{{self._bits}}}", text):
             self.bits.setText(text)
+            self.notices[1].end()
             if int(text, 2) != self._code:
                 self._enter(int(text, 2))
             return
         self.bits.setText(f"{self._code:0{self._bits}b}")
-        self.refused.emit(
-            self.tr("The bits are {text!r}; allowed: {bits} characters 0 and 1.").format(
-                text=text, bits=self._bits
-            )
+        sentence = self.tr("The bits are {text}; allowed: {bits} characters 0 and 1.").format(
+            text=shown(text), bits=self._bits
         )
+        self.notices[1].show_sentence(sentence)
+        self.refused.emit(sentence)

@@ -1,6 +1,6 @@
 """Control panel: the preset, the code, and pages with the controls of all other parameters."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QStandardItemModel
@@ -78,10 +78,7 @@ class ControlPanel(QWidget):
 
     def connect_editor(self, editor: SceneEditor) -> None:
         """Connect every row and the code directly with the editor of the scene."""
-        controls: list[CodeEntry | ParameterRow] = [self.code]
-        for panel in self.panels.values():
-            controls += panel.rows.values()
-        for control in controls:
+        for control in self._fields().values():
             control.edited.connect(editor.edit)
             control.refused.connect(editor.input_refused)
 
@@ -144,6 +141,27 @@ class ControlPanel(QWidget):
         self.code.show_scene(scene)
         for panel in self.panels.values():
             panel.show_scene(scene)
+
+    def show_refusal(self, sentence: str, names: Iterable[str]) -> None:
+        """Show, at the fields of some parameters, why their values were refused."""
+        fields = self._fields()
+        for name in names:
+            if name in fields:
+                fields[name].show_refusal(sentence)
+
+    def end_refusals(self, names: Iterable[str] | None = None) -> None:
+        """Remove the sentences of refusals from the fields of some parameters; by default all."""
+        fields = self._fields()
+        for name in fields if names is None else names:
+            if name in fields:
+                fields[name].end_refusal()
+
+    def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
+        """Return the controls of all parameters, by name."""
+        fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code}
+        for panel in self.panels.values():
+            fields.update(panel.rows)
+        return fields
 
     def show_preset(self, name: str | None) -> None:
         """Show the name of the preset that the scene equals, or none."""

@@ -6,13 +6,14 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QLineEdit,
     QSlider,
-    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
 
+from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.gesture import Gestures
 from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import (
@@ -40,10 +41,22 @@ class ParameterRow(QWidget):
     value: ParameterValue | None = None
     """The value that the controls show, or that the user has entered; None before the first."""
 
+    notice: RefusalNotice
+    """Why the last input was refused, under the field."""
+
     def __init__(self, declaration: Declaration, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.name = declaration.name
         self._gestures = Gestures()
+        self.refused.connect(self.show_refusal)
+
+    def show_refusal(self, sentence: str) -> None:
+        """Show why a value was refused, or what is wrong with the present one."""
+        self.notice.show_sentence(sentence)
+
+    def end_refusal(self) -> None:
+        """Remove the sentence."""
+        self.notice.end()
 
     def show_value(self, value: ParameterValue) -> None:
         """Show a value without emitting a signal."""
@@ -55,6 +68,7 @@ class ParameterRow(QWidget):
 
     def _enter(self, value: ParameterValue) -> None:
         self.value = value
+        self.end_refusal()
         self.edited.emit(self.name, value, self._gestures.of_change())
 
 
@@ -74,6 +88,8 @@ class QuantityRow(ParameterRow):
         self._layout.setColumnStretch(0, 1)
         self._layout.addWidget(self.slider, 0, 0)
         self._layout.addWidget(self.field, 0, 1)
+        self.notice = RefusalNotice(self.field)
+        self._layout.addWidget(self.notice, 2, 0, 1, 2)
         for control in (self.slider, self.field):
             _name(control, quantity)
             keep_wheel_for_scrolling(control)
@@ -101,6 +117,7 @@ class QuantityRow(ParameterRow):
 
     def _slide(self, position: int) -> None:
         self.value = value = self._quantity.at(position / _SLIDER_STEPS)
+        self.end_refusal()
         self.field.set_value(value)
         gesture = self._gestures.of_change(held=self.slider.isSliderDown())
         self.edited.emit(self.name, value, gesture)
@@ -115,14 +132,13 @@ class CountRow(ParameterRow):
 
     def __init__(self, declared: Count, parent: QWidget | None = None) -> None:
         super().__init__(declared, parent)
-        self.field = QSpinBox()
-        self.field.setRange(declared.low, declared.high)
-        self.field.setKeyboardTracking(False)
+        self.field = CountEdit(declared)
         keep_wheel_for_scrolling(self.field)
-        leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.lineEdit().textEdited.connect(self._gestures.end)
         self.field.valueChanged.connect(self._enter)
+        self.field.accepted.connect(self.end_refusal)
+        self.field.refused.connect(self.refused)
 
     def _display(self, value: ParameterValue) -> None:
         self.field.blockSignals(True)
@@ -165,6 +181,7 @@ class PatternRow(ParameterRow):
 
     def _read(self) -> None:
         if self.field.text() == self._shown:
+            self.end_refusal()
             return
         try:
             value = self._declared.parse(self.field.text())
@@ -173,6 +190,7 @@ class PatternRow(ParameterRow):
             self.refused.emit(str(error))
             return
         unchanged = value == self._shown
+        self.end_refusal()
         self.show_value(value)
         if not unchanged:
             self._enter(value)
@@ -205,5 +223,8 @@ def _name(control: QWidget, declared: Parameter) -> None:
 def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
     layout = QVBoxLayout(row)
     layout.setContentsMargins(0, 0, 0, 0)
+    layout.setSpacing(1)
     layout.addWidget(control)
+    row.notice = RefusalNotice(control)
+    layout.addWidget(row.notice)
     _name(control, declared)

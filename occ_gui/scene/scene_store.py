@@ -42,6 +42,9 @@ class SceneStore(QObject):
     refused = Signal(str)
     """The reason why a change was not made; the scene is unchanged."""
 
+    refused_for = Signal(str, object)
+    """The same, and the names of the parameters that were to be changed."""
+
     def __init__(self, scene: Scene, settings: SettingsStore | None = None) -> None:
         super().__init__()
         self._scene = scene
@@ -60,6 +63,8 @@ class SceneStore(QObject):
             scene = self._scene.replace(**changes)
         except OccError as error:
             self.refused.emit(str(error))
+            at_fault = [name for name in changes if name in error.parameters]
+            self.refused_for.emit(str(error), tuple(at_fault or changes))
             return
         labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
         self.put(scene, f"change of {labels}", gesture)

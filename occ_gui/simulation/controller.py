@@ -114,6 +114,9 @@ class SimulationController(QObject):
     failed = Signal(str)
     """The reason why a scene has no picture; the panes keep the last one."""
 
+    failed_for = Signal(str, object)
+    """The same, and the names of the parameters that it is about."""
+
     submitted = Signal()
     """The scene or a setting has changed: results of the last request are outdated."""
 
@@ -131,6 +134,7 @@ class SimulationController(QObject):
         )
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
+        self.runner.failed_for.connect(self.failed_for)
         for store in (scenes, settings):
             store.changed.connect(self._submit)
         self.ages = ResultAges(self._request())

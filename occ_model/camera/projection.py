@@ -43,7 +43,8 @@ def panel_corners(scene: Scene) -> FloatArray:
         place = f"{METRE.format(-nearest)} behind" if nearest < 0.0 else "beside"
         raise ProjectionError(
             f"Turned like this at a distance of {METRE.format(pose.distance)}, part of the panel "
-            f"is {place} the camera; move it away or turn it back."
+            f"is {place} the camera; move it away or turn it back.",
+            parameters=("distance", "yaw", "pitch"),
         )
     return image_points(placed[:, :2] / placed[:, 2:], camera)
 
@@ -139,7 +140,8 @@ def check_size(camera: Camera) -> None:
     if rows * columns > MAX_PIXELS:
         raise ProjectionError(
             f"An image of {rows} rows and {columns} columns has {rows * columns / 1e6:.0f} million "
-            f"pixels; allowed: up to {MAX_PIXELS // 1_000_000} million."
+            f"pixels; allowed: up to {MAX_PIXELS // 1_000_000} million.",
+            parameters=("rows", "columns"),
         )
 
 

@@ -183,7 +183,8 @@ def _view(lens: Lens, corner: float, needed: float) -> _View:
         raise ProjectionError(
             f"A lens with k_1 = {lens.radial_k1:g}, k_2 = {lens.radial_k2:g}, "
             f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture back "
-            "before its corners are reached; bring them nearer to 0."
+            "before its corners are reached; bring them nearer to 0.",
+            parameters=("radial_k1", "radial_k2", "tangential_p1", "tangential_p2"),
         )
     radius = float(radii[last])
     # The rays that a lens without distortion would need are included: the bound compares with it.

@@ -82,7 +82,8 @@ class Jpeg(FileEffect):
             raise ParameterError(
                 f"jpeg_quality is {scene.camera.jpeg_quality}, and the picture has "
                 f"{image.shape[0]} rows and {image.shape[1]} columns; allowed: jpeg_quality 0, or "
-                f"up to {LONGEST_SIDE['JPEG']} of each."
+                f"up to {LONGEST_SIDE['JPEG']} of each.",
+                parameters=("jpeg_quality", "rows", "columns"),
             )
         quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]
         _, file = cv2.imencode(".jpg", image, quality)

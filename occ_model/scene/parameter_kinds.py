@@ -60,7 +60,8 @@ class Declaration:
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
         """Make the error that names the parameter, the problem and what is allowed."""
-        return ParameterError(f"{self.name} {problem}; allowed: {allowed}.")
+        sentence = f"{self.name} {problem}; allowed: {allowed}."
+        return ParameterError(sentence, parameters=(self.name,))
 
     def _check_length(self, text: str, allowed: str) -> None:
         """Refuse a text that is too long to be a number."""

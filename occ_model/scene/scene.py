@@ -49,7 +49,8 @@ class Transmitter(_Checked):
         _Checked.__post_init__(self)
         if self.code >= 2**self.bits:
             raise ParameterError(
-                f"code is {self.code}; allowed with {self.bits} bits: 0 to {2**self.bits - 1}."
+                f"code is {self.code}; allowed with {self.bits} bits: 0 to {2**self.bits - 1}.",
+                parameters=("code", "bits"),
             )
 
     @property

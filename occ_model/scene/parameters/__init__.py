@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 from occ_model.errors import ParameterError, shown
-from occ_model.scene.parameter_kinds import Parameter, Quantity
+from occ_model.scene.parameter_kinds import Count, Parameter, Quantity
 from occ_model.scene.parameters.camera import CAMERA, LENS, SENSOR
 from occ_model.scene.parameters.light import SURROUNDINGS, TRANSMITTER
 from occ_model.scene.parameters.pose_receiver_model import MODEL, POSE, RECEIVER
@@ -32,6 +32,20 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
     raise ParameterError(f"There is no parameter {shown(name)}; {hint}")
+
+
+def count(name: str) -> Count:
+    """Return the declaration of a parameter that is a whole number.
+
+    Raises
+    ------
+    TypeError
+        It is of another kind.
+    """
+    declared = PARAMETERS[name]
+    if not isinstance(declared, Count):
+        raise TypeError(f"{name} is no count")
+    return declared
 
 
 def quantity(name: str) -> Quantity:

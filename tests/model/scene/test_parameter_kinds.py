@@ -1,6 +1,7 @@
 """How each kind of parameter checks, reads and writes its values."""
 
 import math
+import pickle
 from fractions import Fraction
 
 import numpy as np
@@ -113,6 +114,21 @@ def test_a_refused_text_says_which_unit_was_expected() -> None:
     quantity = Quantity("t", "T", "t", "A time.", SECOND, 1e-9, 1.0, (1e-6, 1e-3), "log", 136e-6)
     with pytest.raises(ParameterError, match=r"^t is '10 Hz', which is not a number in µs; "):
         quantity.parse("10 Hz")
+
+
+def test_a_comma_of_two_readings_is_refused_with_both() -> None:
+    quantity = Quantity("t", "T", "t", "A time.", SECOND, 1e-9, 1.0, (1e-6, 1e-3), "log", 136e-6)
+    with pytest.raises(ParameterError, match=r"'1,250 us', .* 1\.25 µs .* 1\.25 ms .*; allowed: "):
+        quantity.parse("1,250 us")
+    assert quantity.parse("0,136 ms") == quantity.parse("136 us")
+
+
+def test_an_error_names_its_parameter_after_a_process_too() -> None:
+    for declared in PARAMETERS.values():
+        if isinstance(declared, Quantity):
+            with pytest.raises(ParameterError) as caught:
+                declared.parse("soon")
+            assert pickle.loads(pickle.dumps(caught.value)).parameters == (declared.name,)
 
 
 @pytest.mark.parametrize("declaration", PARAMETERS.values(), ids=lambda p: p.name)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_gui.app.wording import with_labels
+from occ_gui.scene.wording import with_labels
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import PARAMETERS, quantity
 

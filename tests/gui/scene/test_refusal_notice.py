@@ -1,0 +1,196 @@
+"""A refused value has its sentence at its field, until it is mended."""
+
+import pytest
+from gui.user import User
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.scene.count_edit import CountEdit
+from occ_gui.scene.parameter_rows import PatternRow, QuantityRow, row_for
+from occ_gui.scene.refusal_notice import RefusalNotice
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.widgets.contrast import contrast
+from occ_gui.window.theme import palette_of
+from occ_model.scene.parameters import PARAMETERS, count
+from occ_model.scene.scene import Scene
+
+
+def reds(field: QWidget) -> int:
+    """Count the red pixels on the edge of a field."""
+    image = field.grab().toImage()
+    middle = image.height() // 2
+    return sum(
+        image.pixelColor(x, middle).red() > 1.5 * image.pixelColor(x, middle).green()
+        for x in range(image.width())
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "bad", "good"),
+    [
+        ("distance", "0 m", "2 m"),
+        ("switching_frequency", "1,000 Hz", "1,5 kHz"),
+        ("bits", "1,5", "12"),
+        ("columns", "99999999", "1000"),
+    ],
+)
+def test_a_refused_number_says_why_at_its_field_until_mended(
+    application: Application, user: User, name: str, bad: str, good: str
+) -> None:
+    row = user.row(name)
+    shown = row.field.text()
+    user.enter(name, bad)
+    assert row.notice.isVisibleTo(row)
+    assert row.notice.text() == user.message
+    assert PARAMETERS[name].label in row.notice.text()
+    assert "allowed" in row.notice.text()
+    assert row.field.text() == shown  # the scene's
+    user.enter(name, good)
+    assert not row.notice.isVisibleTo(row)
+    assert user.message == ""
+    assert application.store.scene.value(name) == PARAMETERS[name].parse(good)
+
+
+def test_a_value_typed_as_it_was_mends_its_field(user: User) -> None:
+    for name in ("distance", "bits"):
+        row = user.row(name)
+        shown = row.field.text()
+        user.enter(name, "soon")
+        assert row.notice.text()
+        user.enter(name, shown)
+        assert row.notice.text() == ""
+
+
+def test_any_change_of_the_scene_ends_the_sentence(application: Application, user: User) -> None:
+    row = user.row("distance")
+    user.enter("distance", "0 m")
+    application.store.change(iso=250.0)
+    assert row.notice.text() == ""
+    user.enter("distance", "0 m")
+    user.choose("&Undo")
+    assert row.notice.text() == ""
+    user.enter("distance", "0 m")
+    user.choose_next_preset()
+    assert row.notice.text() == ""
+
+
+def test_a_row_by_itself_ends_its_sentence_when_mended(qtbot: QtBot) -> None:
+    row = row_for(PARAMETERS["distance"])
+    assert isinstance(row, QuantityRow)
+    qtbot.addWidget(row)
+    for mend in (lambda: row.slider.setValue(row.slider.value() + 9), lambda: type_in(row, "3 m")):
+        type_in(row, "0 m")
+        assert row.notice.text()
+        mend()
+        assert row.notice.text() == ""
+
+
+def type_in(row: QuantityRow, text: str) -> None:
+    """Type a text into the field of a row."""
+    row.field.selectAll()
+    QTest.keyClicks(row.field, text)
+    QTest.keyClick(row.field, Qt.Key.Key_Return)
+
+
+def test_a_refused_pattern_says_why_at_its_field(qtbot: QtBot) -> None:
+    row = row_for(PARAMETERS["pattern"])
+    assert isinstance(row, PatternRow)
+    qtbot.addWidget(row)
+    row.show()
+    qtbot.keyClicks(row.field, "012")
+    qtbot.keyClick(row.field, Qt.Key.Key_Return)
+    assert row.notice.isVisible()
+    qtbot.keyClicks(row.field, "01")
+    qtbot.keyClick(row.field, Qt.Key.Key_Return)
+    assert not row.notice.isVisible()
+
+
+def test_refused_codes_say_why_at_their_fields(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    code = application.controls.code
+    number, bits = code.notices
+    for field, notice, text in ((code.number, number, "1024"), (code.bits, bits, "01")):
+        field.selectAll()
+        qtbot.keyClicks(field, text)
+        qtbot.keyClick(field, Qt.Key.Key_Return)
+        assert notice.isVisibleTo(code)
+        assert "allowed" in notice.text()
+        assert user.message == notice.text()
+        assert application.store.scene.value("code") == 718
+        application.store.change(code=721)
+        assert not notice.isVisibleTo(code)
+        application.store.change(code=718)
+
+
+def test_what_the_scene_refuses_is_said_at_the_edited_field(
+    application: Application, user: User
+) -> None:
+    user.enter("bits", "3")  # the code, 718, has ten
+    assert "718" in user.row("bits").notice.text()
+    assert application.controls.code.notices[0].text() == ""
+
+
+def test_a_refused_change_names_the_parameters_at_fault() -> None:
+    store, at_fault = SceneStore(Scene()), []
+    store.refused_for.connect(lambda _, names: at_fault.append(names))
+    store.change(iso=200.0, distance=-1.0)
+    store.change(bits=3)
+    assert at_fault == [("distance",), ("bits",)]
+
+
+def test_a_scene_without_a_picture_says_so_at_its_fields(
+    application: Application, user: User
+) -> None:
+    application.store.change(distance=0.1, yaw=1.2)
+    user.wait_until_idle()
+    named = ("distance", "yaw", "pitch")
+    for name in named:
+        assert user.row(name).notice.text() == user.message
+    user.enter("distance", "0.11 m")  # no picture either
+    assert all("behind" in user.row(name).notice.text() for name in named)
+    user.enter("yaw", "0")
+    assert not any(user.row(name).notice.text() for name in named)
+
+
+def test_the_mending_of_a_picture_leaves_other_refusals(
+    application: Application, user: User
+) -> None:
+    application.store.change(distance=0.1, yaw=1.2)
+    user.wait_until_idle()
+    application.messages.show_refusal_for("iso is 0; allowed: 1 to 2.", ("iso",))
+    application.messages.end_failure()
+    assert user.row("iso").notice.text()
+    assert user.row("yaw").notice.text() == ""
+
+
+def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:
+    field = CountEdit(count("columns"))
+    notice = RefusalNotice(field)
+    for widget in (field, notice):
+        qtbot.addWidget(widget)
+    field.resize(90, 30)
+    before = reds(field)
+    notice.show_sentence("columns is 0; allowed: 1 to 2.")
+    assert field.accessibleDescription() == notice.text() == "Columns is 0; allowed: 1 to 2."
+    assert reds(field) >= before + 4
+    field.resize(140, 30)
+    assert reds(field) >= before + 4
+    notice.end()
+    assert field.accessibleDescription() == ""
+    assert reds(field) == before
+
+
+def test_the_sentence_can_be_read_in_both_themes(application: Application, user: User) -> None:
+    notice = user.row("distance").notice
+    user.enter("distance", "0 m")
+    for theme in ("dark", "light"):
+        application.desktop.theme.choose(theme)
+        QApplication.processEvents()
+        ink = notice.palette().color(notice.foregroundRole())
+        assert contrast(ink, palette_of(theme).color(QPalette.ColorRole.Window)) >= 4.5
+    application.desktop.theme.choose("system")

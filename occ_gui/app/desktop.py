@@ -113,7 +113,7 @@ class Desktop(QObject):
         for source in (self.export, self.brightness, self.autosave, self.help):
             source.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
-        self.pointer.moved.connect(window.pointed.setText)
+        self.pointer.moved.connect(window.pointed.set_full_text)
         window.arranged.connect(self.layout.note_first)
         window.closing.connect(self.end)
         self.theme.chosen.connect(self._on_theme)

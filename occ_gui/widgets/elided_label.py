@@ -39,7 +39,9 @@ class ElidedLabel(QLabel):
         self._fit()
 
     def _fit(self) -> None:
-        self.setText(self.fontMetrics().elidedText(self._full, self._how, self.width()))
+        self.setText(
+            self.fontMetrics().elidedText(self._full, self._how, self.contentsRect().width())
+        )
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Fit the text to the new size."""

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent, QUndoStack
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QWidget
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
@@ -13,13 +13,10 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.scroll_pane import ScrollPane
-from occ_gui.widgets.work_bar import WorkBar
 from occ_gui.window.menus import Menus
-from occ_model.errors import one_line
+from occ_gui.window.status_line import StatusLine
 
 _FIRST_SIZE = QSize(1280, 800)
 _HEIGHT_RATIO = 3
@@ -74,13 +71,11 @@ class MainWindow(QMainWindow):
         self._is_arranged = False
         self._behind = {"photo": "decode"}
         self._above: dict[str, QDockWidget] = {}
-        self._plan_change = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.pointed, self._timing = QLabel(), QLabel()
-        self.statusBar().addWidget(self._plan_change, 1)  # visible while there is no message
-        self.reading = WorkBar(self.tr("How much of the photo has been read"))
-        self.statusBar().addPermanentWidget(self.reading)
-        self.statusBar().addPermanentWidget(self.pointed)
-        self.statusBar().addPermanentWidget(self._timing)
+        self._status_line = StatusLine()
+        self.setStatusBar(self._status_line)
+        self.reading, self.pointed = self._status_line.reading, self._status_line.pointed
+        self.show_timing = self._status_line.show_timing
+        self.show_plan_change = self._status_line.show_plan_change
         self.resize(_FIRST_SIZE)
 
     def _make_docks(
@@ -173,18 +168,6 @@ class MainWindow(QMainWindow):
         """Show in the menus whether a photo is open."""
         self.menus.show_photo_open(name is not None)
 
-    def show_timing(self, simulation: float, reading: float) -> None:
-        """Show the computing times in seconds of the last simulation and its decoding."""
-        self._timing.setText(
-            self.tr("simulated in {simulation:.1f} ms, read in {reading:.1f} ms").format(
-                simulation=1e3 * simulation, reading=1e3 * reading
-            )
-        )
-
-    def show_plan_change(self, sentence: str) -> None:
-        """Show which effects the plan has switched, while there is no message."""
-        self._plan_change.set_full_text(sentence)
-
     def say(self, sentence: str, until: str = "") -> None:
         """Show a sentence in the status line.
 
@@ -196,12 +179,12 @@ class MainWindow(QMainWindow):
             The event that removes it, which :meth:`happened` reports; by default the next sentence.
         """
         self._message_until = until
-        self.statusBar().showMessage(one_line(sentence, LONGEST))
+        self._status_line.showMessage(sentence)
 
     def happened(self, what: str) -> None:
         """Remove the sentence that is shown until this event."""
         if self._message_until == what:
-            self.statusBar().clearMessage()
+            self._status_line.clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         """Put panes behind those whose place they share, as soon as these have been arranged."""

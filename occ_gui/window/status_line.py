@@ -1,0 +1,94 @@
+"""Status line: a message, the work in progress, the level under the mouse, and computing times."""
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QStatusBar, QWidget
+
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import LONGEST
+from occ_gui.widgets.work_bar import WorkBar
+from occ_model.errors import one_line
+
+_MESSAGE_SHARE, _POINTED_SHARE, _TIMING_SHARE = 0.3, 0.4, 0.2
+"""Fractions of the width: the message takes at least so much, the readouts at most."""
+
+_GAP = 8
+"""Pixels to the left of a readout."""
+
+
+class StatusLine(QStatusBar):
+    """A status bar whose texts never overlap: each has its own label, which shortens it by dots.
+
+    Qt's own would paint a message below the permanent texts, and cut it off where they begin. The
+    whole text of each label is its tooltip.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._message = self._plan_change = ""
+        self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self._sentence.setAccessibleName(self.tr("Message"))
+        self.reading = WorkBar(self.tr("How much of the photo has been read"))
+        self.pointed, self._timing = _Readout(), _Readout()
+        self.addWidget(self._sentence, 1)
+        for widget in (self.reading, self.pointed, self._timing):
+            self.addPermanentWidget(widget)
+
+    def showMessage(self, message: str, timeout: int | None = 0) -> None:  # noqa: ARG002, N802 - Qt's name
+        """Show a message in place of the previous one, until :meth:`clearMessage`."""
+        self._message = one_line(message, LONGEST)
+        self._show_sentence()
+
+    def clearMessage(self) -> None:  # noqa: N802 - Qt's name
+        """Remove the message."""
+        self.showMessage("")
+
+    def currentMessage(self) -> str:  # noqa: N802 - Qt's name
+        """Return the message; empty if there is none."""
+        return self._message
+
+    def show_plan_change(self, sentence: str) -> None:
+        """Show which effects the plan has switched, while there is no message."""
+        self._plan_change = sentence
+        self._show_sentence()
+
+    def show_timing(self, simulation: float, reading: float) -> None:
+        """Show the computing times in seconds of the last simulation and its decoding."""
+        self._timing.set_full_text(
+            self.tr("simulated in {simulation:.1f} ms, read in {reading:.1f} ms").format(
+                simulation=1e3 * simulation, reading=1e3 * reading
+            )
+        )
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Share the width."""
+        super().resizeEvent(event)
+        self._sentence.setMinimumWidth(round(_MESSAGE_SHARE * self.width()))
+        self.pointed.setMaximumWidth(round(_POINTED_SHARE * self.width()))
+        self._timing.setMaximumWidth(round(_TIMING_SHARE * self.width()))
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a width that does not depend on the present one: the window can be narrowed."""
+        return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
+
+    def _show_sentence(self) -> None:
+        self._sentence.set_full_text(self._message or self._plan_change)
+
+
+class _Readout(ElidedLabel):
+    """A label as wide as its whole text, where there is space."""
+
+    def __init__(self) -> None:
+        super().__init__("", Qt.TextElideMode.ElideRight)
+        self.setContentsMargins(_GAP, 0, 0, 0)
+
+    def set_full_text(self, text: str) -> None:
+        """Show a text in one line."""
+        super().set_full_text(text)
+        self.updateGeometry()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of the whole text."""
+        width = self.fontMetrics().horizontalAdvance(self._full) + _GAP + 1
+        return QSize(width if self._full else 0, super().sizeHint().height())

@@ -1,0 +1,126 @@
+"""The texts of the status line never overlap: what is too long ends in dots."""
+
+import pytest
+from gui.user import User
+from PySide6.QtCore import QRect
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QApplication, QLabel, QStatusBar, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.window.status_line import StatusLine
+
+LONG = "Switching frequency is '1,000 Hz', which means 1 Hz or 1 kHz, " * 6
+POINTED = "Picture: column 1234, row 1200, camera level 123, receiver level 234"
+
+
+def texts_of(bar: QStatusBar) -> list[tuple[QLabel, QRect]]:
+    """Find the labels that are seen in a status bar, with their places in it."""
+    labels = [label for label in bar.findChildren(QLabel) if label.isVisible() and label.text()]
+    return [
+        (label, QRect(label.mapTo(bar, label.rect().topLeft()), label.size())) for label in labels
+    ]
+
+
+def check_texts(bar: QStatusBar) -> None:
+    """Check that no text leaves its label, and no label another or the bar."""
+    found = texts_of(bar)
+    for label, place in found:
+        width = label.fontMetrics().horizontalAdvance(label.text())
+        assert width <= label.contentsRect().width()
+        assert bar.rect().contains(place)
+        assert not any(place.intersects(other) for one, other in found if one is not label)
+
+
+@pytest.fixture
+def line(qtbot: QtBot) -> StatusLine:
+    line = StatusLine()
+    qtbot.addWidget(line)
+    line.show()
+    return line
+
+
+@pytest.mark.parametrize("width", [300, 800, 1280])
+@pytest.mark.parametrize("points", [9, 16, 24])
+@pytest.mark.parametrize("works", [False, True])
+def test_texts_never_overlap(line: StatusLine, width: int, points: int, works: bool) -> None:
+    font = line.font()
+    font.setPointSize(points)
+    line.setFont(font)
+    line.resize(width, line.sizeHint().height())
+    for message in ("", "Saved scene.toml", LONG):
+        line.showMessage(message)
+        line.show_plan_change(LONG)
+        line.pointed.set_full_text(POINTED)
+        line.show_timing(1.2345, 0.6789)
+        line.reading.setVisible(works)
+        QApplication.processEvents()
+        assert len(texts_of(line)) >= (3 if width > 300 else 0)
+        check_texts(line)
+
+
+def test_a_message_has_its_share_of_the_line(line: StatusLine) -> None:
+    line.resize(800, 24)
+    line.showMessage(LONG)
+    line.pointed.set_full_text(POINTED * 3)
+    line.show_timing(1e6, 1e6)
+    line.reading.show()
+    QApplication.processEvents()
+    (message,) = [place for label, place in texts_of(line) if LONG.startswith(label.text()[:20])]
+    assert message.width() >= 0.3 * 800
+
+
+def test_a_long_message_ends_in_dots_and_is_whole_in_the_tip(line: StatusLine) -> None:
+    line.resize(800, 24)
+    line.showMessage(LONG)
+    QApplication.processEvents()
+    (label,) = [label for label, _ in texts_of(line)]
+    assert label.text().endswith("…")
+    assert label.toolTip().replace("\n", " ").count("1,000 Hz") == 6
+    assert line.currentMessage() == LONG
+
+
+def test_the_change_of_the_plan_is_said_while_there_is_no_message(line: StatusLine) -> None:
+    line.resize(800, 24)
+    line.show_plan_change("Switched in: JPEG")
+    line.showMessage("Saved scene.toml")
+    QApplication.processEvents()
+    assert [label.text() for label, _ in texts_of(line)] == ["Saved scene.toml"]
+    line.clearMessage()
+    assert [label.text() for label, _ in texts_of(line)] == ["Switched in: JPEG"]
+
+
+def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:
+    line.resize(1600, 24)
+    for text in (POINTED[:30], POINTED):
+        line.pointed.set_full_text(text)
+        QApplication.processEvents()
+        assert line.pointed.text() == text
+
+
+def test_nothing_is_painted_outside_the_labels(line: StatusLine) -> None:
+    line.resize(800, 24)
+    QApplication.processEvents()
+    bare = picture_of(line)
+    line.showMessage(LONG)
+    for widget in line.findChildren(QLabel):
+        widget.setStyleSheet("color: transparent")
+    QApplication.processEvents()
+    assert picture_of(line) == bare
+
+
+def picture_of(widget: QWidget) -> QImage:
+    return widget.grab().toImage()
+
+
+def test_the_narrowest_window_keeps_its_texts_apart(application: Application, user: User) -> None:
+    window = application.window
+    window.resize(1600, 700)
+    QApplication.processEvents()
+    window.resize(800, 600)  # or as narrow as its panes can be
+    window.pointed.set_full_text(POINTED)
+    user.enter("switching_frequency", "1,000 Hz")
+    QApplication.processEvents()
+    assert window.width() < 1000
+    assert len(texts_of(window.statusBar())) == 3
+    check_texts(window.statusBar())

@@ -13,6 +13,7 @@ from occ_model.commands.options import (
 )
 from occ_model.errors import one_line
 from occ_model.files.writing import write_image
+from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
 from occ_model.simulation.render import render_with
 
@@ -22,6 +23,13 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser("render", help="simulate a picture and write it")
     add_scene_options(parser)
     add_simulation_options(parser)
+    parser.add_argument(
+        "--picture",
+        choices=PICTURES,
+        default="receiver",
+        help="whose picture is written: the receiver's, enhanced as the scene says, which decode "
+        "reads (default), or the camera's, as a photo is",
+    )
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
     parser.set_defaults(command=_run, writes={"save_scene": SCENE_FILE})
@@ -31,11 +39,14 @@ def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     settings = simulation_settings_of(options)
     frame = render_with(scene, settings)
-    write_image(options.out, frame.image)
+    image, title = frame.picture(options.picture), frame.picture_title(options.picture)
+    write_image(options.out, image, title)
     if options.save_scene:
         write_scene_file(options.save_scene, scene)
-    rows, columns = frame.image.shape
+    rows, columns = image.shape
     milliseconds = 1e3 * sum(frame.timings.values())
     name = one_line(str(options.out))
-    print(f"{name}: {columns} columns, {rows} rows, simulated in {milliseconds:.1f} ms")
+    what = f"{title[:1].lower()}{title[1:]}"
+    size = f"{columns} columns, {rows} rows"
+    print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {what}")
     return 0

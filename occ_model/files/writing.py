@@ -5,6 +5,7 @@ import stat
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
+from typing import Any
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
@@ -45,8 +46,18 @@ def write_whole(path: Path, content: bytes) -> None:
         raise _unwritable(path, error) from None
 
 
-def write_image(path: Path, image: ByteArray) -> None:
+def write_image(path: Path, image: ByteArray, description: str = "") -> None:
     """Write a grey image in the format that the file's ending names.
+
+    Parameters
+    ----------
+    path
+        The file.
+    image : ndarray of uint8, shape (rows, columns)
+        The image.
+    description
+        What it shows: the text ``Description`` of a PNG file, the EXIF tag ``ImageDescription`` of
+        other formats. BMP files hold no texts.
 
     Raises
     ------
@@ -54,7 +65,7 @@ def write_image(path: Path, image: ByteArray) -> None:
         The ending names no image format, the format does not hold an image of that size, or the
         file cannot be written.
     """
-    write_whole(path, _encoded(path, image))
+    write_whole(path, _encoded(path, image, description))
 
 
 def check_replaceable(path: Path) -> int | None:
@@ -111,7 +122,7 @@ def _replace(path: Path, content: bytes, permissions: int | None) -> None:
         raise
 
 
-def _encoded(path: Path, image: ByteArray) -> bytes:
+def _encoded(path: Path, image: ByteArray, description: str) -> bytes:
     format_name = _FORMATS.get(path.suffix.lower())
     if format_name is None:
         *endings, last = PICTURE_ENDINGS
@@ -130,12 +141,30 @@ def _encoded(path: Path, image: ByteArray) -> bytes:
 
     buffer = BytesIO()
     try:
-        Image.fromarray(image).save(buffer, format=format_name)
+        notes = _notes(format_name, description) if description else {}
+        Image.fromarray(image).save(buffer, format=format_name, **notes)
     except (OSError, ValueError) as error:
         raise OutputError(
             f"{one_line(path.name)} cannot be encoded as {format_name}: {error}."
         ) from None
     return buffer.getvalue()
+
+
+def _notes(format_name: str, description: str) -> dict[str, Any]:
+    """Return the options that write a description into a file of a format."""
+    if format_name == "PNG":
+        from PIL.PngImagePlugin import PngInfo
+
+        texts = PngInfo()
+        texts.add_text("Description", description)
+        return {"pnginfo": texts}
+    if format_name == "BMP":
+        return {}
+    from PIL import ExifTags, Image
+
+    exif = Image.Exif()
+    exif[ExifTags.Base.ImageDescription] = description
+    return {"exif": exif}
 
 
 def make_folder(folder: Path) -> None:

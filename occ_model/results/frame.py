@@ -6,7 +6,11 @@ from functools import cached_property
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.plan import Plan
+from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
+
+PICTURES = ("camera", "receiver")
+"""Whose picture a frame's pictures are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,3 +55,23 @@ class Frame:
     def camera_image(self) -> ByteArray:
         """The camera's picture, before the receiver's enhancement, shape as ``image``."""
         return self.make_camera_image()
+
+    def picture(self, whose: str) -> ByteArray:
+        """Return the picture of the ``"camera"`` or the ``"receiver"``.
+
+        Raises
+        ------
+        ParameterError
+            It is neither.
+        """
+        check_choice("picture", whose, PICTURES)
+        return self.camera_image if whose == "camera" else self.image
+
+    def picture_title(self, whose: str) -> str:
+        """Return the title of a picture, which says how the receiver's is enhanced."""
+        if whose == "camera":
+            return "Camera's picture"
+        enhancement = self.scene.model.enhancement
+        return "Receiver's picture, " + (
+            "not enhanced" if enhancement == "none" else f"enhanced by {enhancement}"
+        )

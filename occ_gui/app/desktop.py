@@ -36,10 +36,11 @@ from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_gui.window.theme import ThemeController
 from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import DECODERS
+from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
 
-_THEME, _OVERLAY = "view/theme", "view/overlay"
+_THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
 _HOLD, _YES = "edit/hold_brightness", "yes"
 
 
@@ -97,18 +98,15 @@ class Desktop(QObject):
         self.layout = DockLayout(window, window.docks, preferences)
         self.autosave = Autosave(parts.store, parts.settings, self.document, lambda: self._photo)
         self.error_reports = ErrorReports()
-        self.pointer = CursorReadout(
-            parts.profile,
-            {
-                self.tr("Simulation"): parts.image.simulation,
-                self.tr("Photo"): parts.image.photo,
-            },
-        )
+        self.pointer = CursorReadout(parts.profile, parts.image)
         self._connect()
 
     def _connect(self) -> None:
         parts, window = self._parts, self._parts.window
         parts.simulation.snapshot_shown.connect(self.figures.show_snapshot)
+        for taker in (parts.simulation.prepare_picture, parts.files.choose_picture):
+            parts.image.picture_chosen.connect(taker)
+        parts.image.picture_chosen.connect(self.figures.choose_picture)
         parts.photo_wiring.photos.opened.connect(self._on_photo)
         for source in (self.export, self.brightness, self.autosave, self.help):
             source.status_message.connect(window.say)
@@ -158,6 +156,8 @@ class Desktop(QObject):
             self.theme.choose(preferences.recall(_THEME))
             if (mode := preferences.recall(_OVERLAY)) in MODES:
                 self._parts.show_mode(mode)
+            if (whose := preferences.recall(_PICTURE)) in PICTURES:
+                self._parts.image.choose_picture(whose)
             self.brightness.switch(preferences.recall(_HOLD) == _YES)
         self.autosave.resume(file, session, scene_wins)
 
@@ -204,6 +204,7 @@ class Desktop(QObject):
         if self.autosave.is_kept:
             self.layout.keep()
             self._parts.preferences.keep(_OVERLAY, self._parts.image.mode.key())
+            self._parts.preferences.keep(_PICTURE, self._parts.image.whose)
         self.autosave.end()
 
     def stop(self) -> None:

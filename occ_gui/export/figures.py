@@ -16,6 +16,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
 from occ_model.results import AccuracyPoint, Comparison, DecodeResult
+from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ class Figures(QObject):
         self._profile, self._accuracy = profile, accuracy
         self._snapshot: Snapshot | None = None
         self._photo: Photo | None = None
+        self._whose = PICTURES[0]
         self._sources: dict[str, Source] = {
             "picture": self._of_picture,
             "profile": self._of_profile,
@@ -118,6 +120,10 @@ class Figures(QObject):
         """Use these results from now on."""
         self._snapshot = snapshot
 
+    def choose_picture(self, whose: str) -> None:
+        """Draw the picture of the camera or of the receiver from now on."""
+        self._whose = whose
+
     def show_photo(self, photo: Photo | None) -> None:
         """Draw this photo beside the picture from now on, or none."""
         self._photo = photo
@@ -135,12 +141,12 @@ class Figures(QObject):
     def _of_picture(self) -> FigureRequest:
         shown = self._shown()
         photo = None if self._photo is None else self._photo.image
-        frame, region = shown.frame, shown.decoded.region
+        frame, region, whose = shown.frame, shown.decoded.region, self._whose
 
         def draw() -> "Drawing":
             from occ_model.figures.window_panes import picture_drawing
 
-            return picture_drawing(frame, region, photo)
+            return picture_drawing(frame, region, photo, whose)
 
         return self.request(frame.scene, draw)
 

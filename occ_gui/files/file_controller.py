@@ -14,6 +14,7 @@ from occ_model.errors import OccError, one_line
 from occ_model.files.resources import resource_path
 from occ_model.files.writing import PICTURE_ENDINGS, write_image
 from occ_model.photo.reading.load import Photo
+from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene_file
 from occ_model.scene.provenance import ENDINGS, scene_inside
 
@@ -79,11 +80,16 @@ class FileController(QObject):
         self._photos = photos
         self._preferences = preferences
         self._snapshot: Snapshot | None = None
+        self._whose = PICTURES[0]
         photos.opened.connect(self._remember)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Keep the results that are shown, whose picture can be saved."""
         self._snapshot = snapshot
+
+    def choose_picture(self, whose: str) -> None:
+        """Save the picture of the camera or of the receiver from now on."""
+        self._whose = whose
 
     def ask_for_photo(self) -> None:
         """Let the user choose a photo and open it."""
@@ -196,29 +202,37 @@ class FileController(QObject):
 
     def ask_to_save_picture(self) -> None:
         """Let the user choose where to save the simulated picture."""
+        titles = {
+            "camera": self.tr("Save the camera's picture"),
+            "receiver": self.tr("Save the receiver's picture"),
+        }
         name, _ = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save simulated picture"), self._in_folder("simulation.png"),
+            self._window, titles[self._whose], self._in_folder(f"simulation-{self._whose}.png"),
             self.tr("Pictures ({patterns})").format(patterns=_PICTURES),
         )  # fmt: skip
         if name:
             self.save_picture(Path(name))
 
     def save_picture(self, path: Path) -> None:
-        """Save the simulated picture at its full size."""
+        """Save the picture that is shown, the camera's or the receiver's, at its full size."""
         if self._snapshot is None:
             self.status_message.emit(self.tr("There is no picture yet."))
             return
-        image = self._snapshot.frame.image
-        self._save(path, lambda: write_image(path, image))
+        frame, whose = self._snapshot.frame, self._whose
+        image, title = frame.picture(whose), frame.picture_title(whose)
+        said = f"{title[:1].lower()}{title[1:]}"
+        self._save(path, lambda: write_image(path, image, title), said)
 
-    def _save(self, path: Path, write: Callable[[], None]) -> bool:
+    def _save(self, path: Path, write: Callable[[], None], what: str = "") -> bool:
         try:
             write()
         except OccError as error:
             self.status_message.emit(str(error))
             return False
         self._preferences.visit(path)
-        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+        name = one_line(path.name)
+        saved = self.tr("Saved {name}: the {what}") if what else self.tr("Saved {name}")
+        self.status_message.emit(saved.format(name=name, what=what))
         return True
 
     def _in_folder(self, name: str) -> str:

@@ -12,6 +12,8 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import BEFORE
 from occ_model.arrays import ByteArray
+from occ_model.results import Frame
+from occ_model.results.frame import PICTURES
 
 _LINE_PEN = pg.mkPen(BEFORE, width=2)
 _PAPER = "#f4f4f4"
@@ -63,6 +65,8 @@ class BeforeWipe(QObject):
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
+        self._frame: Frame | None = None
+        self._whose = PICTURES[0]
         self._image: ByteArray | None = None
         self._share = 0.5
         self.picture = WipedImage()
@@ -104,7 +108,16 @@ class BeforeWipe(QObject):
 
     def show_before(self, snapshot: Snapshot) -> None:
         """Compare with this picture in place of the previous one."""
-        self._image = snapshot.frame.image
+        self._frame = snapshot.frame
+        self._take_picture()
+
+    def choose_picture(self, whose: str) -> None:
+        """Compare the pictures of the camera or of the receiver."""
+        self._whose = whose
+        self._take_picture()
+
+    def _take_picture(self) -> None:
+        self._image = None if self._frame is None else self._frame.picture(self._whose)
         if self.chosen.isChecked():
             self._arrange()
 

@@ -4,6 +4,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
+    QSizePolicy,
     QSlider,
     QSplitter,
     QVBoxLayout,
@@ -17,8 +18,9 @@ from occ_gui.picture.placement import Placement
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_model.arrays import ByteArray
 from occ_model.photo.reading.load import Photo
+from occ_model.results import Frame
+from occ_model.results.frame import PICTURES
 
 _GAINS = (1, 2, 4, 8)
 _FIRST_GAIN = 4
@@ -31,18 +33,26 @@ class ImageView(QWidget):
     mode_chosen = Signal(str)
     """The way of showing the photo that the user chose, one of MODES."""
 
+    picture_chosen = Signal(str)
+    """Whose picture is shown from now on, one of PICTURES."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._photo: Photo | None = None
-        self._shown: ByteArray | None = None
+        self._frame: Frame | None = None
         self._mode = MODES[0]
+        self._whose = PICTURES[0]
         self.simulation = PicturePane(self.tr("Simulated picture"))
         self.photo = PicturePane(self.tr("Photo"))
         self.overlay = PhotoOverlay(self.simulation.box)
         self.before = BeforeWipe(self.simulation.box)
+        self._make_switch()
+        self.simulation.caption_row.addWidget(self.switch)
         self.simulation.caption_row.addWidget(self.before.controls)
         # The tops of both pictures are aligned.
-        self.photo.caption.setMinimumHeight(self.before.controls.sizeHint().height())
+        self.photo.caption.setMinimumHeight(
+            max(part.sizeHint().height() for part in (self.switch, self.before.controls))
+        )
         panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.simulation)
         panes.addWidget(self.photo)
@@ -54,6 +64,19 @@ class ImageView(QWidget):
         layout.addWidget(panes, 1)
         layout.addWidget(self._row)
         self._arrange()
+
+    def _make_switch(self) -> None:
+        self.switch = KeyedComboBox(
+            self.tr("Whose picture is shown"),
+            self.tr(
+                "Camera: the picture as the camera gives it; a photo is compared with it.\n"
+                "Receiver: the picture with its contrast enhanced, as it is decoded."
+            ),
+            {"camera": self.tr("Camera"), "receiver": self.tr("Receiver")},
+        )
+        self.switch.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.switch.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.switch.chosen.connect(self.choose_picture)
 
     def _make_controls(self) -> None:
         self.mode = KeyedComboBox(
@@ -104,29 +127,60 @@ class ImageView(QWidget):
             "averaged over each pixel of the screen."
         )
 
-    def _captions(self) -> dict[str, str]:
-        return {
-            "beside": self.tr("Simulated picture"),
-            "blend": self.tr("Photo over the simulated picture"),
-            "split": self.tr("Simulation above the line, photo below"),
-            "difference": self.tr("Difference × {gain}: black where both are equal").format(  # noqa: RUF001 - the sign for times
-                gain=self.gain.key()
-            ),
-        }
+    def _caption(self) -> str:
+        frame, mode = self._frame, self._mode
+        picture = self.tr("Simulated picture")
+        if frame is not None:
+            picture = frame.picture_title(self._whose)
+        if self._photo is None or mode == "beside":
+            return picture
+        if mode == "blend":
+            return self.tr("Photo over: {picture}").format(picture=picture)
+        if mode == "split":
+            return self.tr("{picture}, above the line; photo below").format(picture=picture)
+        text = self.tr("Difference × {gain}: photo and {picture}; black where equal")  # noqa: RUF001 - the sign for times
+        return text.format(gain=self.gain.key(), picture=picture[:1].lower() + picture[1:])
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the previous ones."""
-        if (
-            snapshot.frame.image is not self._shown
-        ):  # the picture may have been shown before it was decoded
-            self.show_picture(Picture(snapshot.frame, ()))
+        if snapshot.frame is not self._frame:  # it may have been shown before it was decoded
+            self.show_picture(Picture(snapshot.frame, self._whose, ()))
         self.simulation.show_region(snapshot.decoded.region)
 
     def show_picture(self, picture: Picture) -> None:
         """Show this picture in place of the previous one; the region decoded from that stays."""
-        self._shown = picture.frame.image
-        self.simulation.show_picture(self._shown, picture.halves)
-        self.overlay.set_simulated(self._shown)
+        self._frame = frame = picture.frame
+        image = frame.picture(self._whose)
+        # The user may have chosen the other picture since this one was prepared.
+        self.simulation.show_picture(image, picture.halves if picture.whose == self._whose else ())
+        self.overlay.set_simulated(image)
+        self._show_caption()
+
+    @property
+    def whose(self) -> str:
+        """Whose picture is shown, one of PICTURES."""
+        return self._whose
+
+    def choose_picture(self, whose: str) -> None:
+        """Show the picture of the camera or of the receiver."""
+        if whose == self._whose:
+            return
+        self._whose = whose
+        self.switch.show_key(whose)
+        self.before.choose_picture(whose)
+        if self._frame is not None:
+            self.show_picture(Picture(self._frame, whose, ()))
+        self.picture_chosen.emit(whose)
+
+    def levels_at(self, column: int, row: int) -> dict[str, int] | None:
+        """Return the levels of a pixel by whose picture it is in, None outside the picture."""
+        frame = self._frame
+        if frame is None:
+            return None
+        rows, columns = frame.image.shape
+        if not (0 <= row < rows and 0 <= column < columns):
+            return None
+        return {whose: int(frame.picture(whose)[row, column]) for whose in PICTURES}
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
@@ -166,5 +220,9 @@ class ImageView(QWidget):
         self._row.setVisible(there)
         self.opacity.setVisible(self._mode == "blend")
         self.gain.setVisible(self._mode == "difference")
-        caption = self._captions()[self._mode if there else MODES[0]]
+        self._show_caption()
+
+    def _show_caption(self) -> None:
+        caption = self._caption()
         self.simulation.caption.set_full_text(caption)
+        self.simulation.graphics.setAccessibleName(caption)

@@ -16,6 +16,7 @@ from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import DecodeResult, Frame
+from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
@@ -127,6 +128,7 @@ class SimulationController(QObject):
         self._scenes = scenes
         self._settings = settings
         self._views: Sequence[SnapshotView] = ()
+        self._whose = PICTURES[0]
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
@@ -144,8 +146,12 @@ class SimulationController(QObject):
         """Set the panes that show the results; none arrives before the event loop runs."""
         self._views = views
 
+    def prepare_picture(self, whose: str) -> None:
+        """Prepare the picture of the camera or of the receiver for drawing from now on."""
+        self._whose = whose
+
     def _request(self) -> SimulationRequest:
-        return SimulationRequest(self._scenes.scene, self._settings.settings)
+        return SimulationRequest(self._scenes.scene, self._settings.settings, self._whose)
 
     def _submit(self) -> None:
         request = self._request()
@@ -157,7 +163,7 @@ class SimulationController(QObject):
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
         frame = render_with(request.scene, request.settings)
-        self._rendered.emit(Picture.of(frame, request))
+        self._rendered.emit(Picture.of(frame, request.whose, request))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)
         return _snapshot_of(request, frame)

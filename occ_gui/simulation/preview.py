@@ -21,7 +21,9 @@ class Picture:
     Parameters
     ----------
     frame
-        The picture.
+        The frame.
+    whose
+        Whose picture of the frame it is, the ``"camera"``'s or the ``"receiver"``'s.
     halves : tuple of ndarray of uint8
         The picture at a half of its size, at a quarter and so on; each pixel is the mean of four.
     request
@@ -29,18 +31,19 @@ class Picture:
     """
 
     frame: Frame
+    whose: str
     halves: tuple[ByteArray, ...]
     request: SimulationRequest | None = None
 
     @classmethod
-    def of(cls, frame: Frame, request: SimulationRequest | None = None) -> Self:
+    def of(cls, frame: Frame, whose: str, request: SimulationRequest | None = None) -> Self:
         """Compute the smaller copies; to be called on a background thread."""
         halves = []
-        pixels = frame.image
+        pixels = frame.picture(whose)
         while min(pixels.shape) >= 2 * _SMALLEST:
             pixels = halved(pixels)
             halves.append(pixels)
-        return cls(frame, tuple(halves), request)
+        return cls(frame, whose, tuple(halves), request)
 
 
 def halved(pixels: ByteArray) -> ByteArray:

@@ -1,9 +1,10 @@
 """Snapshot: the results of one simulation, and the request for it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult, Frame
+from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -18,10 +19,13 @@ class SimulationRequest:
         The scene.
     settings
         The settings of its simulation.
+    whose
+        Whose picture is shown first, the ``"camera"``'s or the ``"receiver"``'s.
     """
 
     scene: Scene
     settings: SimulationSettings
+    whose: str = field(default=PICTURES[0], compare=False)  # of the same results
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -3,6 +3,7 @@
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Signal
 
+from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.profile.profile_view import ProfileView
 
@@ -31,9 +32,26 @@ class _Follower(QObject):
 
 
 class _PictureFollower(_Follower):
-    def __init__(self, title: str, pane: PicturePane) -> None:
+    def __init__(self, image: ImageView) -> None:
+        super().__init__(image.simulation.graphics)
+        self._image = image
+
+    def text_at(self, point: QPointF) -> str:
+        place = self._image.simulation.box.mapSceneToView(point)
+        column, row = round(place.x()), round(place.y())
+        levels = self._image.levels_at(column, row)
+        if levels is None:
+            return ""
+        return self.tr(
+            "Simulation: column {column}, row {row}, camera level {camera}, "
+            "receiver level {receiver}"
+        ).format(column=column, row=row, **levels)
+
+
+class _PhotoFollower(_Follower):
+    def __init__(self, pane: PicturePane) -> None:
         super().__init__(pane.graphics)
-        self._title, self._pane = title, pane
+        self._pane = pane
 
     def text_at(self, point: QPointF) -> str:
         place = self._pane.box.mapSceneToView(point)
@@ -41,8 +59,8 @@ class _PictureFollower(_Follower):
         level = self._pane.level_at(column, row)
         if level is None:
             return ""
-        return self.tr("{picture}: column {column}, row {row}, level {level}").format(
-            picture=self._title, column=column, row=row, level=level
+        return self.tr("Photo: column {column}, row {row}, level {level}").format(
+            column=column, row=row, level=level
         )
 
 
@@ -71,15 +89,15 @@ class CursorReadout(QObject):
     ----------
     profile
         The pane of the column profile.
-    pictures
-        The panes of pictures, by their titles.
+    image
+        The pane of the picture and the photo.
     """
 
     moved = Signal(str)
     """Position and grey level as a text; empty outside of the panes."""
 
-    def __init__(self, profile: ProfileView, pictures: dict[str, PicturePane]) -> None:
+    def __init__(self, profile: ProfileView, image: ImageView) -> None:
         super().__init__(profile)
-        followers = [_PictureFollower(title, pane) for title, pane in pictures.items()]
-        for follower in (_ProfileFollower(profile), *followers):
+        pictures = (_PictureFollower(image), _PhotoFollower(image.photo))
+        for follower in (_ProfileFollower(profile), *pictures):
             follower.changed.connect(self.moved)

@@ -13,6 +13,7 @@ from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, Drawing
 from occ_model.results import Comparison, Frame, Region
+from occ_model.results.frame import PICTURES
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
@@ -33,9 +34,12 @@ def caption(scene: Scene) -> str:
 
 
 def picture_drawing(
-    frame: Frame, region: Region | None = None, photo: ByteArray | None = None
+    frame: Frame,
+    region: Region | None = None,
+    photo: ByteArray | None = None,
+    whose: str = PICTURES[0],
 ) -> Drawing:
-    """Draw the simulated picture, with the decoder's region and a photo beside it.
+    """Draw a simulated picture, with the decoder's region and a photo beside it.
 
     The table holds the means of cells of pixels, as small as print can resolve.
 
@@ -47,17 +51,20 @@ def picture_drawing(
         The rectangle that the decoder read, None where it read none.
     photo : ndarray of uint8, shape (rows, columns), or None
         The photo.
+    whose
+        Whose picture is drawn, the ``"camera"``'s or the ``"receiver"``'s.
     """
-    cells, size = _cells(frame.image)
+    image, name = frame.picture(whose), frame.picture_title(whose)
+    cells, size = _cells(image)
 
     def draw() -> Figure:
-        pictures = [frame.image] if photo is None else [frame.image, photo]
-        rows, columns = frame.image.shape
+        pictures = [image] if photo is None else [image, photo]
+        rows, columns = image.shape
         figure = Figure(figsize=(3.6 * len(pictures), 0.9 + 3.1 * min(rows / columns, 1.6)))
         axes = figure.subplots(1, len(pictures), squeeze=False)[0]
         for ax, picture in zip(axes, pictures, strict=True):
             _show(ax, picture)
-            ax.set_title("photo" if picture is photo else "simulation", fontsize=9)
+            ax.set_title("Photo" if picture is photo else name, fontsize=9)
         if region is not None:
             corner = (region.first_column - 0.5, region.first_row - 0.5)
             style: dict[str, Any] = {"fill": False, "linewidth": 1.0, "color": colours.REGION}
@@ -70,7 +77,7 @@ def picture_drawing(
             yield (size * (row + 0.5) - 0.5, *values)
 
     columns = [f"column {size * (c + 0.5) - 0.5:g}" for c in range(cells.shape[1])]
-    title = f"Simulated picture: {caption(frame.scene)}"
+    title = f"{name}: {caption(frame.scene)}"
     return Drawing("picture", title, draw, ("row", *columns), rows)
 
 

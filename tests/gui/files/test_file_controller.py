@@ -120,10 +120,10 @@ def test_a_saved_picture_is_exactly_the_one_shown(
     bench.files.show_snapshot(shown)
     path = tmp_path / f"picture.{ending}"
     bench.files.save_picture(path)
-    assert bench.status_message == [f"Saved picture.{ending}"]
+    assert bench.status_message == [f"Saved picture.{ending}: the camera's picture"]
     written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     assert written is not None
-    assert np.array_equal(written, shown.frame.image)
+    assert np.array_equal(written, shown.frame.camera_image)
 
 
 def test_an_unwritable_picture_gives_a_sentence_and_no_file(
@@ -159,7 +159,11 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     bench.files.ask_to_save_scene()
     bench.files.ask_to_save_picture()
     bench.files.ask_for_scene()
-    assert bench.status_message == ["Saved a.toml", "Saved b.png", "Opened a.toml"]
+    assert bench.status_message == [
+        "Saved a.toml",
+        "Saved b.png: the camera's picture",
+        "Opened a.toml",
+    ]
     with qtbot.waitSignal(bench.photos.opened) as opened:
         bench.files.ask_for_photo()
     assert opened.args[0].path == photo_file
@@ -211,14 +215,14 @@ def test_dialogs_begin_in_the_folder_of_the_last_file(
     )
     for ask_user in dialogs:
         ask_user()
-    assert asked == ["", "", "scene.toml", "simulation.png"]
+    assert asked == ["", "", "scene.toml", "simulation-camera.png"]
     with qtbot.waitSignal(bench.photos.opened):
         bench.photos.open(photo_file)
     asked.clear()
     for ask_user in dialogs:
         ask_user()
     folder = photo_file.parent
-    saved = [str(folder / "scene.toml"), str(folder / "simulation.png")]
+    saved = [str(folder / "scene.toml"), str(folder / "simulation-camera.png")]
     assert asked == [str(folder), str(folder), *saved]
     (tmp_path / "deeper").mkdir()
     bench.files.save_scene(tmp_path / "deeper" / "scene.toml")

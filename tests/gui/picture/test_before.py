@@ -18,6 +18,7 @@ from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 
 Grey = NDArray[np.uint8]
@@ -142,8 +143,9 @@ def pane_with_wipe(qtbot: QtBot) -> tuple[PicturePane, BeforeWipe]:
 
 
 def flat(snapshot: Snapshot, level: int) -> Snapshot:
-    """Paint a picture all over with one level."""
-    snapshot.frame.image[...] = level
+    """Paint the pictures of a snapshot all over with one level."""
+    for whose in PICTURES:
+        snapshot.frame.picture(whose)[...] = level
     return snapshot
 
 

@@ -33,6 +33,10 @@ class ProfilePane(Protocol):
     def columns_in_view(self) -> tuple[int, int]:
         """Return the first visible column and the one after the last."""
 
+    @property
+    def is_enhanced(self) -> bool:
+        """Whether the curves are shown after the receiver's enhancement."""
+
 
 class AccuracyPane(Protocol):
     """The pane of the accuracy study."""
@@ -153,12 +157,14 @@ class Figures(QObject):
     def _of_profile(self) -> FigureRequest:
         shown, comparison = self._shown(), self._comparison()
         first, last = self._profile.columns_in_view()
+        enhanced = self._profile.is_enhanced
+        band = shown.enhanced_band if enhanced else shown.band
 
         def draw() -> "Drawing":
             from occ_model.figures.window_panes import profile_drawing
 
             return profile_drawing(
-                shown.frame, shown.band, shown.band_undefined, comparison, first, last
+                shown.frame, band, shown.band_undefined, comparison, first, last, enhanced=enhanced
             )
 
         return self.request(shown.frame.scene, draw)

@@ -10,12 +10,12 @@ from occ_gui.background.latest_wins import LatestWins
 from occ_gui.picture.placement import Placement, PlacementStore
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.arrays import FloatArray
+from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
-from occ_model.photo.comparison import compare
+from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Comparison, Match, Stripes
+from occ_model.results import Comparison, Frame, Match, Stripes
 
 _FLAT = 0.5
 """Swing in grey levels below which the simulated columns show no stripes."""
@@ -126,32 +126,39 @@ class ComparisonController(QObject):
         placement = self._placements.placement
         comparison, sentence = None, self._sentence
         frame = snapshot.frame
-        simulated = frame.enhanced.astype(np.float64) if self._enhanced else frame.profile
+        method = frame.scene.model.enhancement
         try:
-            comparison = self._compare_with(simulated)
+            comparison = self._compare_with(frame)
         except MatchError as error:
             sentence = str(error)
         if comparison is not None and float(np.ptp(comparison.simulated)) < _FLAT:
             # A photo scaled to no swing at all would agree with any simulation.
             comparison, sentence = None, self.tr("The simulation has no stripes there to compare.")
+        raw = photo.profile
+        if self._enhanced:
+            raw = enhance(raw, method).astype(np.float64)
         self._pane.show_photo_profile(
-            PhotoProfile(comparison, photo.profile, placement.column, placement.scale, sentence)
+            PhotoProfile(comparison, raw, placement.column, placement.scale, sentence)
         )
 
-    def _compare_with(self, simulated: FloatArray) -> Comparison | None:
-        """Compare with these simulated columns; None if no stripes are known."""
+    def _compare_with(self, frame: Frame) -> Comparison | None:
+        """Compare with a simulated profile, as it is shown; None if no stripes are known."""
         placement, stripes = self._placements.placement, self._stripes
         if stripes is None:
             return None
         first = placement.column + stripes.region.first_column * placement.scale
-        return compare(stripes.flattened, simulated, first, placement.scale)
+        comparison = compare(stripes.flattened, frame.profile, first, placement.scale)
+        if not self._enhanced:
+            return comparison
+        enhanced = frame.enhanced.astype(np.float64)
+        return enhance_comparison(comparison, enhanced, frame.scene.model.enhancement)
 
     def comparison(self) -> Comparison | None:
-        """Compare with the simulated columns before enhancement; None if that is impossible."""
+        """Return the comparison that is shown; None if there is none."""
         if self._photo is None or self._snapshot is None:
             return None
         try:
-            return self._compare_with(self._snapshot.frame.profile)
+            return self._compare_with(self._snapshot.frame)
         except MatchError:
             return None
 

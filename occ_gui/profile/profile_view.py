@@ -106,7 +106,10 @@ class ProfileView(QWidget):
     def _make_controls(self) -> None:
         self.enhanced = QCheckBox(self.tr("Enhanced"))
         self.enhanced.setToolTip(
-            self.tr("Show the simulated columns after the camera's enhancement, as in the picture.")
+            self.tr(
+                "Show every curve after the receiver's contrast enhancement, each by its own "
+                "histogram, as the receiver would enhance a picture with these columns."
+            )
         )
         self.enhanced.toggled.connect(self._draw_before)
         self.enhanced.toggled.connect(self._redraw)
@@ -197,8 +200,9 @@ class ProfileView(QWidget):
         decoded = snapshot.decoded
         enhanced = self.enhanced.isChecked()
         profile = _levels(snapshot, enhanced)
+        band = snapshot.enhanced_band if enhanced else snapshot.band
         _draw(self.simulation, profile)
-        _draw(self.band, snapshot.band)
+        _draw(self.band, band)
         self.reason.setText(snapshot.band_undefined)
         self.reason.setVisible(bool(snapshot.band_undefined))
         self._region.setVisible(decoded.region is not None)
@@ -212,7 +216,7 @@ class ProfileView(QWidget):
             "threshold": self.threshold.isVisible(),
         }.items():
             self.legend.show_line(key, visible)
-        self._simulated_levels = (profile, snapshot.band)
+        self._simulated_levels = (profile, band)
         self._fit_levels()
         self._fit_columns(snapshot)
 
@@ -255,6 +259,11 @@ class ProfileView(QWidget):
             return first
         return float(comparison.first_column)
 
+    @property
+    def is_enhanced(self) -> bool:
+        """Whether the curves are shown after the receiver's enhancement."""
+        return self.enhanced.isChecked()
+
     def columns_in_view(self) -> tuple[int, int]:
         """Return the first visible column, and the one after the last."""
         columns = 0 if self._snapshot is None else len(self._snapshot.frame.profile)
@@ -280,7 +289,7 @@ class ProfileView(QWidget):
 
 
 def _levels(snapshot: Snapshot, enhanced: bool) -> FloatArray:
-    """Return the column values, before or after the camera's enhancement."""
+    """Return the column values, before or after the receiver's enhancement."""
     frame = snapshot.frame
     return frame.enhanced.astype(np.float64) if enhanced else frame.profile
 

@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from occ_model.arrays import FloatArray
+from occ_model.camera.enhancement import enhance
 from occ_model.results import DecodeResult, Frame
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
@@ -67,6 +70,13 @@ class Snapshot:
     band_undefined: str
     reading_seconds: float
     others: tuple[DecodeResult, ...] = ()
+
+    @property
+    def enhanced_band(self) -> FloatArray | None:
+        """The band model's profile as a receiver would enhance it, None where there is none."""
+        if self.band is None:
+            return None
+        return enhance(self.band, self.frame.scene.model.enhancement).astype(np.float64)
 
     @property
     def simulation_seconds(self) -> float:

@@ -107,6 +107,8 @@ def profile_drawing(
     comparison: Comparison | None = None,
     first: int = 0,
     last: int | None = None,
+    *,
+    enhanced: bool = False,
 ) -> Drawing:
     """Draw the column profiles, and the photo's residual under them.
 
@@ -122,16 +124,20 @@ def profile_drawing(
         The photo's profile beside the simulated one, if there is a photo.
     first, last
         The columns to draw, from ``first`` to before ``last``; by default all. The table holds all.
+    enhanced
+        Whether the profiles are those after the receiver's enhancement; ``band`` and ``comparison``
+        then are so already.
     """
+    simulated = frame.enhanced.astype(np.float64) if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {
-        "simulation": frame.profile,
+        "simulation": simulated,
         "band model": band,
         "photo": None if comparison is None else _placed(comparison, len(frame.profile)),
     }
     shown = {name: values for name, values in lines.items() if values is not None}
 
     def draw() -> Figure:
-        figure = _profile_figure(shown, undefined, comparison, slice(first, last))
+        figure = _profile_figure(shown, undefined, comparison, slice(first, last), enhanced)
         figure.supxlabel(caption(frame.scene), fontsize=7)
         return figure
 
@@ -140,11 +146,16 @@ def profile_drawing(
         yield from zip(range(len(frame.profile)), *values, strict=True)
 
     header = ("column", *(f"{name} (grey level)" for name in shown))
-    return Drawing("profile", f"Column profile: {caption(frame.scene)}", draw, header, rows)
+    what = "Column profile after the receiver's enhancement" if enhanced else "Column profile"
+    return Drawing("profile", f"{what}: {caption(frame.scene)}", draw, header, rows)
 
 
 def _profile_figure(
-    lines: Mapping[str, FloatArray], undefined: str, comparison: Comparison | None, part: slice
+    lines: Mapping[str, FloatArray],
+    undefined: str,
+    comparison: Comparison | None,
+    part: slice,
+    enhanced: bool,
 ) -> Figure:
     """Draw some columns of profiles, and the residual of the photo's under them."""
     styles = {"simulation": SIMULATION, "band model": BAND, "photo": PHOTO}
@@ -156,7 +167,7 @@ def _profile_figure(
     column = np.arange(len(lines["simulation"]))[part]
     for name, values in lines.items():
         axes[0].plot(column, values[part], label=name, linewidth=1.1, **styles[name])
-    axes[0].set_ylabel("grey level")
+    axes[0].set_ylabel("enhanced level" if enhanced else "grey level")
     axes[0].set_ylim(bottom=0)
     if undefined:
         axes[0].set_title(undefined, fontsize=7)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.results import Comparison
 
@@ -53,6 +54,32 @@ def compare(
     about_mean, swing = seen - seen.mean(), under - under.mean()
     if about_mean.std() < _FLAT or swing.std() < _FLAT:
         return Comparison(first, np.full(len(under), under.mean()), under, 0.0)
-    correlation = float(np.mean(about_mean * swing) / (about_mean.std() * swing.std()))
     photo = under.mean() + about_mean * (swing.std() / about_mean.std())
-    return Comparison(first, photo, under, correlation)
+    return Comparison(first, photo, under, _correlation(seen, under))
+
+
+def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str) -> Comparison:
+    """Compare photo and simulation after the receiver's enhancement of both.
+
+    Parameters
+    ----------
+    comparison
+        Both profiles before it.
+    enhanced : ndarray of float64, shape (columns,)
+        The simulated profile after it.
+    method
+        The enhancement, by the photo's own histogram: see
+        :class:`occ_model.camera.enhancement.Enhancement`.
+    """
+    first = comparison.first_column
+    photo = enhance(comparison.photo, method).astype(np.float64)
+    under = enhanced[first : first + len(photo)]
+    return Comparison(first, photo, under, _correlation(photo, under))
+
+
+def _correlation(seen: FloatArray, under: FloatArray) -> float:
+    """Return the correlation of two profiles, 0 where one has no stripes."""
+    about_mean, swing = seen - seen.mean(), under - under.mean()
+    if about_mean.std() < _FLAT or swing.std() < _FLAT:
+        return 0.0
+    return float(np.mean(about_mean * swing) / (about_mean.std() * swing.std()))

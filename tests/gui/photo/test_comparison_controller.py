@@ -17,6 +17,7 @@ from occ_gui.photo.comparison_controller import ComparisonController
 from occ_gui.picture.placement import Placement, PlacementStore
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
 from occ_model.photo.reading.load import Photo
@@ -147,7 +148,25 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
     for enhanced, profile in ((True, snapshot.frame.enhanced), (False, snapshot.frame.profile)):
         bench.controller.set_enhanced(enhanced)
         first = bench.comparison.first_column
-        assert bench.comparison.simulated[0] == profile[first]
+        length = len(bench.comparison.simulated)
+        assert bench.comparison.simulated.tolist() == profile[first : first + length].tolist()
+
+
+def test_an_enhanced_photo_is_so_by_its_own_histogram(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    bench.controller.show_photo(photo)
+    bench.controller.show_snapshot(snapshot_of())
+    bench.residual()
+    before = bench.comparison
+    bench.controller.set_enhanced(True)
+    after = bench.comparison
+    assert after.photo.tolist() == enhance(before.photo, "equalization").tolist()
+    assert after.correlation == pytest.approx(np.corrcoef(after.photo, after.simulated)[0, 1])
+    assert bench.last.raw.tolist() == enhance(photo.profile, "equalization").tolist()
+    assert bench.controller.comparison().photo.tolist() == after.photo.tolist()
+    bench.controller.set_enhanced(False)
+    assert bench.comparison.photo.tolist() == before.photo.tolist()
 
 
 def test_without_stripes_the_photo_is_drawn_with_a_sentence(

@@ -158,6 +158,23 @@ def test_an_export_draws_and_names_the_one_that_is_shown(
     assert means == pytest.approx([frame.camera_image.mean(), frame.image.mean()], abs=1.0)
 
 
+def test_an_exported_profile_is_the_one_that_is_shown(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    for enhanced in (False, True):
+        application.profile.enhanced.setChecked(enhanced)
+        path = tmp_path / f"{enhanced}.csv"
+        application.desktop.export.export("profile", path)
+        user.wait_until_idle()
+        lines = path.read_text(encoding="utf-8").splitlines()
+        assert ("after the receiver's enhancement" in lines[0]) == enhanced
+        table = np.array(
+            [line.split(",") for line in lines if line[:1].isdigit()], dtype=np.float64
+        )
+        for column, curve in ((1, application.profile.simulation), (2, application.profile.band)):
+            np.testing.assert_allclose(table[:, column], curve.getOriginalDataset()[1], atol=0.01)
+
+
 def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(
     application: Application, user: User
 ) -> None:

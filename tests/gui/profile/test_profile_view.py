@@ -15,6 +15,7 @@ from occ_gui.profile import profile_view
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, DecodeResult
 
@@ -70,6 +71,20 @@ def test_the_band_model_is_drawn_where_it_is_defined(
     assert drawn(view.band)[1] == snapshot.band.tolist()
     assert not view.reason.isVisible()
     assert "band model" in legend_texts(view)
+
+
+def test_the_enhanced_band_model_is_so_by_its_own_histogram(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    for method in ("equalization", "stretch", "none"):
+        snapshot = snapshot_of(enhancement=method)
+        view.show_snapshot(snapshot)
+        assert snapshot.band is not None
+        view.enhanced.setChecked(True)
+        assert drawn(view.band)[1] == enhance(snapshot.band, method).tolist()
+        assert view.plot.viewRange()[1][1] >= max(drawn(view.band)[1])
+        view.enhanced.setChecked(False)
+        assert drawn(view.band)[1] == snapshot.band.tolist()
 
 
 def test_where_the_band_model_is_undefined_a_sentence_says_so(

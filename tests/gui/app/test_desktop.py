@@ -156,16 +156,17 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     application: Application, qtbot: QtBot
 ) -> None:
     pane = application.image.simulation
-    image = pane._image
-    assert image is not None
+    frame = application.image._frame
+    assert frame is not None
     told = application.window.pointed
     view = pane.graphics
     place = view.mapFromScene(pane.box.mapViewToScene(QPointF(40, 30)))
     at = pane.box.mapSceneToView(QPointF(view.mapToScene(place)))
     column, row = round(at.x()), round(at.y())
     qtbot.mouseMove(view.viewport(), QPoint(place))
-    expected = f"Simulation: column {column}, row {row}, level {image[row, column]}"
-    qtbot.waitUntil(lambda: told.text() == expected)
+    levels = [int(image[row, column]) for image in (frame.camera_image, frame.image)]
+    expected = "Simulation: column {}, row {}, camera level {}, receiver level {}"
+    qtbot.waitUntil(lambda: told.toolTip() == expected.format(column, row, *levels))
     plot = application.profile.plot
     place = plot.mapFromScene(plot.getViewBox().sceneBoundingRect().center())
     qtbot.mouseMove(plot.viewport(), QPoint(place))

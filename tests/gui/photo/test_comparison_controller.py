@@ -164,7 +164,9 @@ def test_an_enhanced_photo_is_so_by_its_own_histogram(
     assert after.photo.tolist() == enhance(before.photo, "equalization").tolist()
     assert after.correlation == pytest.approx(np.corrcoef(after.photo, after.simulated)[0, 1])
     assert bench.last.raw.tolist() == enhance(photo.profile, "equalization").tolist()
-    assert bench.controller.comparison().photo.tolist() == after.photo.tolist()
+    exported = bench.controller.comparison()
+    assert exported is not None
+    assert exported.photo.tolist() == after.photo.tolist()
     bench.controller.set_enhanced(False)
     assert bench.comparison.photo.tolist() == before.photo.tolist()
 

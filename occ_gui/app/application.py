@@ -24,6 +24,7 @@ from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
@@ -58,7 +59,7 @@ class Application(QObject):
         preferences: QSettings | None = None,
     ) -> None:
         super().__init__()
-        self.settings = SettingsStore(settings)
+        self.settings = SettingsStore(settings, {e.name: e.label for e in EFFECTS})
         self.store = SceneStore(scene, self.settings)
         self.editor = SceneEditor(self.store)
         self.preferences = Preferences(preferences)
@@ -242,7 +243,8 @@ class Application(QObject):
     def _show_settings(self, settings: SimulationSettings) -> None:
         self.messages.end_refusal()
         self.accuracy.show_settings(settings)
-        self.controls.forced.show_force(settings.force)
+        forced = forced_text(settings.force, self.settings.effect_labels)
+        self.controls.forced.show_list(forced)
 
     def _refuse_setting(self, sentence: str) -> None:
         self.accuracy.show_settings(self.settings.settings)

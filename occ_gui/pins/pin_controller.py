@@ -131,7 +131,8 @@ class PinController(QObject):
                 first, second = (text or self.tr("none") for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
         if a.force != b.force:
-            first, second = (forced_text(pin.force) or self.tr("none") for pin in (a, b))
+            labels = self._scenes.settings.effect_labels
+            first, second = (forced_text(p.force, labels) or self.tr("none") for p in (a, b))
             meaning = self.tr("Effects that you have switched on or off; the plan decides others.")
             rows.append(ComparedRow(self.tr("Effects by hand"), first, second, meaning))
         return rows

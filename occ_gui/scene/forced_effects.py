@@ -5,30 +5,38 @@ from collections.abc import Mapping
 from PySide6.QtCore import QCoreApplication, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
-from occ_model.effects.registry import EFFECTS
 
+def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
+    """Say in words how an effect is switched: on or off by hand, or by the plan (None).
 
-def switch_text(effect: str, included: bool | None) -> str:
-    """Say in words how an effect is switched: on or off by hand, or by the plan (None)."""
-    labels = {known.name: known.label for known in EFFECTS}
+    Parameters
+    ----------
+    effect, included
+        The effect's name, and how it is switched.
+    labels
+        The effects' names on the screen.
+    """
     texts = {
         True: QCoreApplication.translate("ForcedEffects", "{effect} on by hand"),
         False: QCoreApplication.translate("ForcedEffects", "{effect} off by hand"),
         None: QCoreApplication.translate("ForcedEffects", "{effect} as planned"),
     }
-    return texts[included].format(effect=labels[effect])
+    return texts[included].format(effect=labels.get(effect, effect))
 
 
-def forced_text(force: Mapping[str, bool]) -> str:
-    """List the effects that are switched by hand, in the order that light travels.
+def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
+    """List the effects that are switched by hand.
 
     Parameters
     ----------
     force
         The effects' names, and whether each is on.
+    labels
+        The names on the screen of all effects, in the order of the list.
     """
-    names = (effect.name for effect in EFFECTS if effect.name in force)
-    return ", ".join(switch_text(name, force[name]) for name in names)
+    places = {name: place for place, name in enumerate(labels)}
+    names = sorted(force, key=lambda name: places.get(name, len(places)))
+    return ", ".join(switch_text(name, force[name], labels) for name in names)
 
 
 class ForcedEffects(QWidget):
@@ -58,7 +66,7 @@ class ForcedEffects(QWidget):
         layout.addWidget(self.back, 0, Qt.AlignmentFlag.AlignTop)
         self.hide()
 
-    def show_force(self, force: Mapping[str, bool]) -> None:
-        """List these effects; the names of those that are on are mapped to True."""
-        self.text.setText(forced_text(force))
-        self.setVisible(bool(force))
+    def show_list(self, text: str) -> None:
+        """Show the list of these effects, or nothing where it is empty."""
+        self.text.setText(text)
+        self.setVisible(bool(text))

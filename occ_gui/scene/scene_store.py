@@ -74,7 +74,11 @@ class SceneStore(QObject):
         force = {name: on for name, on in self._force.items() if name != effect}
         if included is not None:
             force[effect] = included
-        self.put(self._scene, f"switch: {switch_text(effect, included)}", force=force)
+        self.put(
+            self._scene,
+            f"switch: {switch_text(effect, included, self.settings.effect_labels)}",
+            force=force,
+        )
 
     def release_effects(self) -> None:
         """Leave all effects to the plan, as one step."""

@@ -24,6 +24,8 @@ class SettingsStore(QObject):
     ----------
     settings
         The first settings.
+    effect_labels
+        The names on the screen of all effects, by their names in the program.
     """
 
     changed = Signal(object)
@@ -32,8 +34,13 @@ class SettingsStore(QObject):
     refused = Signal(str)
     """The reason why a change was not made; the settings are unchanged."""
 
-    def __init__(self, settings: SimulationSettings = FIRST_SETTINGS) -> None:
+    def __init__(
+        self,
+        settings: SimulationSettings = FIRST_SETTINGS,
+        effect_labels: Mapping[str, str] | None = None,
+    ) -> None:
         super().__init__()
+        self.effect_labels = effect_labels or {}
         self._settings = settings
 
     @property

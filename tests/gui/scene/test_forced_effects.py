@@ -24,10 +24,11 @@ def by_hand(application: Application, user: User) -> Application:
 
 
 def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
-    assert forced_text({"jpeg": False, "vignetting": True}) == (
+    labels = {effect.name: effect.label for effect in EFFECTS}
+    assert forced_text({"jpeg": False, "vignetting": True}, labels) == (
         "Vignetting on by hand, JPEG off by hand"
     )
-    everything = forced_text({effect.name: True for effect in EFFECTS})
+    everything = forced_text({effect.name: True for effect in reversed(EFFECTS)}, labels)
     assert everything.split(", ") == [f"{effect.label} on by hand" for effect in EFFECTS]
 
 

@@ -121,7 +121,11 @@ class SceneStore(QObject):
             if last.after == last.before:
                 last.setObsolete(True)  # a gesture that ends where it began is no step
                 self.undo_stack.undo()  # only removes the obsolete step
-        self._restore(after)
+        # As in _restore, which would be one call more on the way of a slider to its picture.
+        is_new, self._scene = scene != self._scene, scene
+        self.settings.set_force(after[1])
+        if is_new:
+            self.changed.emit(scene)
         if new is not None:
             self.undo_stack.push(new)
 

@@ -38,15 +38,24 @@ class BitStrip(QWidget):
         """Show bits in the order of sending; bits that were not received are missing at the end."""
         self._sent = tuple(int(bit) for bit in sent)
         self._received = tuple(int(bit) for bit in received)[: len(self._sent)]
+        self._describe()
+        self.update()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the bits are those of an earlier scene."""
+        self.setEnabled(not outdated)
+        self._describe()
+
+    def _describe(self) -> None:
         wrong = self.wrong_places()
         sent_text, received_text = ("".join(map(str, b)) for b in (self._sent, self._received))
-        self.setAccessibleDescription(
-            self.tr("sent {sent}, received {received}, {wrong} wrong").format(
-                sent=sent_text, received=received_text or self.tr("nothing"), wrong=len(wrong)
-            )
+        text = self.tr("sent {sent}, received {received}, {wrong} wrong").format(
+            sent=sent_text, received=received_text or self.tr("nothing"), wrong=len(wrong)
         )
-        self.setToolTip(self.accessibleDescription())
-        self.update()
+        if not self.isEnabled():
+            text = self.tr("earlier scene: {text}").format(text=text)
+        self.setAccessibleDescription(text)
+        self.setToolTip(text)
 
     def wrong_places(self) -> list[int]:
         """Return the indices of the received bits that differ from the sent ones."""

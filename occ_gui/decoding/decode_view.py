@@ -92,7 +92,7 @@ class DecodeView(QWidget):
         if snapshot is None or outdated == self._is_outdated:
             return
         self._is_outdated = outdated
-        self.strip.setEnabled(not outdated)
+        self.strip.show_outdated(outdated)
         self._mark_tabs((snapshot.decoded, *snapshot.others))
         self.verdict.setText(self._verdict(self._chosen(snapshot)))
 

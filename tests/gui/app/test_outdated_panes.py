@@ -54,6 +54,7 @@ def test_a_verdict_is_that_of_an_earlier_scene_at_once(
     application.store.change(switching_frequency=500.0)
     assert application.decode.verdict.text() == f"Earlier scene: {RIGHT}"
     assert tabs(application) == ["…", "…"]
+    assert application.decode.strip.accessibleDescription().startswith("earlier scene: sent ")
     assert not application.decode.strip.isEnabled()
     held.set()
     user.wait_until_idle()

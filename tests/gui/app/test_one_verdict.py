@@ -1,0 +1,131 @@
+"""The window, the model and the study say the same of a scene."""
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from gui.user import User
+
+import occ_model as occ
+from occ_gui.app.application import Application
+from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.slider_strip_controller import IMAGES, POSITIONS
+from occ_gui.detection_map.worker import SEED, rate_settings
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.sweep.points import measure_points
+from occ_model.study.theory import null_frequency
+
+
+@cache
+def frontier_scenes(count: int) -> tuple[Scene, ...]:
+    """Small pictures of the paper's phones and tablets, near where their codes cease to be read."""
+    random = np.random.default_rng(21)
+    names = [name for name in occ.presets() if not name.endswith("-real")]
+    return tuple(_frontier_scene(names[number % len(names)], random) for number in range(count))
+
+
+def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
+    scene = occ.load_preset(name)
+    changes: dict[str, ParameterValue] = {
+        "rows": scene.camera.rows // 12,
+        "columns": scene.camera.columns // 2,
+        "readout_time": scene.camera.readout_time * 2.0,
+        "panel_width": scene.transmitter.panel_width * 1.3,
+        "switching_frequency": null_frequency(scene) * float(random.uniform(0.8, 1.05)),
+        "code": int(random.integers(1024)),
+        "distance": float(random.uniform(0.6, 1.2)),
+        "start_time": float(random.uniform(0.0, 0.01)),
+        "iso": float(100.0 * 2.0 ** random.uniform(0.0, 3.0)),
+    }
+    return scene.replace(**changes)
+
+
+def agreement_holds(scenes: tuple[Scene, ...]) -> None:
+    """Hold a rendered picture to the rate that the study gives.
+
+    Where every bit of 40 images is read, or none of the images, a picture that is not or is read
+    is one in some dozens.
+    """
+    surprises = sure = 0
+    for number, scene in enumerate(scenes):
+        rate = occ.success_rate(scene, images=40, seed=number)
+        result = occ.decode(occ.render(scene, seed=number).image, scene)
+        if 0.0 < rate < 100.0:
+            continue
+        sure += 1
+        surprises += (result.code == scene.transmitter.code) != (rate == 100.0)
+    assert sure > len(scenes) / 2
+    # Rule of three: a rate of which 40 images show nothing is at most 3 in 40.
+    assert surprises <= math.ceil(0.05 * sure)
+
+
+def test_the_study_says_what_the_pictures_show() -> None:
+    agreement_holds(frontier_scenes(40))
+
+
+@pytest.mark.whole
+def test_the_study_says_what_the_pictures_show_at_200_scenes() -> None:
+    agreement_holds(frontier_scenes(200))
+
+
+def test_the_decoding_pane_says_what_the_decoder_does(application: Application, user: User) -> None:
+    verdicts = set()
+    for scene in frontier_scenes(12):
+        application.store.put(scene, "another scene")
+        user.wait_until_idle()
+        result = occ.decode(occ.render(scene).image, scene)
+        shown = application.decode.verdict.text()
+        verdicts.add(result.code == scene.transmitter.code)
+        if result.code is None:
+            assert "No code" in shown
+        else:
+            assert str(result.code) in shown
+            assert ("all bits right" in shown) == (result.code == scene.transmitter.code), shown
+    assert verdicts == {True, False}
+
+
+@pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
+def test_a_strip_shows_the_success_rate_of_each_position(preset: str) -> None:
+    scene = occ.load_preset(preset)
+    scene = scene.replace(rows=scene.camera.rows // 12, columns=scene.camera.columns // 2)
+    settings = rate_settings(SimulationSettings(), IMAGES, ("threshold",), True)
+    values = lattice("switching_frequency", POSITIONS)
+    places = [12, 18]
+    points = tuple((place, {"switching_frequency": values[place]}) for place in places)
+    found = measure_points(scene, settings, points, lambda: None).points
+    for place, point in zip(places, found, strict=True):
+        at = scene.replace(switching_frequency=values[place])
+        rate = occ.success_rate(at, IMAGES, "threshold", SEED)
+        assert 100.0 * point.right[0] / point.sent == rate
+
+
+@pytest.mark.parametrize(
+    "preset", ["phone-136us", pytest.param("phone-136us-real", marks=pytest.mark.whole)]
+)
+def test_where_the_advice_leads_the_code_is_read(preset: str) -> None:
+    scene = occ.load_preset(preset)
+    scene = scene.replace(
+        rows=scene.camera.rows // 8,
+        columns=scene.camera.columns // 2,
+        readout_time=scene.camera.readout_time * 2,
+        panel_width=scene.transmitter.panel_width * 1.3,
+    )
+    found = occ.limits(scene, images=10)
+    for parameter, working in (
+        ("switching_frequency", found.frequency),
+        ("exposure_time", found.exposure),
+    ):
+        for end in (working.lowest, working.highest):
+            assert end is not None
+            if end.inside is None:
+                continue
+            assert end.inside.right == end.inside.sent
+            there = scene.replace(**{parameter: end.inside.value})
+            read = [
+                occ.decode(occ.render(there.replace(start_time=start)).image, there).code
+                for start in (0.0, 1.1e-3, 2.3e-3)
+            ]
+            assert read == [scene.transmitter.code] * 3, (parameter, end)

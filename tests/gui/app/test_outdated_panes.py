@@ -86,11 +86,11 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
 def test_after_a_refusal_the_last_picture_is_marked_as_older(
     application: Application, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    shown = application.image._shown
+    shown = application.image._frame
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:4]))
-    assert application.image._shown is shown
+    assert application.image._frame is shown
     assert application.decode.verdict.text() == f"Earlier scene: {RIGHT}"
     text = "of an earlier scene: this one has no picture"
     assert {mark.accessibleName() for mark in marks(application)} == {text}
@@ -119,7 +119,7 @@ class Simulation(QObject):
         self.submitted.emit()
 
     def deliver(self, snapshot: Snapshot) -> None:
-        self.picture_ready.emit(Picture.of(snapshot.frame, snapshot.request))
+        self.picture_ready.emit(Picture.of(snapshot.frame, "camera", snapshot.request))
         self.snapshot_shown.emit(snapshot)
 
 

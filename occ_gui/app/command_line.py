@@ -243,7 +243,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     Raises
     ------
     OccError
-        The scene has no picture, or it took too long.
+        The scene has no picture, or it took too long; a map that is not complete is shown as it is.
     """
     from PySide6.QtCore import QDeadlineTimer, QEventLoop, QTimer
     from PySide6.QtWidgets import QApplication
@@ -262,7 +262,8 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
             QApplication.processEvents()  # paints, which may start more work
     if failures:
         raise occ.OccError(failures[0])
-    if not is_done:
+    # A map of whole pictures goes on for minutes, and says how far it is.
+    if not (is_done or _is_idle(application, measured=False)):
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 
 

@@ -39,6 +39,8 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.photo.stripes.find import find_stripes as find_stripes
     from occ_model.receiver.decode import decode as decode
     from occ_model.results import (
+        Alternative as Alternative,
+        ChipReading as ChipReading,
         Comparison as Comparison,
         Decision as Decision,
         DecodeResult as DecodeResult,
@@ -73,7 +75,9 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
 # isort: on
 
 _MODULES = {
+    "Alternative": "results",
     "BandModelUndefined": "errors",
+    "ChipReading": "results",
     "Comparison": "results",
     "Decision": "results",
     "DecodeInputError": "errors",

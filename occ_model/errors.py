@@ -59,7 +59,18 @@ class PhotoError(OccError):
 
 
 class MatchError(OccError):
-    """A photo's stripes cannot be found, or no scene explains them."""
+    """A photo's stripes cannot be found, or no scene explains them.
+
+    Its arguments are the reasons, each a sentence; the message is all of them.
+    """
+
+    def __str__(self) -> str:
+        return " ".join(self.reasons)
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Why the match is refused, each a sentence."""
+        return tuple(map(str, self.args))
 
 
 class OutputError(OccError):

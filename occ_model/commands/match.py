@@ -10,7 +10,7 @@ from occ_model.errors import one_line
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
-from occ_model.results import Match
+from occ_model.results import Alternative, Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS, parameter_named
@@ -95,7 +95,8 @@ def _assumption(match: Match, options: argparse.Namespace) -> str:
 
 
 def _report(match: Match, assumption: str) -> list[str]:
-    lines = [f"{name:22}{_with_uncertainty(match, name, assumption)}" for name in _ESTIMATED]
+    lines = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.reasons)]
+    lines += [f"{name:22}{_with_uncertainty(match, name, assumption)}" for name in _ESTIMATED]
     how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
     chip = 1.0 / (match.switching_frequency * match.readout_time)
     region, stripes = match.region, match.stripes
@@ -118,7 +119,21 @@ def _report(match: Match, assumption: str) -> list[str]:
         unit = PARAMETERS["exposure_time"]
         others = ", ".join(unit.format(t) for t in match.other_exposures)  # type: ignore[arg-type]
         lines.append(f"{'or as well exposed':22}{assumption}{others}")
+    lines += [_alternative(other, assumption) for other in match.alternatives]
     return lines
+
+
+def _alternative(other: Alternative, assumption: str) -> str:
+    """Write another explanation in a line."""
+    what = f"{other.sent}, correlation {other.correlation:.2f}"
+    if other.readout_time is not None and other.exposure_time is not None:
+        times = (other.readout_time, other.exposure_time)
+        names = ("readout_time", "exposure_time")
+        what += f", {assumption}" + ", ".join(
+            f"{name} {PARAMETERS[name].format(time)}"  # type: ignore[arg-type]
+            for name, time in zip(names, times, strict=True)
+        )
+    return f"{'or instead':22}{what}"
 
 
 def _with_uncertainty(match: Match, name: str, assumption: str) -> str:

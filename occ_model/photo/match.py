@@ -11,6 +11,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import MatchError
+from occ_model.photo.evidence.limits import doubts_by_limits
 from occ_model.photo.fit.best_timing import Explanation, explain
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
 from occ_model.photo.fit.read_pattern import read_pattern
@@ -89,7 +90,7 @@ def match_photo(
     report(0.9)
     match = described(photo, task.scene, estimate, task.stripes, explanation)
     report(1.0)
-    return replace(match, pattern_was_read=was_read)
+    return replace(match, pattern_was_read=was_read, reasons=doubts_by_limits(match))
 
 
 def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
@@ -146,11 +147,11 @@ def _explanation(
         if read is not None and (found is None or read.correlation > found.correlation + _CLEARLY):
             found, was_read = read, True
     if found is None or found.correlation < (_EXPLAINS if was_read else _LEAST):
-        raise MatchError(_why_unexplained(task.stripes, sent, found))
+        raise MatchError(*_why_unexplained(task.stripes, sent, found))
     return found, was_read
 
 
-def _why_unexplained(stripes: Stripes, sent: str, found: Explanation | None) -> str:
+def _why_unexplained(stripes: Stripes, sent: str, found: Explanation | None) -> list[str]:
     sentences = []
     if sent != "read":
         sentences.append(
@@ -167,4 +168,4 @@ def _why_unexplained(stripes: Stripes, sent: str, found: Explanation | None) -> 
             else f"The stripes repeat after {stripes.period:.1f} columns, but no sequence of chips "
             "read from them explains them; say what is sent."
         )
-    return " ".join(sentences)
+    return sentences

@@ -4,7 +4,7 @@ from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERRO
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.frame import Frame
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
-from occ_model.results.match import Comparison, Match, Stripes
+from occ_model.results.match import Alternative, ChipReading, Comparison, Match, Stripes
 from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
@@ -14,6 +14,8 @@ __all__ = [
     "CHAINED_PARTS",
     "LEAST_ERROR",
     "AccuracyPoint",
+    "Alternative",
+    "ChipReading",
     "Comparison",
     "Decision",
     "DecodeResult",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
@@ -44,6 +44,64 @@ class Stripes:
         return (self.profile - self.low) / (self.high - self.low)
 
 
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """Another explanation of a photo's stripes than the one that a match gives.
+
+    Parameters
+    ----------
+    sent
+        What it says is sent, in words.
+    pattern
+        The chips sent, from the start of a period; empty where it says that there is no code.
+    correlation
+        Correlation of its profile with the photo's, both without the uneven light.
+    evidence
+        Natural logarithm of its likelihood less that of the match, both with a penalty for what
+        was chosen freely; below 0 where it is the less likely one.
+    readout_time, switching_frequency, exposure_time
+        In SI units; None where it has none.
+    """
+
+    sent: str
+    pattern: str
+    correlation: float
+    evidence: float
+    readout_time: float | None = None
+    switching_frequency: float | None = None
+    exposure_time: float | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ChipReading:
+    """The chips in a photo's stripes, read without knowing what is sent or whether it repeats.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        The chips in view, from the first whole one.
+    columns_per_chip
+        Length of a chip in columns.
+    confidence
+        Probability, from 0 to 1, that the least certain of the chips is right.
+    start
+        Column of the photo at which the first of them starts.
+    region
+        The rectangle of the photo that was read.
+    """
+
+    chips: ByteArray
+    columns_per_chip: float
+    confidence: float
+    start: float
+    region: Region
+
+    @property
+    def text(self) -> str:
+        """The chips as a text of zeros and ones."""
+        return "".join(map(str, self.chips.tolist()))
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Match:
     """The scene that explains a photo's stripes.
@@ -68,6 +126,10 @@ class Match:
         Correlation of that profile with the photo's, both without the uneven light.
     other_exposures
         Other exposure times in seconds that explain the stripes equally well, the shortest first.
+    reasons
+        Why the match is doubtful, each a sentence; none where it is sure.
+    alternatives
+        Other explanations of the stripes, the most likely first.
     """
 
     scene: Scene
@@ -83,6 +145,33 @@ class Match:
     profile: FloatArray
     correlation: float
     other_exposures: tuple[float, ...] = ()
+    reasons: tuple[str, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()
+
+    @property
+    def verdict(self) -> str:
+        """``"sure"``, or ``"doubtful"`` where there is a reason to doubt the match."""
+        return "doubtful" if self.reasons else "sure"
+
+    @property
+    def columns_per_chip(self) -> float:
+        """Length of a chip in columns."""
+        return 1.0 / (self.switching_frequency * self.readout_time)
+
+    @property
+    def periods_in_view(self) -> float:
+        """How often the pattern is sent while the region's columns are read out."""
+        return len(self.profile) / (self.columns_per_chip * len(self.pattern))
+
+    @property
+    def exposure_in_chips(self) -> float:
+        """The exposure time in chips."""
+        return self.exposure_time * self.switching_frequency
+
+    @property
+    def duty(self) -> float:
+        """Share of the pattern in which the LED is on, from 0 to 1."""
+        return self.pattern.count("1") / len(self.pattern)
 
     @property
     def region(self) -> Region:

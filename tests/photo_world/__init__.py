@@ -1,0 +1,1 @@
+"""Simulated photographs of a world that is wider than the model, with the truth beside them."""

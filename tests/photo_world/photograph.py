@@ -1,0 +1,189 @@
+"""Photographs of blinking lamps, drawn without the model's own simulation.
+
+Light is added before the camera's tone curve, as in any real camera. What the model does not know
+is drawn at random: the curve, blur by image processing, scattered light, the lamp's shape, noise.
+"""
+
+import math
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from photo_world.lamps import Lamp, random_lamp
+from photo_world.tone_curves import ToneCurve, power, unknown_curve
+
+KNOWN_GAMMA = 2.22
+
+MOST_SATURATED = 0.6
+
+_SEEN_PERIODS = 1.6
+"""Smallest number of periods of the sent chips within the lamp."""
+
+
+@dataclass(frozen=True)
+class World:
+    """The truth of one photograph, in SI units.
+
+    Parameters
+    ----------
+    chips
+        One period of what is sent, as a text of 0 and 1.
+    saturated
+        Share of the lamp's pixels that shall be white; a lamp that is mostly dark has fewer.
+    ambient
+        Light of the surroundings, as a share of the lamp's.
+    peak
+        The brightest light of a lamp that is not saturated, as a share of what makes white.
+    blur
+        Standard deviation in columns of the blur by image processing.
+    blur_of_values
+        Whether pixel values are blurred (noise reduction, resizing) instead of light (demosaicing).
+    full_well, read_noise
+        In electrons; white is ``full_well``.
+    quality
+        Of the JPEG.
+    """
+
+    seed: int
+    chips: str
+    switching_frequency: float
+    readout_time: float
+    exposure_time: float
+    start_time: float
+    rows: int
+    columns: int
+    lamp: Lamp
+    curve: ToneCurve
+    saturated: float
+    ambient: float
+    peak: float
+    vignetting: float
+    blur: float
+    blur_of_values: bool
+    full_well: float
+    read_noise: float
+    quality: int
+
+    @property
+    def exposure_in_chips(self) -> float:
+        """The exposure as a number of chips."""
+        return self.exposure_time * self.switching_frequency
+
+    @property
+    def columns_a_chip(self) -> float:
+        """The columns that are read out while one chip is sent."""
+        return 1.0 / (self.switching_frequency * self.readout_time)
+
+
+def random_world(seed: int) -> World:
+    """Draw what is photographed and by which camera."""
+    random = np.random.default_rng([1907, seed])
+
+    def between(low: float, high: float) -> float:
+        return float(random.uniform(low, high))
+
+    def over_decades(low: float, high: float) -> float:
+        return math.exp(between(math.log(low), math.log(high)))
+
+    rows, columns = int(random.integers(160, 400)), int(random.integers(1000, 2400))
+    lamp = random_lamp(random, rows, columns)
+    chip_columns = over_decades(2.0, 40.0)
+    most = int(2.0 * lamp.half_width / (_SEEN_PERIODS * chip_columns))
+    chips = _random_chips(random, most)
+    readout = over_decades(2e-6, 30e-6)
+    frequency = 1.0 / (chip_columns * readout)
+    known = bool(random.integers(2))
+    return World(
+        seed=seed,
+        chips=chips,
+        switching_frequency=frequency,
+        readout_time=readout,
+        exposure_time=over_decades(0.1, 4.0) / frequency,
+        start_time=between(0.0, len(chips)) / frequency,
+        rows=rows,
+        columns=columns,
+        lamp=lamp,
+        curve=power(KNOWN_GAMMA) if known else unknown_curve(random),
+        saturated=max(0.0, between(-0.1, MOST_SATURATED)),
+        ambient=over_decades(0.0005, 0.1),
+        peak=between(0.15, 0.9),
+        vignetting=between(0.0, 0.5),
+        blur=between(0.0, 1.5),
+        blur_of_values=bool(random.integers(2)),
+        full_well=over_decades(300.0, 8000.0),
+        read_noise=between(1.0, 6.0),
+        quality=int(random.integers(50, 96)),
+    )
+
+
+def _random_chips(random: np.random.Generator, most: int) -> str:
+    """Draw a square wave, a Manchester-coded packet behind a header, or any other sequence."""
+    kind = int(random.integers(4))
+    if kind == 0 or most < 5:
+        return "10"
+    if kind == 1 and most >= 14:
+        bits = random.integers(0, 2, min(10, (most - 4) // 2))
+        return "1110" + "".join("10" if bit else "01" for bit in bits)
+    while True:
+        chips = "".join(map(str, random.integers(0, 2, int(random.integers(5, min(most, 30) + 1)))))
+        if "10" in chips + chips[0] and "1111" not in 2 * chips and "0000" not in 2 * chips:
+            return chips
+
+
+def lit_fraction(world: World) -> np.ndarray:
+    """Give the share of each column's exposure in which the lamp is lit, shape (columns,).
+
+    The running integral of the light at the end of an exposure less that at its start.
+    """
+    levels = np.array([int(chip) for chip in world.chips], dtype=np.float64)
+    begin = world.start_time + world.readout_time * np.arange(world.columns)
+    begin = begin * world.switching_frequency
+    end = begin + world.exposure_in_chips
+    periods = math.ceil(end[-1] / len(levels)) + 1
+    integral = np.concatenate([[0.0], np.cumsum(np.tile(levels, periods))])
+    chip = np.arange(len(integral))
+    lit = np.interp(end, chip, integral) - np.interp(begin, chip, integral)
+    return np.asarray(lit / world.exposure_in_chips)
+
+
+def expected_light(world: World) -> np.ndarray:
+    """Give the light on each pixel without noise; 1 makes white. Shape (rows, columns)."""
+    rows, columns = world.rows, world.columns
+    down = (np.arange(rows)[:, None] / rows - 0.5) * rows / columns
+    across = np.arange(columns)[None, :] / columns - 0.5
+    falloff = 1.0 - world.vignetting * 2.0 * (down**2 + across**2)
+    brightness = world.lamp.brightness(rows, columns)
+    light = (brightness * lit_fraction(world)[None, :] + world.ambient) * falloff
+    seen = light[world.lamp.covers(rows, columns)]
+    if world.saturated == 0.0:
+        return np.asarray(light * (world.peak / seen.max()))
+    # Where a lamp is mostly off, its dark pixels stay well below white.
+    least = 3.0 * world.ambient + 0.05
+    return np.asarray(light / max(float(np.quantile(seen, 1.0 - world.saturated)), least))
+
+
+def photograph(world: World) -> np.ndarray:
+    """Take the photograph, shape (rows, columns), uint8."""
+    random = np.random.default_rng([1933, world.seed])
+    light = expected_light(world)
+    electrons = random.poisson(light * world.full_well).astype(np.float64)
+    electrons += world.read_noise * random.standard_normal(electrons.shape)
+    light = np.clip(electrons / world.full_well, 0.0, 1.0)
+    if not world.blur_of_values:
+        light = _blurred(light, world.blur)
+    values = 255.0 * world.curve.apply(light)
+    if world.blur_of_values:
+        values = _blurred(values, world.blur)
+    return compressed(np.rint(values).astype(np.uint8), world.quality)
+
+
+def _blurred(values: np.ndarray, deviation: float) -> np.ndarray:
+    # A narrower one has no weight beyond its own pixel.
+    return cv2.GaussianBlur(values, (0, 0), deviation) if deviation > 0.1 else values
+
+
+def compressed(image: np.ndarray, quality: int) -> np.ndarray:
+    """Keep a picture as a JPEG and read it again."""
+    _, data = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, quality])
+    return np.asarray(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE))

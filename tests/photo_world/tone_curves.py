@@ -1,0 +1,75 @@
+"""Tone curves of cameras: from light, 0 to 1, to pixel values, 0 to 1."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+Curve = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class ToneCurve:
+    """A camera's tone curve, and the gamma that it has where it is a plain power."""
+
+    name: str
+    gamma: float | None
+    apply: Curve
+
+
+def power(gamma: float) -> ToneCurve:
+    """Give the curve of a plain gamma."""
+    return ToneCurve(f"gamma {gamma:.2f}", gamma, lambda light: light ** (1.0 / gamma))
+
+
+def srgb() -> ToneCurve:
+    """Give the curve of IEC 61966-2-1."""
+    return ToneCurve(
+        "sRGB",
+        None,
+        lambda light: np.where(
+            light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055
+        ),
+    )
+
+
+def rec709() -> ToneCurve:
+    """Give the curve of ITU-R BT.709, which video cameras have."""
+    return ToneCurve(
+        "BT.709",
+        None,
+        lambda light: np.where(light < 0.018, 4.5 * light, 1.099 * light**0.45 - 0.099),
+    )
+
+
+def contrasty(strength: float) -> ToneCurve:
+    """Give a gamma of 2.2 with an S on it: deeper shadows and brighter lights, as phones add."""
+
+    def apply(light: np.ndarray) -> np.ndarray:
+        value = light ** (1.0 / 2.2)
+        return (1.0 - strength) * value + strength * value**2 * (3.0 - 2.0 * value)
+
+    return ToneCurve(f"S of {strength:.2f}", None, apply)
+
+
+def shoulder(knee: float) -> ToneCurve:
+    """Give a gamma of 2.2 whose lights are compressed, as in film and in pictures of HDR."""
+    return ToneCurve(
+        f"shoulder of {knee:.2f}",
+        None,
+        lambda light: (light * (1.0 + knee) / (light + knee)) ** (1.0 / 2.2),
+    )
+
+
+def unknown_curve(random: np.random.Generator) -> ToneCurve:
+    """Draw a curve that nobody told the program."""
+    kind = int(random.integers(5))
+    if kind == 0:
+        return power(float(random.uniform(1.7, 2.7)))
+    if kind == 1:
+        return srgb()
+    if kind == 2:
+        return rec709()
+    if kind == 3:
+        return contrasty(float(random.uniform(0.2, 0.8)))
+    return shoulder(float(random.uniform(0.6, 3.0)))

@@ -17,6 +17,7 @@ from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_t
 from occ_model.photo.fit.read_pattern import read_pattern
 from occ_model.photo.fitted_scene import ESTIMATES, described, with_notes
 from occ_model.photo.reading.load import Photo
+from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results import Match, Stripes
 from occ_model.scene.argument_checks import check_choice
@@ -41,7 +42,7 @@ _NEAR = np.arange(-4, 5) / 8.0
 """Shifts of the last chip, in chips, of the steps that are tried near a known step."""
 
 
-def match_photo(
+def match_photo(  # noqa: PLR0913 - all but the first two are words with defaults
     photo: Photo,
     scene: Scene,
     *,
@@ -49,6 +50,7 @@ def match_photo(
     sent: str = "auto",
     averaging: str = "auto",
     fit_gamma: bool = False,
+    region: Corners | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Match:
     """Find the settings whose stripes match those of a photo.
@@ -71,6 +73,9 @@ def match_photo(
         ``"pixel-value"`` or ``"light"``, as the scene's parameter, or ``"auto"``: the better match.
     fit_gamma
         Whether gamma is estimated too; light is then averaged.
+    region
+        First row, row after the last, first column and column after the last of the rectangle in
+        which stripes are searched; None for the whole photo.
     progress
         Called with the share of the work that is done. What it raises ends the match.
 
@@ -79,12 +84,13 @@ def match_photo(
     MatchError
         The photo shows no stripes, or no pattern and settings in range explain them.
     ParameterError
-        ``estimate``, ``sent`` or ``averaging`` is not one of these words.
+        ``estimate``, ``sent`` or ``averaging`` is not one of these words, or ``region`` is no
+        rectangle of the photo.
     """
     _check(scene, estimate, sent, averaging)
     report = progress or (lambda _share: None)
     report(0.0)
-    task = _task(photo, scene, averaging, fit_gamma)
+    task = _task(find_stripes(photo, region), with_notes(scene, photo), averaging, fit_gamma)
     report(0.2)
     explanation, was_read = _explanation(task, sent, report)
     report(0.9)
@@ -100,8 +106,7 @@ def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
 
 
-def _task(photo: Photo, scene: Scene, averaging: str, fit_gamma: bool) -> "_Task":
-    stripes, scene = find_stripes(photo), with_notes(scene, photo)
+def _task(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> "_Task":
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)

@@ -4,6 +4,8 @@ A rolling shutter makes the same stripes in every row that shows the panel. The 
 those that vary together, and its columns lie between the first and the last stripe's edge.
 """
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 
@@ -11,6 +13,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo, column_means
+from occ_model.photo.reading.part import Corners, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.period import repeat_period
 from occ_model.results import Region, Stripes
@@ -46,13 +49,16 @@ _MOST_FULL = 0.8
 """Largest share of white columns with which the other columns still show the stripes."""
 
 
-def find_stripes(photo: Photo) -> Stripes:
-    """Find the stripes in a photo.
+def find_stripes(photo: Photo, region: Corners | None = None) -> Stripes:
+    """Find the stripes in a photo, or in a rectangle of it.
 
     Parameters
     ----------
     photo
         The photo, columns being the scan axis.
+    region
+        First row, row after the last, first column and column after the last of the rectangle in
+        which stripes are searched; None for the whole photo.
 
     Returns
     -------
@@ -62,7 +68,24 @@ def find_stripes(photo: Photo) -> Stripes:
     ------
     MatchError
         There are no stripes: the photo is flat or too narrow, or its rows do not vary together.
+    ParameterError
+        ``region`` is no rectangle of the photo.
     """
+    if region is None:
+        return _stripes_of(photo)
+    within = region_within(photo, region)
+    found = _stripes_of(part_of(photo, within))
+    here = found.region
+    moved = Region(
+        here.first_row + within.first_row,
+        here.last_row + within.first_row,
+        here.first_column + within.first_column,
+        here.last_column + within.first_column,
+    )
+    return replace(found, region=moved)
+
+
+def _stripes_of(photo: Photo) -> Stripes:
     columns = photo.samples.shape[1]
     if columns < _LEAST_COLUMNS:
         raise MatchError(

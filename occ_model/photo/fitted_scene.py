@@ -37,6 +37,15 @@ def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
     return fit.timing.exposure / fit.timing.step * scene.camera.readout_time
 
 
+def readout_and_frequency(fit: StripeFit, scene: Scene, estimate: str) -> tuple[float, float]:
+    """Give a fit's readout time and switching frequency in SI units; one is the scene's."""
+    if estimate == "readout_time":
+        frequency = scene.transmitter.switching_frequency
+        return fit.timing.step / frequency, frequency
+    readout = scene.camera.readout_time
+    return readout, fit.timing.step / readout
+
+
 def described(
     photo: Photo, scene: Scene, estimate: str, stripes: Stripes, explanation: Explanation
 ) -> Match:
@@ -79,12 +88,7 @@ def _with_timing(
 ) -> Scene:
     """Set the chips of an explanation, the times of its fit and its camera in a scene."""
     timing, columns = fit.timing, len(fit.profile)
-    if estimate == "readout_time":
-        frequency = scene.transmitter.switching_frequency
-        readout = timing.step / frequency
-    else:
-        readout = scene.camera.readout_time
-        frequency = timing.step / readout
+    readout, frequency = readout_and_frequency(fit, scene, estimate)
     scene, turned = with_chips(scene, explanation.chips)
     first = timing.start(columns) - timing.step * region.first_column - turned
     try:

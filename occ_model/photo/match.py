@@ -4,42 +4,35 @@ The exact exposure integral, under slowly varying light, is fitted to the column
 squares.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import MatchError
-from occ_model.photo.evidence.limits import doubts_by_limits
-from occ_model.photo.fit.best_timing import Explanation, explain
+from occ_model.photo.evidence.candidates import Candidates
+from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
+from occ_model.photo.evidence.rows import rows_alike
+from occ_model.photo.evidence.verdict import Judge
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
-from occ_model.photo.fit.read_pattern import read_pattern
-from occ_model.photo.fitted_scene import ESTIMATES, described, with_notes
+from occ_model.photo.fitted_scene import (
+    ESTIMATES,
+    described,
+    exposure_time,
+    readout_and_frequency,
+    with_notes,
+)
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Match, Stripes
+from occ_model.results import Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.transmitter.packet import sent_chips
 
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
-
-_EXPLAINS = 0.9
-"""Correlation from which chips are taken as the sent ones; chips read from the photo need it."""
-
-_CLEARLY = 0.03
-"""Difference in correlation by which chips read from the photo must exceed the scene's chips."""
-
-_LEAST = 0.8
-"""Correlation below which the scene's chips do not explain the stripes."""
-
-_NEAR = np.arange(-4, 5) / 8.0
-"""Shifts of the last chip, in chips, of the steps that are tried near a known step."""
 
 
 def match_photo(  # noqa: PLR0913 - all but the first two are words with defaults
@@ -90,13 +83,34 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     _check(scene, estimate, sent, averaging)
     report = progress or (lambda _share: None)
     report(0.0)
-    task = _task(find_stripes(photo, region), with_notes(scene, photo), averaging, fit_gamma)
+    stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
+    candidates = Candidates(
+        stripes,
+        scene,
+        _cameras(stripes, scene, averaging, fit_gamma),
+        fit_gamma,
+        lambda found: found.nearest(
+            lambda fit: exposure_time(fit, scene, estimate), photo.exposure_time
+        ),
+    )
     report(0.2)
-    explanation, was_read = _explanation(task, sent, report)
+    judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=sent == "read")
+    hypotheses = _hypotheses(candidates, sent, report)
+    found = _chosen(judge, hypotheses, stripes, sent)
+    other = candidates.nearest_other(found)
+    others = [one for one in (*hypotheses, other) if one is not None and one is not found]
+    verdict = judge.verdict(found, [one for one in others if not is_turned(one, found)])
     report(0.9)
-    match = described(photo, task.scene, estimate, task.stripes, explanation)
+    match = described(photo, scene, estimate, stripes, found.explanation)
     report(1.0)
-    return replace(match, pattern_was_read=was_read, reasons=doubts_by_limits(match))
+    return replace(
+        match,
+        pattern_was_read=found.was_read,
+        reasons=verdict.reasons,
+        alternatives=tuple(
+            _alternative(one, evidence, scene, estimate) for one, evidence in verdict.others
+        ),
+    )
 
 
 def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
@@ -106,65 +120,63 @@ def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
 
 
-def _task(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> "_Task":
+def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> list[CameraTone]:
+    """Give the camera responses that are tried."""
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)
     low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
-    cameras = camera_tones(scene, averagings, low, high)
-    return _Task(stripes, scene, cameras, fit_gamma)
+    return camera_tones(scene, averagings, low, high)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Task:
-    """The stripes to be explained, what is known of them, and the cameras that are tried."""
-
-    stripes: Stripes
-    scene: Scene
-    cameras: list[CameraTone]
-    fit_gamma: bool
-
-    def explained_by(self, chips: ByteArray, steps: FloatArray | None = None) -> Explanation | None:
-        """Fit the timing of given chips to the stripes."""
-        gamma = self.scene.camera.gamma
-        return explain(self.stripes, chips, self.cameras, gamma, self.fit_gamma, steps)
-
-    def read(self) -> Explanation | None:
-        """Read the chips from the stripes, and fit their timing."""
-        if self.stripes.period is None:
-            return None
-        read = read_pattern(self.stripes.profile, self.stripes.flattened, self.stripes.period)
-        if read is None:
-            return None
-        step = len(read.chips) / self.stripes.period
-        return self.explained_by(read.chips, step + _NEAR / len(self.stripes.profile))
+def _hypotheses(
+    candidates: Candidates, sent: str, report: Callable[[float], object]
+) -> list[Hypothesis]:
+    """Fit what the scene sends, what is read from the photo, or both."""
+    as_sent = None if sent == "read" else candidates.as_sent()
+    report(0.5)
+    read = None if sent == "scene" else candidates.read()
+    report(0.8)
+    if as_sent is not None and read is not None and is_turned(as_sent, read):
+        # Both ways lead to the scene's chips, though perhaps to different timings.
+        agreed = replace(read, sent=as_sent.sent, bits=0.0, was_read=False)
+        profile = candidates.stripes.profile
+        as_sent, read = min(as_sent, agreed, key=lambda one: one.power(profile)), None
+    found = [one for one in (as_sent, read) if one is not None]
+    if not found:
+        raise MatchError(*_why_unexplained(candidates.stripes, sent))
+    return found
 
 
-def _explanation(
-    task: _Task, sent: str, report: Callable[[float], object]
-) -> tuple[Explanation, bool]:
-    """Explain the stripes by the scene's chips, or by those read from the photo."""
-    found = None if sent == "read" else task.explained_by(sent_chips(task.scene.transmitter))
-    report(0.6)
-    was_read = False
-    if sent != "scene" and (found is None or found.correlation < _EXPLAINS):
-        read = task.read()
-        if read is not None and (found is None or read.correlation > found.correlation + _CLEARLY):
-            found, was_read = read, True
-    if found is None or found.correlation < (_EXPLAINS if was_read else _LEAST):
-        raise MatchError(*_why_unexplained(task.stripes, sent, found))
-    return found, was_read
+def _chosen(
+    judge: Judge, hypotheses: Sequence[Hypothesis], stripes: Stripes, sent: str
+) -> Hypothesis:
+    """Choose among hypotheses; where all are refused, say too why nothing could be read."""
+    try:
+        return judge.choose(hypotheses)
+    except MatchError as error:
+        if sent == "scene" or any(one.was_read for one in hypotheses):
+            raise
+        raise MatchError(*error.reasons, *_why_unexplained(stripes, "read")) from None
 
 
-def _why_unexplained(stripes: Stripes, sent: str, found: Explanation | None) -> list[str]:
+def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str) -> Alternative:
+    readout, frequency = readout_and_frequency(other.fit, scene, estimate)
+    return Alternative(
+        sent=other.sent,
+        pattern="".join(map(str, other.chips.tolist())),
+        correlation=other.fit.correlation,
+        evidence=evidence,
+        readout_time=readout,
+        switching_frequency=frequency,
+        exposure_time=exposure_time(other.fit, scene, estimate),
+    )
+
+
+def _why_unexplained(stripes: Stripes, sent: str) -> list[str]:
     sentences = []
     if sent != "read":
-        sentences.append(
-            "What the scene sends never changes: it makes no stripes."
-            if found is None
-            else "What the scene sends does not explain the stripes: the best correlation is "
-            f"{found.correlation:.2f}; at least {_LEAST} is needed."
-        )
+        sentences.append("What the scene sends never changes: it makes no stripes.")
     if sent != "scene":
         sentences.append(
             "The stripes do not repeat within the panel's image, so that what is sent cannot be "

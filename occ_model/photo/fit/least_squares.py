@@ -116,10 +116,8 @@ class StripeModel:
         self._waveform = waveform
         self._tone = tone
         self._change = max(_SMALL, rank_resolution) * step
-        chips = step * len(profile)
-        freedom = int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
         # The same number for both levels, or else the mean would fit better than the swing.
-        self._shapes = smooth_shapes(len(profile), freedom)
+        self._shapes = smooth_shapes(len(profile), level_freedom(step * len(profile)))
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
 
@@ -207,6 +205,11 @@ class StripeModel:
         return StripeFit(
             timing, covariance, low, swing, profile, correlation, power, likely, possible
         )
+
+
+def level_freedom(chips: float) -> int:
+    """Give the number of parameters of either level, for a number of chips in view."""
+    return int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
 
 
 def _blur_deviation(timing: Timing) -> float:

@@ -1,0 +1,103 @@
+"""The hypotheses about what was sent that are fitted to a photo's stripes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.evidence.other_codes import nearest_other
+from occ_model.photo.fit.best_timing import Explanation, explain
+from occ_model.photo.fit.camera_response import CameraTone
+from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_pattern
+from occ_model.photo.fitted_scene import with_chips
+from occ_model.results import Stripes
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import sent_chips
+
+_NEAR = np.arange(-4, 5) / 8.0
+"""Shifts of the last chip, in chips, of the steps that are tried near a known step."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Candidates:
+    """Fits hypotheses to stripes.
+
+    Parameters
+    ----------
+    stripes
+        The stripes to be explained.
+    scene
+        What is known of them.
+    cameras
+        The camera responses that are tried.
+    fit_gamma
+        Whether gamma is fitted too.
+    chosen
+        Function that chooses the reported fit of an explanation.
+    """
+
+    stripes: Stripes
+    scene: Scene
+    cameras: list[CameraTone]
+    fit_gamma: bool
+    chosen: Callable[[Explanation], StripeFit]
+
+    def as_sent(self) -> Hypothesis | None:
+        """Suppose what the scene sends; None where that never changes."""
+        chips = sent_chips(self.scene.transmitter)
+        return self._fitted("what the scene sends", chips, bits=0.0, was_read=False)
+
+    def read(self) -> Hypothesis | None:
+        """Suppose the chips that are read from the stripes."""
+        if self.stripes.period is None:
+            return None
+        read = read_pattern(self.stripes.profile, self.stripes.flattened, self.stripes.period)
+        if read is None:
+            return None
+        step = len(read.chips) / self.stripes.period
+        return self._fitted(
+            f"{self._named(read.chips)} read from the photo",
+            read.chips,
+            self._near(step),
+            bits=len(read.chips) + np.log2(MOST_CHIPS),
+            was_read=True,
+        )
+
+    def nearest_other(self, found: Hypothesis) -> Hypothesis | None:
+        """Suppose the other chips that explain the stripes best at the timing of a hypothesis."""
+        chips = nearest_other(self.stripes.profile, found, self.scene.transmitter)
+        if chips is None:
+            return None
+        steps = self._near(found.fit.timing.step)
+        bits = max(found.bits, float(self.scene.transmitter.bits))
+        return self._fitted(f"{self._named(chips)} instead", chips, steps, bits=bits, was_read=True)
+
+    def _near(self, step: float) -> FloatArray:
+        return step + _NEAR / len(self.stripes.profile)
+
+    def _named(self, chips: ByteArray) -> str:
+        """Name chips by their code where they are a packet, else by their number."""
+        scene, _ = with_chips(self.scene, chips)
+        return f"{len(chips)} chips" if scene.transmitter.pattern else f"the code {_code(scene)}"
+
+    def _fitted(
+        self,
+        sent: str,
+        chips: ByteArray,
+        steps: FloatArray | None = None,
+        *,
+        bits: float,
+        was_read: bool,
+    ) -> Hypothesis | None:
+        gamma = self.scene.camera.gamma
+        found = explain(self.stripes, chips, self.cameras, gamma, self.fit_gamma, steps)
+        if found is None:
+            return None
+        return Hypothesis(sent, found, self.chosen(found), bits, was_read)
+
+
+def _code(scene: Scene) -> str:
+    return f"{scene.transmitter.code:0{scene.transmitter.bits}b}"

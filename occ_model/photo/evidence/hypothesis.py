@@ -1,0 +1,123 @@
+"""A hypothesis about what was sent, with the fit that explains the stripes by it."""
+
+import math
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.least_squares import StripeFit, level_freedom
+from occ_model.photo.fit.read_pattern import canonical
+from occ_model.photo.stripes.period import correlated_columns
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Hypothesis:
+    """What is supposed to be sent, and how that explains a photo's stripes.
+
+    Parameters
+    ----------
+    sent
+        What is sent, in words.
+    explanation
+        Its chips and fits.
+    fit
+        The fit that is reported.
+    bits
+        Bits that had to be chosen to state it: 0 where it was given beforehand.
+    was_read
+        Whether the chips were read from the photo.
+    """
+
+    sent: str
+    explanation: Explanation
+    fit: StripeFit
+    bits: float
+    was_read: bool
+
+    @property
+    def chips(self) -> ByteArray:
+        """One period of the chips."""
+        return self.explanation.chips
+
+    @property
+    def chips_in_view(self) -> float:
+        """How many chips are sent while the columns are read out."""
+        return self.fit.timing.step * len(self.fit.profile)
+
+    @property
+    def periods(self) -> float:
+        """How many periods of the chips are in view."""
+        return self.chips_in_view / len(self.chips)
+
+    @property
+    def information(self) -> float:
+        """Bits by which the fit is better than one by chance.
+
+        A profile of N independent Gaussian values reaches the correlation r with a given one with a
+        probability of about (1 - r^2)^(N/2). An exposure of several chips leaves fewer values.
+        """
+        independent = self.chips_in_view / max(1.0, self.fit.timing.exposure)
+        unexplained = max(1.0 - max(self.fit.correlation, 0.0) ** 2, 1e-12)
+        return -0.5 * independent * math.log2(unexplained) - self.bits
+
+    @property
+    def freedom(self) -> int:
+        """Number of parameters of the fit: its levels, step, exposure and phase."""
+        return 3 + 2 * level_freedom(self.chips_in_view)
+
+    def residual(self, profile: FloatArray) -> FloatArray:
+        """Give a profile less that of the fit."""
+        return profile - self.fit.profile
+
+    def power(self, profile: FloatArray) -> float:
+        """Give the sum of the squared residuals."""
+        residual = self.residual(profile)
+        return float(residual @ residual)
+
+
+def runs_of(chips: ByteArray) -> list[int]:
+    """Count the chips of each run of equal chips in one period, from a change on."""
+    changes = np.flatnonzero(chips != np.roll(chips, 1))
+    if changes.size == 0:
+        return [len(chips)]
+    turned = np.roll(chips, -int(changes[0])).tolist()
+    return [len(list(run)) for _, run in groupby(turned)]
+
+
+def is_single_pulse(chips: ByteArray) -> bool:
+    """Whether a period has one pulse only, as any regular pattern has."""
+    return len(runs_of(chips)) <= 2
+
+
+def log_likelihood(power: float, columns: int, independent: float, freedom: float) -> float:
+    """Give the logarithm of a fit's likelihood, less a penalty for its parameters.
+
+    Half of the Bayesian information criterion, negative (Schwarz, Ann. Stat. 6:461, 1978), for
+    Gaussian residuals of which only some are independent.
+
+    Parameters
+    ----------
+    power
+        Sum of the squared residuals.
+    columns
+        Number of residuals.
+    independent
+        Number of those that count as independent.
+    freedom
+        Number of fitted parameters.
+    """
+    variance = max(power / columns, 1e-12)
+    return -0.5 * independent * math.log(variance) - 0.5 * freedom * math.log(max(independent, 2.0))
+
+
+def independent_columns(residual: FloatArray) -> float:
+    """Give the number of columns that count as independent, by a fit's residual."""
+    return len(residual) / correlated_columns(residual)
+
+
+def is_turned(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether two hypotheses are the same endless sequence of chips."""
+    return np.array_equal(canonical(one.chips), canonical(other.chips))

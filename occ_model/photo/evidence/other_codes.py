@@ -1,0 +1,93 @@
+"""The chips besides those found that explain stripes best at the same timing."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.fit.timing import Timing
+from occ_model.scene.scene import Transmitter
+from occ_model.transmitter.packet import packet_length, packets
+from occ_model.transmitter.waveform import Waveform
+
+_MOST_BITS = 12
+"""Bits of a packet up to which all codes are compared; beyond, those that differ in one chip."""
+
+_MOST_CHIPS = 512
+"""Chips of a period up to which others are compared."""
+
+
+def nearest_other(
+    profile: FloatArray, found: Hypothesis, transmitter: Transmitter
+) -> ByteArray | None:
+    """Find the other chips that explain stripes best at the timing of a hypothesis.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
+    found
+        The hypothesis.
+    transmitter
+        Its packets are compared where the chips found are as many; else sequences that differ in
+        one chip, or in two neighbours that are exchanged.
+
+    Returns
+    -------
+    ndarray of uint8, shape (chips,), or None
+        None where the sequence is too long to compare others, or has none that change.
+
+    Notes
+    -----
+    A column's lit fraction is linear in the chips: with the responses A of the columns to each chip
+    and the profile y, both about their means, chips c have the correlation c'A'y / |Ac| |y|.
+    """
+    chips = found.chips
+    if len(chips) > _MOST_CHIPS:
+        return None
+    others = _others(chips, transmitter)
+    if len(others) == 0:
+        return None
+    swing = found.fit.swing
+    light = (profile - found.fit.low) / swing
+    responses = _responses(found.fit.timing, len(chips), len(profile))
+    weight = swing**2 / float((swing**2).sum())
+    responses = responses - weight @ responses
+    light = light - float(weight @ light)
+    towards = others @ (responses.T @ (weight * light))
+    products = responses.T @ (weight[:, None] * responses)
+    energy = np.einsum("ij,ij->i", others @ products, others)
+    likeness = towards / np.sqrt(np.maximum(energy, 1e-12))
+    return np.asarray(others[int(likeness.argmax())], dtype=np.uint8)
+
+
+def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
+    """Give the sequences to compare, shape (sequences, chips), without the turned given one."""
+    count = len(chips)
+    turn = (np.arange(count)[:, None] + np.arange(count)) % count
+    is_packet = not transmitter.pattern and count == packet_length(transmitter.bits)
+    if is_packet and transmitter.bits <= _MOST_BITS:
+        all_codes = packets(np.arange(2**transmitter.bits), transmitter.bits)
+        others = all_codes[:, turn].reshape(-1, count)
+    else:
+        one = np.eye(count, dtype=np.uint8)
+        others = chips ^ np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
+    changes = others.min(axis=1) != others.max(axis=1)
+    own = {turned.tobytes() for turned in chips[turn].astype(np.uint8)}
+    differs = np.array([row.tobytes() not in own for row in others.astype(np.uint8)])
+    return np.asarray(others[changes & differs], dtype=np.float64)
+
+
+def _responses(timing: Timing, chips: int, columns: int) -> FloatArray:
+    """Give the lit fraction of each column that each chip alone makes, shape (columns, chips)."""
+    one = np.zeros(chips, dtype=np.uint8)
+    one[0] = 1
+    first = Waveform(one)
+    return np.stack(
+        [
+            replace(timing, middle=timing.middle - chip).lit_fraction(first, columns)
+            for chip in range(chips)
+        ],
+        axis=1,
+    )

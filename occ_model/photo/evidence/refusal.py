@@ -1,0 +1,86 @@
+"""When an explanation is refused: something else explains the stripes better, or chance does."""
+
+from dataclasses import dataclass
+
+from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse
+from occ_model.photo.evidence.smooth_curve import SmoothCurve
+
+_LEAST_CORRELATION = {False: 0.8, True: 0.9}
+"""Correlation below which given chips, and chips that were read, explain nothing."""
+
+_LEAST_INFORMATION = 30.0
+"""Bits by which a fit must be better than chance: so many timings are tried that the best of them
+is better by about 15 to 20 bits in any picture."""
+
+_LEAST_ALIKE = 0.7
+"""Correlation of the rows' stripes with each other from which they can be those of the time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What is compared with a hypothesis.
+
+    Parameters
+    ----------
+    smooth
+        The explanation without a code.
+    likelihood
+        The hypothesis' likelihood, comparable with that of the smooth curve.
+    rows_alike
+        Correlation of the rows' stripes with each other.
+    """
+
+    smooth: SmoothCurve
+    likelihood: float
+    rows_alike: float
+
+
+def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[str]:
+    """Say why a hypothesis is refused, in sentences.
+
+    Parameters
+    ----------
+    found
+        The hypothesis.
+    beside
+        What it is compared with.
+    blinks
+        Whether it is given that a lamp blinks.
+
+    Returns
+    -------
+    list of str
+        Empty where the hypothesis holds.
+    """
+    least = _LEAST_CORRELATION[found.was_read]
+    what = found.sent[0].upper() + found.sent[1:]
+    if found.fit.correlation < least:
+        return [
+            f"{what} does not explain the stripes: the best correlation is "
+            f"{found.fit.correlation:.2f}; at least {least} is needed."
+        ]
+    reasons = []
+    if found.was_read and not blinks and is_single_pulse(found.chips):
+        share = 100.0 * float(found.chips.mean())
+        columns = len(found.chips) / found.fit.timing.step
+        reasons.append(
+            f"The stripes repeat after {columns:.1f} columns and are bright for {share:.0f} % of "
+            "them, as those of any regular object are, such as a blind; if a lamp blinks so, say "
+            "that it sends a square wave."
+        )
+    if found.information < _LEAST_INFORMATION:
+        reasons.append(
+            f"{what} explains the stripes hardly better than chance: {found.chips_in_view:.1f} "
+            f"chips are in view, and the exposure is {found.fit.timing.exposure:.1f} chips long."
+        )
+    if beside.likelihood < beside.smooth.likelihood:
+        reasons.append(
+            f"A smooth curve of {beside.smooth.numbers} numbers, without any code, explains the "
+            f"stripes better than: {found.sent}."
+        )
+    if beside.rows_alike < _LEAST_ALIKE:
+        reasons.append(
+            "The rows do not show the same stripes: their correlation is "
+            f"{beside.rows_alike:.2f}; at least {_LEAST_ALIKE} is needed."
+        )
+    return reasons

@@ -1,0 +1,123 @@
+"""Choose among hypotheses by their likelihood, and say how sure the choice is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.errors import MatchError
+from occ_model.photo.evidence.doubts import doubts
+from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
+from occ_model.photo.evidence.refusal import Surroundings, refusals
+from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
+from occ_model.results import Stripes
+
+_DECIDEDLY = 10.0
+"""Difference of log-likelihoods from which one explanation counts as decidedly better."""
+
+_COSINES_A_CHIP = 2.0
+"""Cosines a chip in view up to which a smooth curve is tried."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Verdict:
+    """The hypothesis that was chosen.
+
+    Parameters
+    ----------
+    found
+        The hypothesis.
+    reasons
+        Why it is doubtful, in sentences; none where it is sure.
+    others
+        The other hypotheses with the difference of their log-likelihood, the likeliest first.
+    """
+
+    found: Hypothesis
+    reasons: tuple[str, ...]
+    others: tuple[tuple[Hypothesis, float], ...]
+
+
+class Judge:
+    """Compares hypotheses about the same stripes.
+
+    Parameters
+    ----------
+    stripes
+        The stripes.
+    rows_alike
+        Correlation of the rows' stripes with each other.
+    blinks
+        Whether it is given that a lamp blinks.
+    """
+
+    def __init__(self, stripes: Stripes, rows_alike: float, *, blinks: bool) -> None:
+        self._stripes, self._rows_alike, self._blinks = stripes, rows_alike, blinks
+
+    def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
+        """Choose the likeliest hypothesis.
+
+        Raises
+        ------
+        MatchError
+            It is refused.
+        """
+        likelihoods = self._likelihoods(hypotheses)
+        order = sorted(range(len(likelihoods)), key=lambda i: -likelihoods[i])
+        reasons = [self._refusals(hypotheses[i], likelihoods[i], hypotheses) for i in order]
+        best = likelihoods[order[0]]
+        for i, why in zip(order, reasons, strict=True):
+            # What holds but is decidedly less likely than what was refused explains nothing.
+            if not why and likelihoods[i] > best - _DECIDEDLY:
+                return hypotheses[i]
+        sentences = [sentence for why in reasons for sentence in why]
+        raise MatchError(*dict.fromkeys(sentences))
+
+    def verdict(self, found: Hypothesis, others: Sequence[Hypothesis]) -> Verdict:
+        """Say how sure a hypothesis is beside others."""
+        everyone = [found, *others]
+        likelihoods = self._likelihoods(everyone)
+        reasons = doubts(found, self._stripes.saturated, self._rows_alike)
+        beside = sorted(
+            zip(others, (one - likelihoods[0] for one in likelihoods[1:]), strict=True),
+            key=lambda pair: -pair[1],
+        )
+        reasons += [
+            f"Nearly as likely is {other.sent}, with a correlation of {other.fit.correlation:.3f} "
+            f"beside {found.fit.correlation:.3f}."
+            for other, more in beside
+            if more > -_DECIDEDLY
+        ]
+        smooth = self._smooth(found, everyone)
+        if likelihoods[0] - smooth.likelihood < _DECIDEDLY:
+            reasons.append(
+                f"A smooth curve of {smooth.numbers} numbers, without any code, is nearly as "
+                "likely."
+            )
+        return Verdict(found, tuple(reasons), tuple(beside))
+
+    def _refusals(
+        self, found: Hypothesis, likelihood: float, everyone: Sequence[Hypothesis]
+    ) -> list[str]:
+        beside = Surroundings(self._smooth(found, everyone), likelihood, self._rows_alike)
+        return refusals(found, beside, blinks=self._blinks)
+
+    def _smooth(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> SmoothCurve:
+        most = int(_COSINES_A_CHIP * found.chips_in_view)
+        return best_smooth_curve(self._stripes.profile, most, self._independent(everyone))
+
+    def _likelihoods(self, hypotheses: Sequence[Hypothesis]) -> list[float]:
+        independent = self._independent(hypotheses)
+        return [
+            log_likelihood(
+                one.power(self._stripes.profile), len(one.fit.profile), independent, one.freedom
+            )
+            - np.log(2.0) * one.bits
+            for one in hypotheses
+        ]
+
+    def _independent(self, hypotheses: Sequence[Hypothesis]) -> float:
+        """Count the independent columns by the least residual: what is left of others is signal."""
+        profile = self._stripes.profile
+        best = min(hypotheses, key=lambda one: one.power(profile))
+        return independent_columns(best.residual(profile))

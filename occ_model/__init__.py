@@ -30,6 +30,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         ProjectionError as ProjectionError,
         SceneFileError as SceneFileError,
     )
+    from occ_model.photo.chips.read import read_chips as read_chips
     from occ_model.photo.comparison import compare as compare
     from occ_model.photo.match import match_photo as match_photo
     from occ_model.photo.reading.load import (
@@ -117,6 +118,7 @@ _MODULES = {
     "panel_corners": "camera.projection",
     "plan": "effects.plan",
     "presets": "scene.presets",
+    "read_chips": "photo.chips.read",
     "render": "simulation.render",
     "save_preset": "scene.presets",
     "success_rate": "study.success_rate",

@@ -135,14 +135,18 @@ def _hypotheses(
     """Fit what the scene sends, what is read from the photo, or both."""
     as_sent = None if sent == "read" else candidates.as_sent()
     report(0.5)
-    read = None if sent == "scene" else candidates.read()
+    found = [] if sent == "scene" else candidates.read()
     report(0.8)
-    if as_sent is not None and read is not None and is_turned(as_sent, read):
-        # Both ways lead to the scene's chips, though perhaps to different timings.
-        agreed = replace(read, sent=as_sent.sent, bits=0.0, was_read=False)
+    if as_sent is not None:
         profile = candidates.stripes.profile
-        as_sent, read = min(as_sent, agreed, key=lambda one: one.power(profile)), None
-    found = [one for one in (as_sent, read) if one is not None]
+        # Where both ways lead to the scene's chips, then perhaps to different timings.
+        agreed = [
+            replace(one, sent=as_sent.sent, bits=0.0, was_read=False)
+            for one in found
+            if is_turned(one, as_sent)
+        ]
+        best = min([as_sent, *agreed], key=lambda one: one.power(profile))
+        found = [best, *(one for one in found if not is_turned(one, as_sent))]
     if not found:
         raise MatchError(*_why_unexplained(candidates.stripes, sent))
     return found

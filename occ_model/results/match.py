@@ -79,11 +79,11 @@ class ChipReading:
     Parameters
     ----------
     chips : ndarray of uint8, shape (chips,)
-        The chips in view, from the first whole one.
+        The chips in view, from the first edge between two stripes to the last one.
     columns_per_chip
         Length of a chip in columns.
     confidence
-        Probability, from 0 to 1, that the least certain of the chips is right.
+        Probability, from 0 to 1, that all of the chips are right.
     start
         Column of the photo at which the first of them starts.
     region

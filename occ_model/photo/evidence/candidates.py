@@ -11,7 +11,7 @@ from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation, explain
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.least_squares import StripeFit
-from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_pattern
+from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_patterns
 from occ_model.photo.fitted_scene import with_chips
 from occ_model.results import Stripes
 from occ_model.scene.scene import Scene
@@ -50,21 +50,23 @@ class Candidates:
         chips = sent_chips(self.scene.transmitter)
         return self._fitted("what the scene sends", chips, bits=0.0, was_read=False)
 
-    def read(self) -> Hypothesis | None:
-        """Suppose the chips that are read from the stripes."""
-        if self.stripes.period is None:
-            return None
-        read = read_pattern(self.stripes.profile, self.stripes.flattened, self.stripes.period)
-        if read is None:
-            return None
-        step = len(read.chips) / self.stripes.period
-        return self._fitted(
-            f"{self._named(read.chips)} read from the photo",
-            read.chips,
-            self._near(step),
-            bits=len(read.chips) + np.log2(MOST_CHIPS),
-            was_read=True,
-        )
+    def read(self) -> list[Hypothesis]:
+        """Suppose the chips that are read from the stripes, in each way of reading them."""
+        period = self.stripes.period
+        if period is None:
+            return []
+        read = read_patterns(self.stripes.profile, self.stripes.flattened, period)
+        found = [
+            self._fitted(
+                f"{self._named(one.chips)} read from the photo",
+                one.chips,
+                self._near(len(one.chips) / period),
+                bits=len(one.chips) + np.log2(MOST_CHIPS),
+                was_read=True,
+            )
+            for one in read
+        ]
+        return [one for one in found if one is not None]
 
     def nearest_other(self, found: Hypothesis) -> Hypothesis | None:
         """Suppose the other chips that explain the stripes best at the timing of a hypothesis."""

@@ -6,12 +6,15 @@ each P and exposure the chips that explain the harmonics best therefore follow b
 rounded to on and off, and the shortest period whose rounded chips explain the stripes is taken.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.chips.edges import Edges, edges_of
+from occ_model.photo.chips.lattice import coherence
 from occ_model.photo.stripes.envelope import without_trend
 
 MOST_CHIPS = 128
@@ -20,7 +23,7 @@ MOST_CHIPS = 128
 _LEAST_COLUMNS = 2.0
 """Smallest number of columns per chip."""
 
-_EXPOSURES = (0.1, 0.5, 0.9, 1.3, 1.7, 2.3, 2.7, 3.3)
+_EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
 _PHASES = 8
 """Number of phases within a chip that are tried."""
 
@@ -32,11 +35,27 @@ _MOST_HARMONICS = 160
 _COHERENT = 0.93
 """Coherence of the edges with a lattice of chips, as a share of the most coherent lattice's.
 
-Below 1, since gamma makes bright runs longer than dark ones. Therefore a single pulse of 1/8 of a
-period cannot be distinguished from one of 1/9.
+Below 1 for the noise of the edges.
 """
 
 _LEAST_COHERENCE = 0.6
+
+_LONGEST_FOR_EDGES = 1.5
+"""Exposure in chips above which the edges alone may not show the lattice of the chips."""
+
+_MOST_COUNTS = 12
+"""Numbers of chips, on whose lattices the edges lie, that are tried."""
+
+_WELL_EXPLAINED = 0.02
+"""Share of the harmonics' power that the right chips may leave unexplained without a doubt."""
+
+_REFINEMENTS = 120
+
+_MOST_LONGER = 0.5
+"""Chips by which gamma and saturation can make bright runs longer, or shorter, than they are."""
+
+_AS_GOOD = 1.5
+"""Ratio of the unexplained power to the least one up to which fewer chips are preferred."""
 
 _LEAST_CROSSINGS = 4
 
@@ -59,14 +78,21 @@ class ReadPattern:
         One period.
     explained
         Correlation of their harmonics with those in the photo.
+    exposure, phase
+        The exposure, and the place of the first chip, in chips, that explain the harmonics so.
     """
 
     chips: ByteArray
     explained: float
+    exposure: float
+    phase: float
 
 
-def read_pattern(profile: FloatArray, flattened: FloatArray, period: float) -> ReadPattern | None:
-    """Read the shortest repeating sequence of chips that explains the stripes.
+Harmonics = NDArray[np.complex128]
+
+
+def read_patterns(profile: FloatArray, flattened: FloatArray, period: float) -> list[ReadPattern]:
+    """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
     Parameters
     ----------
@@ -79,8 +105,8 @@ def read_pattern(profile: FloatArray, flattened: FloatArray, period: float) -> R
 
     Returns
     -------
-    ReadPattern or None
-        None where no sequence explains the stripes.
+    list of ReadPattern
+        In different ways of reading, by edges first; empty where no sequence explains the stripes.
 
     Notes
     -----
@@ -89,54 +115,60 @@ def read_pattern(profile: FloatArray, flattened: FloatArray, period: float) -> R
     """
     lines = _harmonics(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
-    count = _chips_by_edges(flattened, period, most)
-    read = None if count is None else _coarsest(lines, count)
-    if read is None:
-        read = _chips_by_lines(lines, most)
-    return None if read is None else ReadPattern(canonical(read.chips), read.explained)
+    counts = _counts_by_edges(edges_of(flattened), period, most)
+    found = [_fewest(lines, counts)]
+    by_edges = found[0]
+    if (
+        by_edges is None
+        or _unexplained(by_edges) > _WELL_EXPLAINED
+        or by_edges.exposure > _LONGEST_FOR_EDGES
+    ):
+        found.append(_chips_by_lines(lines, most))
+    read = [replace(one, chips=canonical(one.chips)) for one in found if one is not None]
+    return list({one.chips.tobytes(): one for one in read}.values())
 
 
-def _coarsest(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
-    """Find chips that explain the harmonics, their number being a divisor of a given one.
-
-    An exposure of nearly a chip shifts edges off the lattice of the chips, onto a finer one.
-    """
-    for divisor in range(2, count + 1):
-        if count % divisor == 0:
-            read = _best_chips(lines, divisor)
-            if read is not None and _unexplained(read) <= _UNEXPLAINED:
-                return read
-    return None
+def _fewest(lines: Harmonics, counts: Sequence[int]) -> ReadPattern | None:
+    """Find the fewest chips that explain the harmonics about as well as the best number does."""
+    rough = [one for count in counts if (one := _best_chips(lines, count)) is not None]
+    read = [_refined(lines, one) for one in rough]
+    left = [_unexplained(one) for one in read]
+    enough = _enough(left)
+    return next((one for one, rest in zip(read, left, strict=True) if rest <= enough), None)
 
 
-def _chips_by_edges(flattened: FloatArray, period: float, most: int) -> int | None:
-    """Count the chips of a period by the coarsest lattice that all edges lie on."""
-    above = flattened > 0.5
-    before = np.flatnonzero(above[1:] != above[:-1])
-    if before.size < _LEAST_CROSSINGS:
-        return None
-    low, high = flattened[before], flattened[before + 1]
-    edges = before + (0.5 - low) / (high - low)
+def _enough(left: Sequence[float]) -> float:
+    """Give the share of the power that the fewest chips may leave unexplained."""
+    return min(_UNEXPLAINED, max(_WELL_EXPLAINED, _AS_GOOD * min(left, default=1.0)))
+
+
+def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
+    """Give the numbers of chips in a period on whose lattices all edges lie, the fewest first."""
     count = np.arange(2, most + 1)
-    turns = np.exp(2j * np.pi / period * np.outer(count, edges))
-    coherence = np.abs(turns.mean(axis=1))
-    if coherence.size == 0 or coherence.max() < _LEAST_COHERENCE:
-        return None
-    return int(count[np.flatnonzero(coherence >= _COHERENT * coherence.max())[0]])
+    if edges.count < _LEAST_CROSSINGS or count.size == 0:
+        return []
+    coherent = coherence(edges, count / period)
+    if coherent.max() < _LEAST_COHERENCE:
+        return []
+    good: list[int] = count[coherent >= _COHERENT * coherent.max()].tolist()
+    divisors = [part for part in range(2, good[0]) if good[0] % part == 0]
+    # An exposure of nearly a chip shifts edges off the lattice of the chips, onto a finer one.
+    return [*divisors, *good[:_MOST_COUNTS]]
 
 
-def _chips_by_lines(lines: NDArray[np.complex128], most: int) -> ReadPattern | None:
+def _chips_by_lines(lines: Harmonics, most: int) -> ReadPattern | None:
     """Find the smallest number of chips that explains the harmonics far better than its neighbours.
 
     This method needs no edges: an exposure of several chips leaves none.
     """
     read = {count: _best_chips(lines, count) for count in range(2, most + 1)}
     left = {count: 1.0 if one is None else _unexplained(one) for count, one in read.items()}
+    enough = _enough(list(left.values()))
     for count, one in read.items():
         beside = [left[count + step] for step in _BESIDE if count + step in left]
         stands_out = bool(beside) and left[count] <= _DIP * float(np.median(beside))
-        if left[count] <= _UNEXPLAINED and stands_out:
-            return one
+        if one is not None and left[count] <= enough and stands_out:
+            return _refined(lines, one)
     return None
 
 
@@ -153,7 +185,7 @@ def canonical(chips: ByteArray) -> ByteArray:
     return np.array(list(turned), dtype=np.uint8)
 
 
-def _harmonics(even: FloatArray, period: float) -> NDArray[np.complex128]:
+def _harmonics(even: FloatArray, period: float) -> Harmonics:
     """Give the strength of each harmonic of 1/period, from the first."""
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
@@ -163,27 +195,56 @@ def _harmonics(even: FloatArray, period: float) -> NDArray[np.complex128]:
     return np.asarray(turn @ even[:whole] / whole)
 
 
-def _best_chips(lines: NDArray[np.complex128], count: int) -> ReadPattern | None:
+def _best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
     """Find the chips, over all exposures and phases, whose harmonics are most like those given."""
     order = np.arange(1, len(lines) + 1)
     best: ReadPattern | None = None
     for exposure in _EXPOSURES:
         weight = np.sinc(order / count) * np.sinc(order * exposure / count) / count
-        for phase in range(_PHASES):
-            turned = weight * np.exp(-2j * np.pi * order * phase / (_PHASES * count))
+        for phase in np.arange(_PHASES) / _PHASES:
+            turned = weight * np.exp(-2j * np.pi * order * phase / count)
             chips = _rounded(_levels(lines, turned, count))
             if chips is None:
                 continue
-            model = np.fft.fft(chips)[order % count] * turned
-            explained = _likeness(lines, model)
+            explained = _likeness(lines, np.fft.fft(chips)[order % count] * turned)
             if best is None or explained > best.explained:
-                best = ReadPattern(chips, explained)
+                best = ReadPattern(chips, explained, exposure, float(phase))
     return best
 
 
-def _levels(
-    lines: NDArray[np.complex128], weight: NDArray[np.complex128], count: int
-) -> FloatArray:
+def _refined(lines: Harmonics, found: ReadPattern) -> ReadPattern:
+    """Refine exposure and phase, and let bright runs be longer or shorter than their chips."""
+    # Imported only when a photo is matched: it is slow.
+    from scipy.optimize import minimize
+
+    count = len(found.chips)
+    turn = -2j * np.pi * np.arange(1, len(lines) + 1) / count
+    change = found.chips.astype(np.int64) - np.roll(found.chips, 1)
+    order = np.arange(1, len(lines) + 1) % count
+    rising, falling = (np.fft.fft(kind)[order] / -turn for kind in (change > 0, change < 0))
+
+    def unlike(values: FloatArray) -> float:
+        exposure, phase, longer = values.tolist()
+        box = np.sinc(np.arange(1, len(lines) + 1) * exposure / count)
+        model = (rising - falling * np.exp(turn * longer)) * box * np.exp(turn * phase)
+        return -_likeness(lines, model)
+
+    # A chip's own box is centred half a chip after its rising edge.
+    start = [found.exposure, found.phase - 0.5, 0.0]
+    steps = np.vstack([start, *(start + 0.1 * np.eye(3))])
+    best = minimize(
+        unlike,
+        start,
+        method="Nelder-Mead",
+        options={"initial_simplex": steps, "maxfev": _REFINEMENTS, "xatol": 0.01, "fatol": 1e-4},
+    )
+    exposure, phase, longer = best.x.tolist()
+    if abs(longer) > _MOST_LONGER:
+        return found
+    return ReadPattern(found.chips, -float(best.fun), abs(exposure), phase + 0.5)
+
+
+def _levels(lines: Harmonics, weight: Harmonics, count: int) -> FloatArray:
     """Solve for the chips' levels: harmonics that are equal modulo their number give one."""
     order = np.arange(1, len(lines) + 1) % count
     power = np.bincount(order, np.abs(weight) ** 2, count)
@@ -210,6 +271,6 @@ def _rounded(levels: FloatArray) -> ByteArray | None:
     return np.asarray(levels > split, dtype=np.uint8)
 
 
-def _likeness(a: NDArray[np.complex128], b: NDArray[np.complex128]) -> float:
+def _likeness(a: Harmonics, b: Harmonics) -> float:
     energy = float(np.sqrt((np.abs(a) ** 2).sum() * (np.abs(b) ** 2).sum()))
     return float((a * np.conj(b)).real.sum()) / energy if energy > 0.0 else 0.0

@@ -1,0 +1,1 @@
+"""Read the chips in view from the edges of stripes."""

@@ -1,0 +1,170 @@
+"""The lattice of chips on which the edges of stripes lie.
+
+Gamma and saturation make bright runs longer than dark ones, so that rising and falling edges are
+shifted oppositely: each kind has a lattice of its own, of the same spacing.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.chips.edges import Edges
+
+_AS_COHERENT = 0.93
+"""Share of the best lattice's coherence from which a coarser one explains the edges as well."""
+
+_SHORTER = 0.9
+"""Share of the shortest runs' mean length that a chip may be longer by, for the edges' noise."""
+
+_LEAST_COLUMNS = 2.0
+"""Smallest number of columns per chip."""
+
+_STEPS_A_TURN = 6.0
+"""Lattices tried while the last edge moves by a chip against the first."""
+
+_RIM = 0.2
+"""Chips off the lattice from which an outermost edge is taken for the panel's rim."""
+
+_LEAST_DEVIATION = 0.02
+"""Smallest standard deviation of an edge, in chips, that is believed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lattice:
+    """Two lattices of the same spacing, that of the rising and that of the falling edges.
+
+    Parameters
+    ----------
+    frequency
+        Chips per column.
+    rising, falling
+        Position of each lattice in chips, at column 0; they differ by half a chip at most.
+    coherence
+        Length of the edges' mean phase factor, from 0 to 1.
+    """
+
+    frequency: float
+    rising: float
+    falling: float
+    coherence: float
+
+
+def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:
+    """Give the coherence of edges with pairs of lattices, shape as ``frequencies``.
+
+    Parameters
+    ----------
+    edges
+        The edges.
+    frequencies : ndarray of float64
+        Chips per column.
+    """
+    sums = [np.abs(_phase_factors(kind, frequencies)) for kind in (edges.rising, edges.falling)]
+    return np.asarray((sums[0] + sums[1]) / max(edges.count, 1))
+
+
+def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.complex128]:
+    return np.asarray(np.exp(2j * np.pi * np.outer(frequencies, places)).sum(axis=1))
+
+
+def coarsest(edges: Edges) -> Lattice | None:
+    """Find the coarsest pair of lattices on which edges lie.
+
+    Returns
+    -------
+    Lattice or None
+        None where there are too few edges, or no lattice is coherent.
+    """
+    longest = edges.shortest_pair / 2.0 / _SHORTER
+    if edges.count < 4 or not _LEAST_COLUMNS < longest < np.inf:
+        return None
+    extent = float(np.ptp(edges.places))
+    step = 1.0 / (_STEPS_A_TURN * extent)
+    frequencies = np.arange(1.0 / longest, 1.0 / _LEAST_COLUMNS, step)
+    if frequencies.size < 3:
+        return None
+    coherent = coherence(edges, frequencies)
+    peaks = 1 + np.flatnonzero((coherent[1:-1] >= coherent[:-2]) & (coherent[1:-1] >= coherent[2:]))
+    peaks = np.unique(np.append(peaks, 0)) if coherent[0] > coherent[1] else peaks
+    if peaks.size == 0:
+        return None
+    good = peaks[coherent[peaks] >= _AS_COHERENT * coherent[peaks].max()]
+    fine = frequencies[good[0]] + np.linspace(-step, step, 41)
+    return lattice_at(edges, float(fine[coherence(edges, fine).argmax()]))
+
+
+def lattice_at(edges: Edges, frequency: float) -> Lattice:
+    """Give the pair of lattices of a spacing that lie best on the edges."""
+    one = np.array([frequency])
+    turns = [
+        float(np.angle(_phase_factors(kind, one)[0])) / (2.0 * np.pi)
+        for kind in (edges.rising, edges.falling)
+    ]
+    apart = (turns[1] - turns[0] + 0.5) % 1.0 - 0.5
+    return Lattice(frequency, turns[0], turns[0] + apart, float(coherence(edges, one)[0]))
+
+
+def chip_numbers(edges: Edges, lattice: Lattice) -> tuple[FloatArray, FloatArray]:
+    """Give the edges' positions in chips on their lattices: numbers of chips but for their noise.
+
+    Returns
+    -------
+    rising, falling : ndarray of float64
+    """
+    return (
+        edges.rising * lattice.frequency - lattice.rising,
+        edges.falling * lattice.frequency - lattice.falling,
+    )
+
+
+def without_rims(edges: Edges, lattice: Lattice) -> Edges:
+    """Leave out an outermost edge that is off the lattice: the panel's rim is no edge of a chip."""
+    off = [np.abs(kind - np.rint(kind)) for kind in chip_numbers(edges, lattice)]
+    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
+    ordered, places = np.concatenate(off)[order], edges.places
+    first = places[1] if ordered[0] > _RIM else places[0]
+    last = places[-2] if ordered[-1] > _RIM else places[-1]
+    return edges.within(float(first), float(last))
+
+
+def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | None:
+    """Give the chips from the first edge to the last, and the number of the first of them.
+
+    Returns
+    -------
+    chips, first
+        None where the edges do not alternate on the lattice.
+    """
+    rising, falling = (np.rint(kind).astype(int) for kind in chip_numbers(edges, lattice))
+    numbers = np.concatenate([rising, falling])
+    kinds = np.concatenate([np.ones(len(rising), int), np.zeros(len(falling), int)])
+    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
+    numbers, kinds = numbers[order], kinds[order]
+    lengths = np.diff(numbers)
+    if len(lengths) == 0 or lengths.min() < 1:
+        return None
+    return np.repeat(kinds[:-1], lengths).astype(np.uint8), int(numbers[0])
+
+
+def certainty(edges: Edges, lattice: Lattice) -> float:
+    """Give the probability that all edges are those of the chips they are nearest to.
+
+    Two parts: that the coherence is no chance (Rayleigh's test: n edges of random phase have a mean
+    phase factor longer than R with the probability exp(-n R^2), for each lattice tried), and that
+    no edge is displaced by half a chip or more, were their displacements normal.
+    """
+    off = [kind - np.rint(kind) for kind in chip_numbers(edges, lattice)]
+    both = np.concatenate(off)
+    if len(both) < 5:
+        return 0.0
+    strength = sum(
+        len(kind) * abs(np.exp(2j * np.pi * kind).mean()) ** 2 for kind in off if len(kind) > 1
+    )
+    tried = max(1.0, float(np.ptp(edges.places)) * lattice.frequency)
+    by_chance = min(1.0, tried * math.exp(-strength))
+    deviation = max(float(np.sqrt((both**2).sum() / (len(both) - 3))), _LEAST_DEVIATION)
+    misplaced = math.erfc(0.5 / deviation / math.sqrt(2.0))
+    return (1.0 - by_chance) * (1.0 - misplaced) ** len(both)

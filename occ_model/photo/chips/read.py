@@ -1,0 +1,92 @@
+"""Read the chips in view of a photo, without knowing what is sent or whether it repeats."""
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.errors import MatchError
+from occ_model.photo.chips.edges import Edges, edges_of
+from occ_model.photo.chips.lattice import certainty, chips_between, coarsest, without_rims
+from occ_model.photo.reading.load import Photo
+from occ_model.photo.reading.part import Corners
+from occ_model.photo.stripes.find import find_stripes
+from occ_model.results import ChipReading
+
+_EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
+"""Exposures in chips that are tried to explain the profile by the edges that were found."""
+
+_MOST_UNEXPLAINED = 0.2
+"""Share of the profile's variance from which the edges found explain nothing."""
+
+
+def read_chips(photo: Photo, region: Corners | None = None) -> ChipReading:
+    """Read the chips in view of a photo, without knowing what is sent or whether it repeats.
+
+    The edges of the stripes lie on a lattice of chips, the coarsest that explains them. Chips whose
+    exposure is longer than themselves leave too few edges to be read so.
+
+    Parameters
+    ----------
+    photo
+        The photo.
+    region
+        First row, row after the last, first column and column after the last of the rectangle in
+        which stripes are searched; None for the whole photo.
+
+    Returns
+    -------
+    ChipReading
+        The chips between the first edge and the last one.
+
+    Raises
+    ------
+    MatchError
+        There are no stripes, or their edges lie on no lattice of chips.
+    ParameterError
+        ``region`` is no rectangle of the photo.
+    """
+    stripes = find_stripes(photo, region)
+    edges = edges_of(stripes.flattened)
+    lattice = coarsest(edges)
+    if lattice is not None:
+        edges = without_rims(edges, lattice)
+    found = None if lattice is None else chips_between(edges, lattice)
+    if lattice is None or found is None:
+        raise MatchError(
+            f"No chips can be read: the {edges.count} edges of the stripes lie on no common "
+            "lattice of chips; a shorter exposure, or more columns a chip, give clearer edges."
+        )
+    chips, first = found
+    start = (first + 0.5 * (lattice.rising + lattice.falling)) / lattice.frequency
+    unexplained = _unexplained(stripes.flattened, edges, lattice.frequency)
+    trust = np.clip((_MOST_UNEXPLAINED - unexplained) / _MOST_UNEXPLAINED, 0.0, 1.0)
+    return ChipReading(
+        chips=chips,
+        columns_per_chip=1.0 / lattice.frequency,
+        confidence=certainty(edges, lattice) * float(trust),
+        start=stripes.region.first_column + start,
+        region=stripes.region,
+    )
+
+
+def _unexplained(flattened: FloatArray, edges: Edges, frequency: float) -> float:
+    """Give the share of a profile's variance that chips leave unexplained at the best exposure.
+
+    Between the first edge and the last; longer bright runs than the chips' are allowed for by the
+    edges themselves: each chip is seen where its own edges are.
+    """
+    columns = np.arange(int(np.ceil(edges.places[0])), int(edges.places[-1]) + 1)
+    data = flattened[columns] - flattened[columns].mean()
+    power = float(data @ data)
+    # Bright between a rising edge and the next falling one, as an integral that is exact between.
+    kinds = np.concatenate([np.ones(len(edges.rising)), np.zeros(len(edges.falling))])
+    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
+    lit = np.concatenate([[0.0], np.cumsum(np.diff(edges.places) * kinds[order][:-1])])
+    least = power
+    for exposure in _EXPOSURES / frequency:
+        ends = (np.interp(columns + side * exposure, edges.places, lit) for side in (0.5, -0.5))
+        model = next(ends) - next(ends)
+        model -= model.mean()
+        energy = float(model @ model)
+        if energy > 0.0:
+            least = min(least, power - float(model @ data) ** 2 / energy)
+    return least / max(power, 1e-12)

@@ -24,8 +24,8 @@ _LEAST_COLUMNS = 2.0
 """Smallest number of columns per chip."""
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
-_PHASES = 8
-"""Number of phases within a chip that are tried."""
+_PHASES = np.arange(8) / 8.0
+"""Exposures and phases, in chips, that are tried."""
 
 _NOISE = 0.01
 """Share of the largest weight below which a harmonic is dominated by noise."""
@@ -198,18 +198,19 @@ def _harmonics(even: FloatArray, period: float) -> Harmonics:
 def _best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
     """Find the chips, over all exposures and phases, whose harmonics are most like those given."""
     order = np.arange(1, len(lines) + 1)
-    best: ReadPattern | None = None
-    for exposure in _EXPOSURES:
-        weight = np.sinc(order / count) * np.sinc(order * exposure / count) / count
-        for phase in np.arange(_PHASES) / _PHASES:
-            turned = weight * np.exp(-2j * np.pi * order * phase / count)
-            chips = _rounded(_levels(lines, turned, count))
-            if chips is None:
-                continue
-            explained = _likeness(lines, np.fft.fft(chips)[order % count] * turned)
-            if best is None or explained > best.explained:
-                best = ReadPattern(chips, explained, exposure, float(phase))
-    return best
+    exposures, phases = (part.ravel() for part in np.meshgrid(_EXPOSURES, _PHASES))
+    boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
+    turned = np.asarray(boxes * np.exp(-2j * np.pi / count * np.outer(phases, order)), complex)
+    chips = _rounded(_levels(lines, turned, count))
+    model = np.fft.fft(chips, axis=1)[:, order % count] * turned
+    energy = np.sqrt((np.abs(model) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
+    products = (lines * np.conj(model)).real.sum(axis=1)
+    explained = np.where(energy > 0.0, products / np.maximum(energy, 1e-300), -1.0)
+    best = int(explained.argmax())
+    if chips[best].min() == chips[best].max():
+        return None
+    found = float(exposures[best]), float(phases[best])
+    return ReadPattern(chips[best], float(explained[best]), *found)
 
 
 def _refined(lines: Harmonics, found: ReadPattern) -> ReadPattern:
@@ -244,31 +245,48 @@ def _refined(lines: Harmonics, found: ReadPattern) -> ReadPattern:
     return ReadPattern(found.chips, -float(best.fun), abs(exposure), phase + 0.5)
 
 
-def _levels(lines: Harmonics, weight: Harmonics, count: int) -> FloatArray:
-    """Solve for the chips' levels: harmonics that are equal modulo their number give one."""
-    order = np.arange(1, len(lines) + 1) % count
-    power = np.bincount(order, np.abs(weight) ** 2, count)
-    products = lines * np.conj(weight)
-    real = np.bincount(order, products.real, count)
-    sums = real + 1j * np.bincount(order, products.imag, count)
-    spectrum = sums / (power + _NOISE * power.max())
+def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> FloatArray:
+    """Solve for the chips' levels: harmonics that are equal modulo their number give one.
+
+    Parameters
+    ----------
+    lines : ndarray of complex128, shape (harmonics,)
+        The harmonics given.
+    weights : ndarray of complex128, shape (trials, harmonics)
+        What multiplies the chips' own harmonics, for each exposure and phase.
+    count
+        Number of chips.
+
+    Returns
+    -------
+    ndarray of float64, shape (trials, chips)
+    """
+
+    def folded(values: Harmonics) -> Harmonics:
+        missing = -(values.shape[1] + 1) % count
+        whole = np.pad(values, ((0, 0), (1, missing)))
+        return np.asarray(whole.reshape(len(values), -1, count).sum(axis=1))
+
+    power = folded(np.abs(weights) ** 2 + 0j).real
+    sums = folded(lines * np.conj(weights))
+    spectrum = sums / (power + _NOISE * power.max(axis=1, keepdims=True))
     # The spectrum of real levels is its own mirror image, conjugated.
-    spectrum[0] = 0.0
-    mirrored = np.conj(spectrum[(-np.arange(count)) % count])
-    both = (power + power[(-np.arange(count)) % count]) > 0.0
-    own = np.where(power >= power[(-np.arange(count)) % count], spectrum, mirrored)
-    return np.asarray(np.fft.ifft(np.where(both, own, 0.0)).real)
+    spectrum[:, 0] = 0.0
+    mirror = -np.arange(count) % count
+    both = (power + power[:, mirror]) > 0.0
+    own = np.where(power >= power[:, mirror], spectrum, np.conj(spectrum[:, mirror]))
+    return np.asarray(np.fft.ifft(np.where(both, own, 0.0), axis=1).real)
 
 
-def _rounded(levels: FloatArray) -> ByteArray | None:
-    """Round levels to off and on, half-way between the means of either kind."""
-    split = 0.5 * (levels.max() + levels.min())
+def _rounded(levels: FloatArray) -> ByteArray:
+    """Round each row of levels to off and on, half-way between the means of either kind."""
+    split = 0.5 * (levels.max(axis=1) + levels.min(axis=1))
     for _ in range(8):
-        on = levels > split
-        if on.all() or not on.any():
-            return None
-        split = 0.5 * (levels[on].mean() + levels[~on].mean())
-    return np.asarray(levels > split, dtype=np.uint8)
+        on = levels > split[:, None]
+        bright = (levels * on).sum(axis=1) / np.maximum(on.sum(axis=1), 1)
+        dark = (levels * ~on).sum(axis=1) / np.maximum((~on).sum(axis=1), 1)
+        split = 0.5 * (bright + dark)
+    return np.asarray(levels > split[:, None], dtype=np.uint8)
 
 
 def _likeness(a: Harmonics, b: Harmonics) -> float:

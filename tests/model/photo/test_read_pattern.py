@@ -4,7 +4,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from occ_model.arrays import ByteArray
@@ -34,6 +34,7 @@ def text(chips: ByteArray) -> str:
     return "".join(map(str, chips.tolist()))
 
 
+@example(chips=np.array([0, 1], np.uint8), exposure=0.05, chip=17.0, phase=0.15625, seed=0)
 @given(
     chips=PATTERNS,
     exposure=st.floats(0.05, 0.7),

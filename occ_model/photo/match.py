@@ -4,6 +4,7 @@ The exact exposure integral, under slowly varying light, is fitted to the column
 squares.
 """
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -33,6 +34,9 @@ __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
+
+_SECONDS = 0.05
+"""Time between two reports of the progress."""
 
 
 def match_photo(  # noqa: PLR0913 - all but the first two are words with defaults
@@ -81,7 +85,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         rectangle of the photo.
     """
     _check(scene, estimate, sent, averaging)
-    report = progress or (lambda _share: None)
+    report = _Progress(progress or (lambda _share: None))
     report(0.0)
     stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
     candidates = Candidates(
@@ -92,6 +96,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         lambda found: found.nearest(
             lambda fit: exposure_time(fit, scene, estimate), photo.exposure_time
         ),
+        report.again,
     )
     report(0.2)
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=sent == "read")
@@ -111,6 +116,23 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
             _alternative(one, evidence, scene, estimate) for one, evidence in verdict.others
         ),
     )
+
+
+class _Progress:
+    """Reports the share of the work that is done, again and again while a part of it lasts."""
+
+    def __init__(self, report: Callable[[float], object]) -> None:
+        self._report, self._share, self._last = report, 0.0, 0.0
+
+    def __call__(self, share: float) -> None:
+        """Report a share."""
+        self._share, self._last = share, time.monotonic()
+        self._report(share)
+
+    def again(self) -> None:
+        """Report the same share, if some time has passed: the receiver may end the work so."""
+        if time.monotonic() - self._last > _SECONDS:
+            self(self._share)
 
 
 def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:

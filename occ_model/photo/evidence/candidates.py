@@ -1,7 +1,7 @@
 """The hypotheses about what was sent that are fitted to a photo's stripes."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation, explain
 from occ_model.photo.fit.camera_response import CameraTone
-from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.fit.least_squares import StripeFit, Tone
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_patterns
 from occ_model.photo.fitted_scene import with_chips
 from occ_model.results import Stripes
@@ -37,6 +37,8 @@ class Candidates:
         Whether gamma is fitted too.
     chosen
         Function that chooses the reported fit of an explanation.
+    check
+        Called every few hundredths of a second; what it raises ends the fitting.
     """
 
     stripes: Stripes
@@ -44,6 +46,7 @@ class Candidates:
     cameras: list[CameraTone]
     fit_gamma: bool
     chosen: Callable[[Explanation], StripeFit]
+    check: Callable[[], object]
 
     def as_sent(self) -> Hypothesis | None:
         """Suppose what the scene sends; None where that never changes."""
@@ -55,7 +58,8 @@ class Candidates:
         period = self.stripes.period
         if period is None:
             return []
-        read = read_patterns(self.stripes.profile, self.stripes.flattened, period)
+        stripes = self.stripes
+        read = read_patterns(stripes.profile, stripes.flattened, period, self.check)
         found = [
             self._fitted(
                 f"{self._named(one.chips)} read from the photo",
@@ -77,6 +81,15 @@ class Candidates:
         bits = max(found.bits, float(self.scene.transmitter.bits))
         return self._fitted(f"{self._named(chips)} instead", chips, steps, bits=bits, was_read=True)
 
+    def _checked(self, tone: Tone) -> Tone:
+        """Check too whenever a fit evaluates the camera's response."""
+
+        def checked(lit: FloatArray, gamma: float) -> FloatArray:
+            self.check()
+            return tone(lit, gamma)
+
+        return checked
+
     def _near(self, step: float) -> FloatArray:
         return step + _NEAR / len(self.stripes.profile)
 
@@ -94,8 +107,11 @@ class Candidates:
         bits: float,
         was_read: bool,
     ) -> Hypothesis | None:
+        cameras = [replace(camera, tone=self._checked(camera.tone)) for camera in self.cameras]
         gamma = self.scene.camera.gamma
-        found = explain(self.stripes, chips, self.cameras, gamma, self.fit_gamma, steps)
+        found = explain(
+            self.stripes, chips, cameras, gamma, self.fit_gamma, steps, check=self.check
+        )
         if found is None:
             return None
         return Hypothesis(sent, found, self.chosen(found), bits, was_read)

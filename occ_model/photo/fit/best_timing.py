@@ -81,6 +81,8 @@ def explain(
     gamma: float,
     with_gamma: bool = False,
     steps: FloatArray | None = None,
+    *,
+    check: Callable[[], object] = lambda: None,
 ) -> Explanation | None:
     """Find the timings with which given chips fit a photo's stripes best.
 
@@ -98,6 +100,8 @@ def explain(
         Whether gamma is fitted too.
     steps : ndarray of float64
         Chips per column to try; by default all that are possible.
+    check
+        Called every few hundredths of a second of the search; what it raises ends it.
 
     Returns
     -------
@@ -106,10 +110,10 @@ def explain(
     """
     if chips.min() == chips.max():
         return None
-    candidates = _candidates(without_trend(stripes.profile), chips, steps, gamma)
+    candidates = _candidates(without_trend(stripes.profile), chips, steps, gamma, check)
     if candidates[0].correlation < _SURELY:
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
-        others = _candidates(stripes.flattened, chips, steps, gamma)
+        others = _candidates(stripes.flattened, chips, steps, gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     starts = _promising(candidates)
     best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
@@ -140,10 +144,14 @@ def _best_of_cameras(
 
 
 def _candidates(
-    even: FloatArray, chips: ByteArray, steps: FloatArray | None, gamma: float
+    even: FloatArray,
+    chips: ByteArray,
+    steps: FloatArray | None,
+    gamma: float,
+    check: Callable[[], object],
 ) -> list[Candidate]:
     search = Search(even, chips)
-    return search.candidates(search.steps() if steps is None else steps, gamma)
+    return search.candidates(search.steps() if steps is None else steps, gamma, check)
 
 
 def _promising(candidates: Sequence[Candidate]) -> list[Timing]:

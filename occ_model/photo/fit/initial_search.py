@@ -5,12 +5,13 @@ column the profile's spectrum is sampled at these harmonics, and one short inver
 gives the correlation with the chips at every phase.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.photo.fit.timing import Timing
 
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
@@ -24,6 +25,7 @@ _FASTEST = 0.95
 
 _PADDING = 4
 _PHASES_A_CHIP = 8
+_ROUGH_PHASES_A_CHIP = 4
 
 _STEPS_A_TURN = 4.0
 """Number of steps tried while the position of the profile's last column changes by a chip."""
@@ -31,6 +33,10 @@ _STEPS_A_TURN = 4.0
 _BEST_STEPS = 24
 _AT_ONCE = 2**19
 """Largest number of array elements at once: it bounds the memory for long patterns."""
+
+
+def _nothing() -> None:
+    """Check nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +66,7 @@ class Search:
         # even number of columns it lies between two of them, and the phase factor repeats after two
         # periods of the spectrum: so the spectrum is tiled twice.
         turn = np.exp(1j * np.pi * (self._columns - 1) / size * np.arange(2 * size))
-        self._turned = np.tile(np.fft.fft(about, size), 2) * turn
+        self._turned = (np.tile(np.fft.fft(about, size), 2) * turn).astype(np.complex64)
         self._power = float(about @ about)
         self._harmonics = np.arange(1, 2 * self._period + 1)
         lines = np.fft.fft(chips)[self._harmonics % self._period] / self._period
@@ -73,48 +79,63 @@ class Search:
         count = int(np.ceil((_FASTEST - slowest) * self._columns * _STEPS_A_TURN))
         return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_A_TURN)
 
-    def candidates(self, steps: FloatArray, gamma: float) -> list[Candidate]:
-        """Find the best timing of each exposure among some steps, best first."""
+    def candidates(
+        self, steps: FloatArray, gamma: float, check: Callable[[], object] = _nothing
+    ) -> list[Candidate]:
+        """Find the best timing of each exposure among some steps, best first.
+
+        ``check`` is called every few hundredths of a second; what it raises ends the search.
+        """
         rough = np.zeros(len(steps))
         together = max(1, _AT_ONCE // (_PHASES_A_CHIP * self._period))
+        slow = self._harmonics[: self._period]
         for first in range(0, len(steps), together):
             part = slice(first, first + together)
-            seen = self._sampled(steps[part])
+            seen = self._sampled(steps[part], slow)
             for exposure in _ROUGHLY:
-                rough[part] = np.maximum(rough[part], self._scores(seen, exposure)[0])
+                check()
+                scores = self._scores(seen, exposure, _ROUGH_PHASES_A_CHIP)[0]
+                rough[part] = np.maximum(rough[part], scores)
         best = steps[np.argsort(rough)[-_BEST_STEPS:]]
-        seen = self._sampled(best)
+        seen = self._sampled(best, self._harmonics)
         found = []
         for exposure in EXPOSURES:
-            scores, phases = self._scores(seen, exposure)
+            check()
+            scores, phases = self._scores(seen, exposure, _PHASES_A_CHIP)
             top = int(scores.argmax())
             timing = Timing(float(best[top]), exposure, float(phases[top]), gamma)
             found.append(Candidate(timing, float(scores[top])))
         return sorted(found, key=lambda candidate: -candidate.correlation)
 
     def _scores(
-        self, seen: NDArray[np.complex128], exposure: float
+        self, seen: NDArray[np.complex64], exposure: float, phases_a_chip: int
     ) -> tuple[FloatArray, FloatArray]:
         """Give the best correlation over all phases, and the phase of the middle that has it."""
-        # An exposure is a box too, whose phase refers to its middle.
-        lines = self._lines * np.sinc(self._harmonics * (exposure / self._period))
-        energy = 2.0 * float((np.abs(lines) ** 2).sum()) * self._columns
-        phases = _PHASES_A_CHIP * self._period
-        products = np.zeros((len(seen), phases // 2 + 1), dtype=np.complex128)
-        products[:, self._harmonics] = np.conj(seen) * lines
-        sums = np.fft.irfft(products, phases, axis=1) * phases
-        best = sums.argmax(axis=1)
-        scores = sums[np.arange(len(seen)), best] / np.sqrt(max(energy * self._power, 1e-300))
-        # A chip's own box is centred half a chip after its start.
-        return scores, best / _PHASES_A_CHIP + 0.5
+        # Imported only when a photo is matched: it is slow.
+        from scipy.fft import irfft
 
-    def _sampled(self, steps: FloatArray) -> NDArray[np.complex128]:
-        """Sample the profile's spectrum at the chips' harmonics, with phases about its middle.
+        harmonics = self._harmonics[: seen.shape[1]]
+        # An exposure is a box too, whose phase refers to its middle.
+        lines = self._lines[: len(harmonics)] * np.sinc(harmonics * (exposure / self._period))
+        energy = 2.0 * float((np.abs(lines) ** 2).sum()) * self._columns
+        phases = phases_a_chip * self._period
+        # In single precision, which is far finer than the correlations that are compared.
+        products = np.zeros((len(seen), phases // 2 + 1), dtype=np.complex64)
+        np.multiply(np.conj(seen), lines.astype(np.complex64), out=products[:, 1 : len(lines) + 1])
+        sums = irfft(products, phases, axis=1, overwrite_x=True)
+        best = sums.argmax(axis=1)
+        heights = sums[np.arange(len(seen)), best].astype(np.float64) * phases
+        scores = heights / np.sqrt(max(energy * self._power, 1e-300))
+        # A chip's own box is centred half a chip after its start.
+        return scores, best / phases_a_chip + 0.5
+
+    def _sampled(self, steps: FloatArray, harmonics: IndexArray) -> NDArray[np.complex64]:
+        """Sample the profile's spectrum at some of the chips' harmonics, phases about its middle.
 
         Returns
         -------
-        ndarray of complex128, shape (steps, harmonics)
+        ndarray of complex64, shape (steps, harmonics)
         """
         rounds = len(self._turned)
-        nearest = np.rint(np.outer(steps, self._harmonics * (rounds / 2 / self._period)))
+        nearest = np.rint(np.outer(steps, harmonics * (rounds / 2 / self._period)))
         return np.asarray(self._turned[nearest.astype(np.int64) % rounds])

@@ -1,0 +1,160 @@
+"""The chips whose harmonics are most like given ones.
+
+Stripes that repeat after T columns are a sum of harmonics of 1/T. P chips per period have only P
+unknown levels; the exposure and the length of a chip multiply the harmonics by those of boxes. For
+each P, exposure and phase the chips that explain the harmonics best therefore follow by division,
+and are rounded to on and off.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+
+_EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
+_PHASES = np.arange(8) / 8.0
+"""Exposures and phases, in chips, that are tried."""
+
+_NOISE = 0.01
+"""Share of the largest weight below which a harmonic is dominated by noise."""
+
+_MOST_HARMONICS = 160
+
+_REFINEMENTS = 120
+
+_MOST_LONGER = 0.5
+"""Chips by which gamma and saturation can make bright runs longer, or shorter, than they are."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReadPattern:
+    """Chips read from stripes.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        One period.
+    explained
+        Correlation of their harmonics with those in the photo.
+    exposure, phase
+        The exposure, and the place of the first chip, in chips, that explain the harmonics so.
+    """
+
+    chips: ByteArray
+    explained: float
+    exposure: float
+    phase: float
+
+
+Harmonics = NDArray[np.complex128]
+
+
+def harmonics_of(even: FloatArray, period: float) -> Harmonics:
+    """Give the strength of each harmonic of 1/period, from the first."""
+    columns = len(even)
+    count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
+    # Over whole periods, since otherwise the harmonics leak into each other.
+    whole = int(int(columns / period) * period) or columns
+    turn = np.exp(-2j * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(whole)))
+    return np.asarray(turn @ even[:whole] / whole)
+
+
+def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
+    """Find the chips, over all exposures and phases, whose harmonics are most like those given."""
+    order = np.arange(1, len(lines) + 1)
+    exposures, phases = (part.ravel() for part in np.meshgrid(_EXPOSURES, _PHASES))
+    boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
+    turned = np.asarray(boxes * np.exp(-2j * np.pi / count * np.outer(phases, order)), complex)
+    chips = _rounded(_levels(lines, turned, count))
+    model = np.fft.fft(chips, axis=1)[:, order % count] * turned
+    energy = np.sqrt((np.abs(model) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
+    products = (lines * np.conj(model)).real.sum(axis=1)
+    explained = np.where(energy > 0.0, products / np.maximum(energy, 1e-300), -1.0)
+    best = int(explained.argmax())
+    if chips[best].min() == chips[best].max():
+        return None
+    found = float(exposures[best]), float(phases[best])
+    return ReadPattern(chips[best], float(explained[best]), *found)
+
+
+def refined(lines: Harmonics, found: ReadPattern) -> ReadPattern:
+    """Refine exposure and phase, and let bright runs be longer or shorter than their chips."""
+    # Imported only when a photo is matched: it is slow.
+    from scipy.optimize import minimize
+
+    count = len(found.chips)
+    turn = -2j * np.pi * np.arange(1, len(lines) + 1) / count
+    change = found.chips.astype(np.int64) - np.roll(found.chips, 1)
+    order = np.arange(1, len(lines) + 1) % count
+    rising, falling = (np.fft.fft(kind)[order] / -turn for kind in (change > 0, change < 0))
+
+    def unlike(values: FloatArray) -> float:
+        exposure, phase, longer = values.tolist()
+        box = np.sinc(np.arange(1, len(lines) + 1) * exposure / count)
+        model = (rising - falling * np.exp(turn * longer)) * box * np.exp(turn * phase)
+        return -_likeness(lines, model)
+
+    # A chip's own box is centred half a chip after its rising edge.
+    start = [found.exposure, found.phase - 0.5, 0.0]
+    steps = np.vstack([start, *(start + 0.1 * np.eye(3))])
+    best = minimize(
+        unlike,
+        start,
+        method="Nelder-Mead",
+        options={"initial_simplex": steps, "maxfev": _REFINEMENTS, "xatol": 0.01, "fatol": 1e-4},
+    )
+    exposure, phase, longer = best.x.tolist()
+    if abs(longer) > _MOST_LONGER:
+        return found
+    return ReadPattern(found.chips, -float(best.fun), abs(exposure), phase + 0.5)
+
+
+def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> FloatArray:
+    """Solve for the chips' levels: harmonics that are equal modulo their number give one.
+
+    Parameters
+    ----------
+    lines : ndarray of complex128, shape (harmonics,)
+        The harmonics given.
+    weights : ndarray of complex128, shape (trials, harmonics)
+        What multiplies the chips' own harmonics, for each exposure and phase.
+    count
+        Number of chips.
+
+    Returns
+    -------
+    ndarray of float64, shape (trials, chips)
+    """
+
+    def folded(values: Harmonics) -> Harmonics:
+        missing = -(values.shape[1] + 1) % count
+        whole = np.pad(values, ((0, 0), (1, missing)))
+        return np.asarray(whole.reshape(len(values), -1, count).sum(axis=1))
+
+    power = folded(np.abs(weights) ** 2 + 0j).real
+    sums = folded(lines * np.conj(weights))
+    spectrum = sums / (power + _NOISE * power.max(axis=1, keepdims=True))
+    # The spectrum of real levels is its own mirror image, conjugated.
+    spectrum[:, 0] = 0.0
+    mirror = -np.arange(count) % count
+    both = (power + power[:, mirror]) > 0.0
+    own = np.where(power >= power[:, mirror], spectrum, np.conj(spectrum[:, mirror]))
+    return np.asarray(np.fft.ifft(np.where(both, own, 0.0), axis=1).real)
+
+
+def _rounded(levels: FloatArray) -> ByteArray:
+    """Round each row of levels to off and on, half-way between the means of either kind."""
+    split = 0.5 * (levels.max(axis=1) + levels.min(axis=1))
+    for _ in range(8):
+        on = levels > split[:, None]
+        bright = (levels * on).sum(axis=1) / np.maximum(on.sum(axis=1), 1)
+        dark = (levels * ~on).sum(axis=1) / np.maximum((~on).sum(axis=1), 1)
+        split = 0.5 * (bright + dark)
+    return np.asarray(levels > split[:, None], dtype=np.uint8)
+
+
+def _likeness(a: Harmonics, b: Harmonics) -> float:
+    energy = float(np.sqrt((np.abs(a) ** 2).sum() * (np.abs(b) ** 2).sum()))
+    return float((a * np.conj(b)).real.sum()) / energy if energy > 0.0 else 0.0

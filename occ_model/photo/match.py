@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.errors import MatchError
+from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.evidence.candidates import Candidates
-from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
+from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, is_turned
 from occ_model.photo.evidence.rows import rows_alike
 from occ_model.photo.evidence.verdict import Judge
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
@@ -29,11 +29,15 @@ from occ_model.photo.stripes.find import find_stripes
 from occ_model.results import Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
+from occ_model.transmitter.packet import sent_chips
 
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
+
+_SAME_DUTY = 0.95
+"""Correlation of a scene's pulse from which its duty is right within a few hundredths."""
 
 _SECONDS = 0.05
 """Time between two reports of the progress."""
@@ -99,14 +103,15 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         report.again,
     )
     report(0.2)
-    judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=sent == "read")
+    blinks = sent == "read" or is_single_pulse(sent_chips(scene.transmitter))
+    judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
     hypotheses = _hypotheses(candidates, sent, report)
     found = _chosen(judge, hypotheses, stripes, sent)
     other = candidates.nearest_other(found)
     others = [one for one in (*hypotheses, other) if one is not None and one is not found]
     verdict = judge.verdict(found, [one for one in others if not is_turned(one, found)])
     report(0.9)
-    match = described(photo, scene, estimate, stripes, found.explanation)
+    match = described(photo, _at_rate(scene, found), estimate, stripes, found.explanation)
     report(1.0)
     return replace(
         match,
@@ -157,7 +162,7 @@ def _hypotheses(
     """Fit what the scene sends, what is read from the photo, or both."""
     as_sent = None if sent == "read" else candidates.as_sent()
     report(0.5)
-    found = [] if sent == "scene" else candidates.read()
+    found = [] if sent == "scene" else _read(candidates, as_sent)
     report(0.8)
     if as_sent is not None:
         profile = candidates.stripes.profile
@@ -174,6 +179,16 @@ def _hypotheses(
     return found
 
 
+def _read(candidates: Candidates, as_sent: Hypothesis | None) -> list[Hypothesis]:
+    """Fit what is read; of a single pulse whose frequency is given only the duty can be another."""
+    read = candidates.read()
+    if as_sent is None or not is_single_pulse(as_sent.chips):
+        return read
+    others = [one for one in read if not is_single_pulse(one.chips) or is_turned(one, as_sent)]
+    dimmed = candidates.dimmed() if as_sent.fit.correlation < _SAME_DUTY else None
+    return others if dimmed is None else [*others, dimmed]
+
+
 def _chosen(
     judge: Judge, hypotheses: Sequence[Hypothesis], stripes: Stripes, sent: str
 ) -> Hypothesis:
@@ -186,7 +201,19 @@ def _chosen(
         raise MatchError(*error.reasons, *_why_unexplained(stripes, "read")) from None
 
 
+def _at_rate(scene: Scene, found: Hypothesis) -> Scene:
+    """Let a scene send as many chips a second as a hypothesis supposes."""
+    if found.rate == 1.0:
+        return scene
+    frequency = scene.transmitter.switching_frequency * found.rate
+    try:
+        return scene.replace(switching_frequency=frequency)
+    except ParameterError as error:
+        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+
+
 def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str) -> Alternative:
+    scene = _at_rate(scene, other)
     readout, frequency = readout_and_frequency(other.fit, scene, estimate)
     return Alternative(
         sent=other.sent,

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, pulse
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation, explain
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.least_squares import StripeFit, Tone
-from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_patterns
+from occ_model.photo.fit.read_pattern import MOST_CHIPS, canonical, read_patterns
 from occ_model.photo.fitted_scene import with_chips
 from occ_model.results import Stripes
 from occ_model.scene.scene import Scene
@@ -19,6 +19,12 @@ from occ_model.transmitter.packet import sent_chips
 
 _NEAR = np.arange(-4, 5) / 8.0
 """Shifts of the last chip, in chips, of the steps that are tried near a known step."""
+
+_DUTIES = 50
+"""Parts of a period of which a pulse takes up a whole number."""
+
+_DUTY_STEPS = (4, 2, 1)
+"""Parts of a period by which the duty is changed, one after the other, to find the best."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,6 +77,38 @@ class Candidates:
             for one in read
         ]
         return [one for one in found if one is not None]
+
+    def dimmed(self) -> Hypothesis | None:
+        """Suppose the scene's single pulse with another duty, as of a lamp dimmed by its width.
+
+        The exposure blurs both edges of a pulse alike, so that its width at half its height is
+        that of the light: the duty is searched near it.
+        """
+        period, sent = self.stripes.period, canonical(sent_chips(self.scene.transmitter))
+        if period is None or not is_single_pulse(sent):
+            return None
+        found: dict[int, Hypothesis] = {}
+        width = float(np.mean(self.stripes.flattened > 0.5))
+        for step in _DUTY_STEPS:
+            middle = min(found, key=lambda on: self._power(found[on])) if found else None
+            first = round(_DUTIES * width) if middle is None else middle
+            for on in (first - step, first, first + step):
+                fitted = self._dimmed(on, period, len(sent)) if on not in found else None
+                if fitted is not None:
+                    found[on] = fitted
+        return min(found.values(), key=self._power, default=None)
+
+    def _dimmed(self, on: int, period: float, chips_sent: int) -> Hypothesis | None:
+        if not 0 < on < _DUTIES:
+            return None
+        chips = pulse(on, _DUTIES)
+        step = self._near(len(chips) / period)
+        sent = f"the scene's wave with a duty of {on * 100 // _DUTIES} %"
+        fitted = self._fitted(sent, chips, step, bits=np.log2(_DUTIES), was_read=True)
+        return fitted and replace(fitted, rate=len(chips) / chips_sent)
+
+    def _power(self, found: Hypothesis) -> float:
+        return found.power(self.stripes.profile)
 
     def nearest_other(self, found: Hypothesis) -> Hypothesis | None:
         """Suppose the other chips that explain the stripes best at the timing of a hypothesis."""

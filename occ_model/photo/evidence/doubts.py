@@ -1,12 +1,14 @@
 """Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
 
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, runs_of
+from occ_model.photo.stripes.period import unrepeated_share
+from occ_model.results import Stripes
 
 _LEAST_PERIODS = 1.5
 """Periods of a long pattern in view below which hardly a chip is seen twice."""
 
-_LEAST_READ_PERIODS = 2.0
-"""The same for a pattern that was read: then each of its chips must be seen twice."""
+_LEAST_READ_PERIODS = 3.0
+"""The same for a pattern that was read: what is alike twice may be so by chance."""
 
 _LONG_PATTERN = 8
 """Chips from which a pattern counts as long."""
@@ -20,31 +22,44 @@ _LONGEST_EXPOSURE = 3.2
 _LEAST_CORRELATION = 0.9
 """Correlation below which something other than the fitted model shapes the stripes."""
 
-_LEAST_INFORMATION = 45.0
-"""Bits by which a fit must be better than chance to be sure."""
+_LEAST_INFORMATION = {False: 40.0, True: 100.0}
+"""Bits by which given chips, and chips that were read, must be better than chance to be sure."""
+
+_MOST_UNEXPLAINED = 0.035
+"""Share of the variance that chips which were read may leave unexplained."""
+
+_MORE_THAN_REPEATED = 2.0
+"""Ratio of that share to what any repeated wave leaves, above which the chips are not the cause."""
+
+_WELL_EXPLAINED = 0.02
+"""Share of the variance below which that ratio says nothing: cameras differ from the model."""
 
 _LEAST_ALIKE = 0.85
 """Correlation of the rows' stripes with each other below which they may be a picture's objects."""
+
+_MOST_FOR_DUTY = 0.02
+"""Share of white pixels above which the width of a pulse is not that of its light."""
 
 _MOST_SATURATED = 0.5
 """Share of white pixels above which the shape of the stripes is mostly unknown."""
 
 
-def doubts(found: Hypothesis, saturated: float, rows_alike: float) -> list[str]:
+def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
     """Say why a hypothesis is doubtful, in sentences.
 
     Parameters
     ----------
     found
         The hypothesis.
-    saturated
-        Share of the region's pixels that are white.
+    stripes
+        The stripes that it explains.
     rows_alike
         Correlation of the rows' stripes with each other.
     """
     return [
         *_doubts_by_extent(found),
-        *_doubts_by_quality(found, saturated, rows_alike),
+        *_doubts_by_quality(found, stripes.saturated, rows_alike),
+        *(_doubts_by_reading(found, stripes) if found.was_read else ()),
     ]
 
 
@@ -66,7 +81,7 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
             f"The exposure is {exposure:.2g} times as long as {what}; above {_LONGEST_EXPOSURE} "
             "different codes give nearly the same stripes."
         )
-    if found.was_read and is_single_pulse(found.chips):
+    if found.was_read and found.rate == 1.0 and is_single_pulse(found.chips):
         reasons.append(
             "The stripes are one pulse repeated, as those of any regular object are: that they are "
             "a lamp's is not known from the photo."
@@ -82,15 +97,21 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"The correlation is {correlation:.2f}; below {_LEAST_CORRELATION} something else "
             "shapes the stripes too, such as the shape of the lamp."
         )
-    if found.information < _LEAST_INFORMATION:
+    least = _LEAST_INFORMATION[found.was_read]
+    if found.information < least:
         reasons.append(
             f"The fit is better than one by chance by {found.information:.0f} bits only; at least "
-            f"{_LEAST_INFORMATION:.0f} are needed."
+            f"{least:.0f} are needed."
         )
     if rows_alike < _LEAST_ALIKE:
         reasons.append(
             f"The rows show the same stripes only with a correlation of {rows_alike:.2f}; at least "
             f"{_LEAST_ALIKE} is needed."
+        )
+    if found.rate != 1.0 and saturated > _MOST_FOR_DUTY:
+        reasons.append(
+            f"{100.0 * saturated:.0f} % of the pixels are white, which lengthens bright pulses: "
+            "the duty may be smaller."
         )
     if saturated > _MOST_SATURATED:
         reasons.append(
@@ -98,3 +119,18 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"at most {100.0 * _MOST_SATURATED:.0f} % are allowed."
         )
     return reasons
+
+
+def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
+    """Compare chips that were read with the repeated wave that they were read from."""
+    if stripes.period is None:
+        return []
+    left = 1.0 - max(found.fit.correlation, 0.0) ** 2
+    repeated = unrepeated_share(stripes.flattened, stripes.period)
+    most = max(_MORE_THAN_REPEATED * repeated, _WELL_EXPLAINED)
+    if left <= min(most, _MOST_UNEXPLAINED):
+        return []
+    return [
+        f"What was read from the stripes leaves {100.0 * left:.1f} % of them unexplained; at most "
+        f"{100.0 * min(most, _MOST_UNEXPLAINED):.1f} % are allowed."
+    ]

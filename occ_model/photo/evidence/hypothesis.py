@@ -29,6 +29,8 @@ class Hypothesis:
         Bits that had to be chosen to state it: 0 where it was given beforehand.
     was_read
         Whether the chips were read from the photo.
+    rate
+        Its chips in the time of one of the scene's chips.
     """
 
     sent: str
@@ -36,6 +38,7 @@ class Hypothesis:
     fit: StripeFit
     bits: float
     was_read: bool
+    rate: float = 1.0
 
     @property
     def chips(self) -> ByteArray:
@@ -89,7 +92,15 @@ def runs_of(chips: ByteArray) -> list[int]:
 
 def is_single_pulse(chips: ByteArray) -> bool:
     """Whether a period has one pulse only, as any regular pattern has."""
-    return len(runs_of(chips)) <= 2
+    return len(runs_of(canonical(chips))) <= 2
+
+
+def pulse(on: int, count: int) -> ByteArray:
+    """Give the fewest chips of a pulse that is on for some of a number of parts of its period."""
+    shared = math.gcd(on, count)
+    chips = np.zeros(count // shared, dtype=np.uint8)
+    chips[: on // shared] = 1
+    return chips
 
 
 def log_likelihood(power: float, columns: int, independent: float, freedom: float) -> float:

@@ -27,7 +27,9 @@ class SmoothCurve:
     correlation: float
 
 
-def best_smooth_curve(profile: FloatArray, most: int, independent: float) -> SmoothCurve:
+def best_smooth_curve(
+    profile: FloatArray, most: int, independent: float, error: float
+) -> SmoothCurve:
     """Describe a profile by as few cosines as pays, from the slowest.
 
     Parameters
@@ -38,6 +40,8 @@ def best_smooth_curve(profile: FloatArray, most: int, independent: float) -> Smo
         Largest number of cosines.
     independent
         Number of columns that count as independent.
+    error
+        Sum of squared differences that count as none, as with the curve's rivals.
     """
     # Imported only when a photo is matched: it is slow.
     from scipy.fft import dct
@@ -48,7 +52,7 @@ def best_smooth_curve(profile: FloatArray, most: int, independent: float) -> Smo
     count = np.arange(1, max(2, min(most, len(profile) // 2)) + 1)
     left = np.maximum(whole - explained[count - 1], 1e-9 * max(whole, 1e-9))
     likelihoods = [
-        log_likelihood(power, len(profile), independent, number + 1)
+        log_likelihood(power + error, len(profile), independent, number + 1)
         for number, power in zip(count.tolist(), left.tolist(), strict=True)
     ]
     best = int(np.argmax(likelihoods))

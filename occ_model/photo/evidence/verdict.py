@@ -15,6 +15,9 @@ from occ_model.results import Stripes
 _DECIDEDLY = 10.0
 """Difference of log-likelihoods from which one explanation counts as decidedly better."""
 
+_MODEL_ERROR = 0.02
+"""Share of the swing by which a camera's stripes may differ from the model in any case."""
+
 _COSINES_A_CHIP = 2.0
 """Cosines a chip in view up to which a smooth curve is tried."""
 
@@ -53,6 +56,8 @@ class Judge:
 
     def __init__(self, stripes: Stripes, rows_alike: float, *, blinks: bool) -> None:
         self._stripes, self._rows_alike, self._blinks = stripes, rows_alike, blinks
+        swing = float(np.median(stripes.high - stripes.low))
+        self._error = len(stripes.profile) * (_MODEL_ERROR * swing) ** 2
 
     def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
         """Choose the likeliest hypothesis.
@@ -77,7 +82,7 @@ class Judge:
         """Say how sure a hypothesis is beside others."""
         everyone = [found, *others]
         likelihoods = self._likelihoods(everyone)
-        reasons = doubts(found, self._stripes.saturated, self._rows_alike)
+        reasons = doubts(found, self._stripes, self._rows_alike)
         beside = sorted(
             zip(others, (one - likelihoods[0] for one in likelihoods[1:]), strict=True),
             key=lambda pair: -pair[1],
@@ -104,14 +109,14 @@ class Judge:
 
     def _smooth(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> SmoothCurve:
         most = int(_COSINES_A_CHIP * found.chips_in_view)
-        return best_smooth_curve(self._stripes.profile, most, self._independent(everyone))
+        return best_smooth_curve(
+            self._stripes.profile, most, self._independent(everyone), self._error
+        )
 
     def _likelihoods(self, hypotheses: Sequence[Hypothesis]) -> list[float]:
-        independent = self._independent(hypotheses)
+        independent, profile = self._independent(hypotheses), self._stripes.profile
         return [
-            log_likelihood(
-                one.power(self._stripes.profile), len(one.fit.profile), independent, one.freedom
-            )
+            log_likelihood(one.power(profile) + self._error, len(profile), independent, one.freedom)
             - np.log(2.0) * one.bits
             for one in hypotheses
         ]

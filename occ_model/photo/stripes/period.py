@@ -104,6 +104,23 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
     return best, float(np.sqrt(variance / max(float(slope @ slope), 1e-300)))
 
 
+def unrepeated_share(flattened: FloatArray, period: float) -> float:
+    """Give the share of a profile's variance that no repeated wave of a period explains.
+
+    Parameters
+    ----------
+    flattened : ndarray of float64, shape (columns,)
+        The profile without uneven light.
+    period
+        In columns.
+    """
+    count = len(flattened)
+    harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 6)))
+    residual = _residual(flattened, period, harmonics)
+    about = flattened - flattened.mean()
+    return float(residual @ residual) / max(float(about @ about), 1e-300)
+
+
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
     """Give the residual of a fit of a period's harmonics."""
     count = len(flattened)

@@ -1,7 +1,10 @@
-"""How exactly photos of known scenes are explained: ``python tests/benchmarks/matching.py``.
+"""How photos are explained, and how surely: ``python tests/benchmarks/matching.py [what] [count]``.
 
-500 simulated photos (or as many as named) with noise, vignetting, blur and JPEG of quality 60 to
-95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three chips.
+``known`` (the default): 500 simulated photos (or as many as named) with noise, vignetting, blur and
+JPEG of quality 60 to 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three.
+``negatives``: 400 pictures without stripes of an LED. ``others``: 200 photos of another code than
+the scene's. ``unknown``: 300 photos of unknown chips, 1.5 to 20 periods in view, half of them
+saturated.
 """
 
 import sys
@@ -12,6 +15,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from round_trips import Found, round_trips
+from verdicts import Said, said_of, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 
 def line(what: str, errors: list[float], allowed: float) -> str:
@@ -38,6 +42,36 @@ def report(found: list[Found]) -> list[str]:
     return lines
 
 
+def tally(said: list[Said]) -> list[str]:
+    """Count the verdicts, and quote those that are not a refusal or not right."""
+    count = len(said)
+    lines = []
+    for verdict in ("sure", "doubtful", "refused"):
+        these = [one for one in said if one.verdict == verdict]
+        right = sum(one.right for one in these)
+        scene_s = sum(one.scene_s for one in these)
+        lines.append(
+            f"{verdict}: {len(these)} of {count} ({100.0 * len(these) / count:.1f} %), {right} of "
+            f"them with the chips sent, {scene_s} with the scene's"
+        )
+    wrong = [one for one in said if not one.right and one.verdict != "refused"]
+    missed = [one for one in said if one.what != "other code" and one.verdict == "refused"]
+    quoted = wrong + (missed if any(one.right for one in said) else [])
+    return lines + [f"  {one.what} {one.seed}: {one.verdict}. {one.why}" for one in quoted]
+
+
+TABLES = {
+    "negatives": (said_of_negative, 400),
+    "others": (said_of_other_code, 200),
+    "unknown": (said_of_unknown_chips, 300),
+}
+
 if __name__ == "__main__":
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
-    print("\n".join(report(round_trips(range(count)))))
+    words = sys.argv[1:]
+    what = words.pop(0) if words and not words[0].isdigit() else "known"
+    if what == "known":
+        count = int(words[0]) if words else 500
+        print("\n".join(report(round_trips(range(count)))))
+    else:
+        say, usual = TABLES[what]
+        print("\n".join(tally(said_of(say, range(int(words[0]) if words else usual)))))

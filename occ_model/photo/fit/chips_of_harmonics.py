@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.stripes.envelope import MEAN_FREEDOM, smooth_shapes
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
 _PHASES = np.arange(8) / 8.0
@@ -21,6 +22,9 @@ _NOISE = 0.01
 """Share of the largest weight below which a harmonic is dominated by noise."""
 
 _MOST_HARMONICS = 160
+
+_REGULARIZATION = 1e-6
+"""Share of a harmonic's energy that the normal equations get in addition."""
 
 _REFINEMENTS = 120
 
@@ -52,13 +56,20 @@ Harmonics = NDArray[np.complex128]
 
 
 def harmonics_of(even: FloatArray, period: float) -> Harmonics:
-    """Give the strength of each harmonic of 1/period, from the first."""
+    """Give the strength of each harmonic of 1/period, from the first.
+
+    They are fitted together with a trend: the removal of one has changed the slow harmonics.
+    """
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
-    # Over whole periods, since otherwise the harmonics leak into each other.
-    whole = int(int(columns / period) * period) or columns
-    turn = np.exp(-2j * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(whole)))
-    return np.asarray(turn @ even[:whole] / whole)
+    count = min(count, max(2, (columns - MEAN_FREEDOM) // 3))
+    turn = 2.0 * np.pi / period * np.outer(np.arange(columns), np.arange(1, count + 1))
+    parts = np.hstack([np.cos(turn), np.sin(turn), smooth_shapes(columns, MEAN_FREEDOM)])
+    products = parts.T @ parts
+    # At half the column rate a sine has no energy of its own.
+    products[np.diag_indices_from(products)] += _REGULARIZATION * columns
+    weights = np.linalg.solve(products, parts.T @ even)
+    return np.asarray(0.5 * (weights[:count] - 1j * weights[count : 2 * count]))
 
 
 def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:

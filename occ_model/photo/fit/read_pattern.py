@@ -41,7 +41,7 @@ _LONGEST_FOR_EDGES = 1.5
 _MOST_COUNTS = 12
 """Numbers of chips, on whose lattices the edges lie, that are tried."""
 
-_WELL_EXPLAINED = 0.02
+_WELL_EXPLAINED = 0.04
 """Share of the harmonics' power that the right chips may leave unexplained without a doubt."""
 
 _AS_GOOD = 1.5
@@ -98,7 +98,7 @@ def read_patterns(
         or by_edges.exposure > _LONGEST_FOR_EDGES
     ):
         found.append(_chips_by_lines(lines, most, check))
-    read = [replace(one, chips=canonical(one.chips)) for one in found if one is not None]
+    read = [replace(one, chips=_shortened(one.chips)) for one in found if one is not None]
     return list({one.chips.tobytes(): one for one in read}.values())
 
 
@@ -112,6 +112,8 @@ def _fewest(
         rough = best_chips(lines, count)
         if rough is not None:
             read.append(refined(lines, rough))
+            if _unexplained(read[-1]) <= _WELL_EXPLAINED:
+                return read[-1]
     left = [_unexplained(one) for one in read]
     enough = _enough(left)
     return next((one for one, rest in zip(read, left, strict=True) if rest <= enough), None)
@@ -157,6 +159,14 @@ def _chips_by_lines(lines: Harmonics, most: int, check: Callable[[], object]) ->
 
 def _unexplained(read: ReadPattern) -> float:
     return 1.0 - max(read.explained, 0.0) ** 2
+
+
+def _shortened(chips: ByteArray) -> ByteArray:
+    """Join chips that only come several at a time to longer ones, and give the canonical form."""
+    once = canonical(chips)
+    changes = np.flatnonzero(once != np.roll(once, 1))
+    shared = int(np.gcd.reduce(np.diff(changes, append=changes[0] + len(once))))
+    return canonical(np.roll(once, -int(changes[0]))[::shared])
 
 
 def canonical(chips: ByteArray) -> ByteArray:

@@ -5,7 +5,8 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-_MEAN_FREEDOM, _SWING_FREEDOM = 6, 4
+MEAN_FREEDOM, _SWING_FREEDOM = 6, 4
+"""Numbers of polynomials of the trends of a profile's mean and swing."""
 
 _LEAST_POWER = 0.05
 """Share of the mean square to which a profile's local power is limited from below."""
@@ -65,7 +66,7 @@ def without_trend(profile: FloatArray) -> FloatArray:
     ndarray of float64, shape as ``profile``
         With mean 0 and a standard deviation of about 1 everywhere.
     """
-    about = profile - _smooth(profile, _MEAN_FREEDOM)
+    about = profile - _smooth(profile, MEAN_FREEDOM)
     power = np.maximum(_smooth(about**2, _SWING_FREEDOM), _LEAST_POWER * float(np.mean(about**2)))
     return np.asarray(about / np.sqrt(np.maximum(power, 1e-300)))
 

@@ -36,8 +36,11 @@ __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
 
-_SAME_DUTY = 0.95
-"""Correlation of a scene's pulse from which its duty is right within a few hundredths."""
+_SAME_DUTY, _SAME_DUTY_IF_SATURATED = 0.99, 0.9
+"""Correlation of a scene's pulse from which its duty is not searched anew."""
+
+_UNSATURATED = 0.02
+"""Share of white pixels below which the width of a pulse is that of its light."""
 
 _SECONDS = 0.05
 """Time between two reports of the progress."""
@@ -185,7 +188,9 @@ def _read(candidates: Candidates, as_sent: Hypothesis | None) -> list[Hypothesis
     if as_sent is None or not is_single_pulse(as_sent.chips):
         return read
     others = [one for one in read if not is_single_pulse(one.chips) or is_turned(one, as_sent)]
-    dimmed = candidates.dimmed() if as_sent.fit.correlation < _SAME_DUTY else None
+    # White pixels lengthen pulses: their width then tells the duty only roughly.
+    enough = _SAME_DUTY if candidates.stripes.saturated < _UNSATURATED else _SAME_DUTY_IF_SATURATED
+    dimmed = candidates.dimmed(as_sent) if as_sent.fit.correlation < enough else None
     return others if dimmed is None else [*others, dimmed]
 
 

@@ -78,7 +78,7 @@ class Candidates:
         ]
         return [one for one in found if one is not None]
 
-    def dimmed(self) -> Hypothesis | None:
+    def dimmed(self, as_sent: Hypothesis) -> Hypothesis | None:
         """Suppose the scene's single pulse with another duty, as of a lamp dimmed by its width.
 
         The exposure blurs both edges of a pulse alike, so that its width at half its height is
@@ -87,13 +87,14 @@ class Candidates:
         period, sent = self.stripes.period, canonical(sent_chips(self.scene.transmitter))
         if period is None or not is_single_pulse(sent):
             return None
+        same = replace(self, cameras=[as_sent.explanation.camera])
         found: dict[int, Hypothesis] = {}
         width = float(np.mean(self.stripes.flattened > 0.5))
         for step in _DUTY_STEPS:
             middle = min(found, key=lambda on: self._power(found[on])) if found else None
             first = round(_DUTIES * width) if middle is None else middle
             for on in (first - step, first, first + step):
-                fitted = self._dimmed(on, period, len(sent)) if on not in found else None
+                fitted = same._dimmed(on, period, len(sent)) if on not in found else None
                 if fitted is not None:
                     found[on] = fitted
         return min(found.values(), key=self._power, default=None)

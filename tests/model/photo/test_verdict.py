@@ -1,0 +1,115 @@
+"""A match says how sure it is, and why, and refuses what is no lamp's."""
+
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from simulated_photos import photo_of, random_scene, take
+from verdicts import Said, said_of, said_of_negative, said_of_other_code
+
+import occ_model as occ
+from occ_model.photo.evidence.hypothesis import pulse, runs_of
+
+SAMPLE = (18, 41, 88, 103)
+"""Pictures of which most were once said to be explained."""
+
+
+@pytest.fixture(
+    scope="module",
+    params=["sample", pytest.param("whole", marks=pytest.mark.whole)],
+)
+def negatives(request: pytest.FixtureRequest) -> list[Said]:
+    if request.param == "sample":
+        return [said_of_negative(seed) for seed in SAMPLE]
+    return said_of(said_of_negative, range(400))
+
+
+def test_no_picture_without_an_led_is_sure(negatives: list[Said]) -> None:
+    assert [one for one in negatives if one.verdict == "sure"] == []
+
+
+def test_few_pictures_without_an_led_are_doubtful(negatives: list[Said]) -> None:
+    doubtful = [one for one in negatives if one.verdict == "doubtful"]
+    assert len(doubtful) <= 0.02 * len(negatives)
+
+
+@pytest.mark.parametrize(
+    "seeds", [range(2), pytest.param(range(200), marks=pytest.mark.whole)], ids=["sample", "whole"]
+)
+def test_the_scenes_code_is_never_taken_for_another(seeds: range) -> None:
+    found = [said_of_other_code(seed) for seed in seeds]
+    assert [one for one in found if one.scene_s] == []
+    assert sum(one.right for one in found) > len(found) // 2
+
+
+def test_a_clear_photo_of_the_scene_is_sure_and_gives_no_reason() -> None:
+    match = occ.match_photo(take(random_scene(6)), random_scene(6))
+    assert (match.verdict, match.reasons) == ("sure", ())
+    assert match.alternatives
+    for other in match.alternatives:
+        assert other.evidence < 0.0
+        assert other.correlation <= match.correlation
+
+
+def test_less_than_one_and_a_half_periods_are_never_sure() -> None:
+    scene = random_scene(6).replace(start_time=0.0)
+    period = 24.0 / scene.transmitter.switching_frequency
+    columns = int(1.3 * period / scene.camera.readout_time)
+    photo = take(scene)
+    part = photo_of(np.ascontiguousarray(photo.samples[:, 600 : 600 + columns]))
+    try:
+        match = occ.match_photo(part, scene, sent="scene")
+    except occ.MatchError:
+        return
+    assert match.verdict == "doubtful"
+    assert any("periods of 24 chips are in view" in why for why in match.reasons)
+
+
+def test_an_exposure_of_many_chips_is_never_sure() -> None:
+    scene = random_scene(229)
+    long = 3.6 / scene.transmitter.switching_frequency
+    scene = scene.replace(exposure_time=long, enhancement="none")
+    match = occ.match_photo(take(scene), scene, sent="scene")
+    assert match.verdict == "doubtful"
+    assert any("times as long as a chip" in why for why in match.reasons)
+
+
+def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
+    bars = np.tile(np.repeat([30, 210], 20).astype(np.uint8), (80, 20))
+    scene = occ.load_preset("phone-136us")
+    with pytest.raises(occ.MatchError, match="as those of any regular object are"):
+        occ.match_photo(photo_of(bars), scene)
+    read = occ.match_photo(photo_of(bars), scene, sent="read")
+    assert (read.pattern, read.verdict) == ("10", "doubtful")
+    given_one = occ.match_photo(photo_of(bars), scene.replace(pattern="10"))
+    assert (given_one.pattern, given_one.pattern_was_read) == ("10", False)
+
+
+@pytest.mark.parametrize("percent", [20, 60])
+def test_the_duty_of_a_dimmed_lamp_comes_out(percent: int) -> None:
+    cycles = 1500.0
+    chips = "".join(map(str, pulse(percent, 100).tolist()))
+    camera = occ.load_preset("phone-68us").replace(
+        rows=100, columns=1200, readout_time=10e-6, exposure_time=80e-6, averaging="light",
+        enhancement="none", panel_width=3.0,
+    )  # fmt: skip
+    photo = take(camera.replace(pattern=chips, switching_frequency=cycles * len(chips)))
+    told = camera.replace(pattern="10", switching_frequency=2.0 * cycles, readout_time=1e-6)
+    match = occ.match_photo(photo, told)
+    assert match.duty == pytest.approx(percent / 100.0, abs=0.03)
+    assert match.readout_time == pytest.approx(10e-6, rel=1e-3)
+    assert match.exposure_time == pytest.approx(80e-6, rel=0.05)
+
+
+def test_a_refusal_holds_its_reasons_also_in_another_process() -> None:
+    error = occ.MatchError("One reason.", "Another one.")
+    assert error.reasons == ("One reason.", "Another one.")
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.reasons) == ("One reason. Another one.", error.reasons)
+
+
+@given(st.lists(st.integers(0, 1), min_size=1, max_size=40))
+def test_the_runs_of_a_period_make_up_all_its_chips(chips: list[int]) -> None:
+    assert sum(runs_of(np.array(chips, dtype=np.uint8))) == len(chips)

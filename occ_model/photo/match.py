@@ -72,7 +72,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         The unknown one of these two: ``"readout_time"`` or ``"switching_frequency"``.
     sent
         ``"scene"``: the scene's pattern was sent. ``"read"``: the shortest pattern that explains
-        the stripes is read from them. ``"auto"``: it is read where the scene's does not match.
+        the stripes is read from them. ``"auto"``: whichever of them is more likely.
     averaging
         ``"pixel-value"`` or ``"light"``, as the scene's parameter, or ``"auto"``: the better match.
     fit_gamma
@@ -86,7 +86,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     Raises
     ------
     MatchError
-        The photo shows no stripes, or no pattern and settings in range explain them.
+        The photo shows no stripes, or no pattern and settings in range explain them better than
+        chance and than no code at all.
     ParameterError
         ``estimate``, ``sent`` or ``averaging`` is not one of these words, or ``region`` is no
         rectangle of the photo.
@@ -165,7 +166,7 @@ def _hypotheses(
     """Fit what the scene sends, what is read from the photo, or both."""
     as_sent = None if sent == "read" else candidates.as_sent()
     report(0.5)
-    found = [] if sent == "scene" else _read(candidates, as_sent)
+    found = [] if sent == "scene" else _read(candidates, as_sent, sent)
     report(0.8)
     if as_sent is not None:
         profile = candidates.stripes.profile
@@ -182,15 +183,22 @@ def _hypotheses(
     return found
 
 
-def _read(candidates: Candidates, as_sent: Hypothesis | None) -> list[Hypothesis]:
+def _read(candidates: Candidates, as_sent: Hypothesis | None, sent: str) -> list[Hypothesis]:
     """Fit what is read; of a single pulse whose frequency is given only the duty can be another."""
     read = candidates.read()
-    if as_sent is None or not is_single_pulse(as_sent.chips):
+    chips = sent_chips(candidates.scene.transmitter)
+    if sent == "read" or chips.min() == chips.max() or not is_single_pulse(chips):
         return read
-    others = [one for one in read if not is_single_pulse(one.chips) or is_turned(one, as_sent)]
+    others = [
+        one
+        for one in read
+        if not is_single_pulse(one.chips) or (as_sent is not None and is_turned(one, as_sent))
+    ]
     # White pixels lengthen pulses: their width then tells the duty only roughly.
     enough = _SAME_DUTY if candidates.stripes.saturated < _UNSATURATED else _SAME_DUTY_IF_SATURATED
-    dimmed = candidates.dimmed(as_sent) if as_sent.fit.correlation < enough else None
+    if as_sent is not None and as_sent.fit.correlation >= enough:
+        return others
+    dimmed = candidates.dimmed(as_sent)
     return others if dimmed is None else [*others, dimmed]
 
 
@@ -224,7 +232,7 @@ def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str
         sent=other.sent,
         pattern="".join(map(str, other.chips.tolist())),
         correlation=other.fit.correlation,
-        evidence=evidence,
+        evidence=float(evidence),
         readout_time=readout,
         switching_frequency=frequency,
         exposure_time=exposure_time(other.fit, scene, estimate),

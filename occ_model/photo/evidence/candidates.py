@@ -78,7 +78,7 @@ class Candidates:
         ]
         return [one for one in found if one is not None]
 
-    def dimmed(self, as_sent: Hypothesis) -> Hypothesis | None:
+    def dimmed(self, as_sent: Hypothesis | None) -> Hypothesis | None:
         """Suppose the scene's single pulse with another duty, as of a lamp dimmed by its width.
 
         The exposure blurs both edges of a pulse alike, so that its width at half its height is
@@ -87,7 +87,8 @@ class Candidates:
         period, sent = self.stripes.period, canonical(sent_chips(self.scene.transmitter))
         if period is None or not is_single_pulse(sent):
             return None
-        same = replace(self, cameras=[as_sent.explanation.camera])
+        cameras = self.cameras if as_sent is None else [as_sent.explanation.camera]
+        same = replace(self, cameras=cameras)
         found: dict[int, Hypothesis] = {}
         width = float(np.mean(self.stripes.flattened > 0.5))
         for step in _DUTY_STEPS:

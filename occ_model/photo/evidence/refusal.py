@@ -5,8 +5,12 @@ from dataclasses import dataclass
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse
 from occ_model.photo.evidence.smooth_curve import SmoothCurve
 
-_LEAST_CORRELATION = {False: 0.8, True: 0.9}
-"""Correlation below which given chips, and chips that were read, explain nothing."""
+_LEAST_GIVEN, _LEAST_READ = 0.8, 0.9
+"""Correlations below which given chips, and chips that were read, explain nothing."""
+
+_LEAST_OF_ANYTHING = 0.975
+"""The same for chips that were read where it is not given that a lamp blinks: regular objects are
+explained about as well by some chips or other."""
 
 _LEAST_INFORMATION = 30.0
 """Bits by which a fit must be better than chance: so many timings are tried that the best of them
@@ -52,7 +56,9 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
     list of str
         Empty where the hypothesis holds.
     """
-    least = _LEAST_CORRELATION[found.was_read]
+    least = _LEAST_GIVEN
+    if found.was_read:
+        least = _LEAST_READ if blinks else _LEAST_OF_ANYTHING
     what = found.sent[0].upper() + found.sent[1:]
     if found.fit.correlation < least:
         return [

@@ -105,7 +105,7 @@ def moire(random: Random) -> FloatArray:
     tilt = random.uniform(-0.1, 0.1) * random.integers(0, 2)
     one = 0.5 + 0.5 * np.sign(np.cos(2 * np.pi * place / pitch))
     two = 0.5 + 0.5 * np.sign(np.cos(2 * np.pi * (place + tilt * down) / other))
-    return cv2.GaussianBlur(one * two, (0, 0), random.uniform(0.5, 3.0))
+    return np.asarray(cv2.GaussianBlur(one * two, (0, 0), random.uniform(0.5, 3.0)), np.float64)
 
 
 def led_matrix(random: Random) -> FloatArray:
@@ -174,7 +174,7 @@ def screen(random: Random) -> FloatArray:
     pitch = random.uniform(2.5, 9.0)
     grid = 0.6 + 0.4 * np.cos(2 * np.pi * np.arange(columns) / pitch)
     lines = 0.8 + 0.2 * np.cos(2 * np.pi * np.arange(rows) / pitch)
-    return picture * grid[None, :] * lines[:, None]
+    return np.asarray(picture * grid[None, :] * lines[:, None])
 
 
 def stairs(random: Random) -> FloatArray:
@@ -250,13 +250,13 @@ def _photographed(light: FloatArray, random: Random) -> ByteArray:
         random.choice([0.0, 0.0, random.normal(0.0, 0.5), random.uniform(-8.0, 8.0), 90.0])
     )
     turn = cv2.getRotationMatrix2D((columns / 2, rows / 2), angle, 1.0)
-    light = cv2.warpAffine(light, turn, (columns, rows), borderMode=cv2.BORDER_REFLECT)
+    turned = cv2.warpAffine(light, turn, (columns, rows), borderMode=cv2.BORDER_REFLECT)
     across, down = np.linspace(-1, 1, columns), np.linspace(-1, 1, rows)
     shade = 1.0 - random.uniform(0.0, 0.3) * (across[None, :] ** 2 + down[:, None] ** 2)
     shade += random.uniform(-0.2, 0.2) * across[None, :]
-    light = np.clip(light, 0.0, None) * shade * random.uniform(0.4, 1.4)
-    light = cv2.GaussianBlur(light, (0, 0), random.uniform(0.2, 2.0))
-    values = 255.0 * np.clip(light, 0.0, 1.0) ** random.uniform(0.6, 1.1)
+    light = np.clip(turned, 0.0, None) * shade * random.uniform(0.4, 1.4)
+    seen = cv2.GaussianBlur(light, (0, 0), random.uniform(0.2, 2.0))
+    values = 255.0 * np.clip(seen, 0.0, 1.0) ** random.uniform(0.6, 1.1)
     values += random.uniform(0.0, 6.0) * random.standard_normal(values.shape)
     image = np.clip(np.rint(values), 0, 255).astype(np.uint8)
     quality = int(random.integers(50, 96))

@@ -11,6 +11,7 @@ from verdicts import Said, said_of, said_of_negative, said_of_other_code
 
 import occ_model as occ
 from occ_model.photo.evidence.hypothesis import pulse, runs_of
+from occ_model.photo.fit.initial_search import Search
 
 SAMPLE = (18, 41, 88, 103)
 """Pictures of which most were once said to be explained."""
@@ -113,3 +114,20 @@ def test_a_refusal_holds_its_reasons_also_in_another_process() -> None:
 @given(st.lists(st.integers(0, 1), min_size=1, max_size=40))
 def test_the_runs_of_a_period_make_up_all_its_chips(chips: list[int]) -> None:
     assert sum(runs_of(np.array(chips, dtype=np.uint8))) == len(chips)
+
+
+@pytest.mark.parametrize("chips", [24, 1024])
+def test_what_a_check_raises_ends_the_search(chips: int) -> None:
+    search = Search(
+        np.random.default_rng(1).standard_normal(2000), np.arange(chips, dtype=np.uint8) % 3 % 2
+    )
+    calls: list[int] = []
+
+    def stop() -> None:
+        calls.append(1)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        search.candidates(search.steps(), 2.2, stop)
+    assert len(calls) == 3

@@ -19,7 +19,8 @@ from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene
 from occ_model.scene.provenance import ENDINGS, scene_inside
 
 _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
-_PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2"
+_RAW = "*.dng *.nef *.cr2 *.cr3 *.arw *.raf *.rw2 *.orf *.pef"
+_PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2 {_RAW}"
 
 
 def _has_scene(path: Path) -> bool:

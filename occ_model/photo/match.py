@@ -64,7 +64,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     Parameters
     ----------
     photo
-        The photo.
+        The photo. Where its samples are in proportion to the light, light is averaged and there is
+        no gamma, whatever ``averaging``, ``fit_gamma`` and the scene say.
     scene
         The known settings: the sent code or pattern (a square wave of F cycles per second is the
         pattern "10" at a switching frequency of 2 F), and the switching frequency or readout time.
@@ -92,6 +93,10 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         ``estimate``, ``sent`` or ``averaging`` is not one of these words, or ``region`` is no
         rectangle of the photo.
     """
+    if photo.is_linear:
+        check_scene(scene)
+        scene = scene.replace(gamma=1.0, enhancement="none")
+        averaging, fit_gamma = "light", False
     _check(scene, estimate, sent, averaging)
     report = _Progress(progress or (lambda _share: None))
     report(0.0)

@@ -12,9 +12,9 @@ from occ_model.scene.parameters import PARAMETERS
 if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
 
-_EXIF_IFD = 0x8769
+EXIF_IFD = 0x8769
 _MAKE, _MODEL, _ORIENTATION = 0x010F, 0x0110, 0x0112
-_EXPOSURE_TIME, _F_NUMBER, _ISO = 0x829A, 0x829D, 0x8827
+EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
 _SHUTTER_SPEED_APEX, _APERTURE_APEX = 0x9201, 0x9202
 _ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
 
@@ -60,11 +60,16 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
     with suppress(Exception):
         exif = picture.getexif()
         tags = dict(exif)
-        tags |= exif.get_ifd(_EXIF_IFD)
+        tags |= exif.get_ifd(EXIF_IFD)
+    return notes_of(tags)
+
+
+def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
+    """Give the camera's notes of EXIF tags, by their numbers."""
     return CameraNotes(
-        exposure_time=_within("exposure_time", _number(tags.get(_EXPOSURE_TIME)))
+        exposure_time=_within("exposure_time", _number(tags.get(EXPOSURE_TIME)))
         or _within("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
-        f_number=_within("f_number", _number(tags.get(_F_NUMBER)))
+        f_number=_within("f_number", _number(tags.get(F_NUMBER)))
         or _within("f_number", _power_of_two(tags.get(_APERTURE_APEX), 0.5)),
         iso=_iso(tags),
         camera=_camera(_text(tags.get(_MAKE)), _text(tags.get(_MODEL))),
@@ -93,7 +98,7 @@ def turns_of(orientation: int) -> tuple[bool, bool, bool]:
 
 
 def _iso(tags: Mapping[int, Any]) -> float | None:
-    noted = _within("iso", _number(tags.get(_ISO)))
+    noted = _within("iso", _number(tags.get(ISO)))
     if noted is not None and noted != _ISO_OR_MORE:
         return noted
     for tag in (_ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT):

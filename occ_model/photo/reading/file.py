@@ -19,8 +19,13 @@ from occ_model.photo.reading.limits import (
     check_file_size,
     check_memory,
     check_scans,
-    check_sides,
     check_transparency,
+)
+from occ_model.photo.reading.size_limits import (
+    allowed_pixels,
+    check_pixels,
+    check_sides,
+    count_of_pixels,
 )
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
@@ -43,41 +48,49 @@ _pillow_lock = threading.Lock()
 
 
 @contextmanager
-def open_picture(path: Path, max_pixels: int, report: Reporter) -> "Iterator[Opener]":
-    """Open an image file.
+def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[WatchedFile]:
+    """Open a file that should be a photo.
 
     Parameters
     ----------
     path
         The file.
     max_pixels
-        Largest number of pixels of a picture, by its header.
+        Largest number of pixels of a picture, which limits the bytes of the file too.
     report
         Called with the progress as the file is read; what it raises leaves the ``with`` block.
 
     Yields
     ------
-    callable
-        Gives the file's first picture, not yet decoded, at each call; its arguments are the shares
-        of the work between which it will be decoded.
+    WatchedFile
+        The file.
 
     Raises
     ------
     PhotoError
-        There is no such file, it may not be read, it is no image, damaged or too large. Errors of
-        a decoder inside the ``with`` block become this error too.
+        There is no such file, it may not be read, or it has too many bytes. Errors of a decoder
+        inside the ``with`` block become this error too.
     """
     try:
         _check_file(path, max_pixels)
         with _pillow_ready(max_pixels), WatchedFile(path, report) as file:
-            yield lambda first, last: _first_picture(path, file, max_pixels, (first, last))
+            yield file
     except PhotoError:
         raise
-    except Exception as error:  # noqa: BLE001 - Pillow's decoders raise anything on damaged files.
+    except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files.
         # A decoder may have replaced the exception that cancelled it by one of its own.
         if report.ended_by is not None:
             raise report.ended_by from None
         raise _refusal(path, error, max_pixels) from None
+
+
+def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
+    """Give the function that opens a file's first picture, not yet decoded, at each call.
+
+    Its arguments are the shares of the work between which the picture will be decoded. It raises
+    PhotoError where the file is no image, damaged or too large.
+    """
+    return lambda first, last: _first_picture(path, file, max_pixels, (first, last))
 
 
 def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
@@ -87,7 +100,7 @@ def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
     shown = one_line(str(path))
     # Some formats check the size on opening.
     if isinstance(error, Image.DecompressionBombError):
-        return PhotoError(f"{shown} has more than {_allowed(max_pixels)}")
+        return PhotoError(f"{shown} has more than {allowed_pixels(max_pixels)}")
     if isinstance(error, MemoryError):
         return PhotoError(f"{shown} cannot be read: there is too little memory for it.")
     reason = error.strerror if isinstance(error, OSError) else None
@@ -136,7 +149,7 @@ def _check_file(path: Path, max_pixels: int) -> None:
     if status.st_size > largest:
         raise PhotoError(
             f"{shown} has {status.st_size:,} bytes; allowed for a photo of at most "
-            f"{_count(max_pixels)} pixels: up to {largest:,}."
+            f"{count_of_pixels(max_pixels)} pixels: up to {largest:,}."
         )
 
 
@@ -155,12 +168,8 @@ def _first_picture(
         problem = _damaged(error, "the file is damaged or of an unusual kind")
         raise PhotoError(f"{shown} cannot be read: {problem}.") from None
     width, height = picture.size
-    if width * height > max_pixels:
-        raise PhotoError(
-            f"{shown} has {width:,} x {height:,} pixels, {_count(width * height)}; "
-            f"allowed: at most {_allowed(max_pixels)}"
-        )
-    check_sides(path, picture)
+    check_pixels(path, width, height, max_pixels)
+    check_sides(path, width, height)
     # A wrong size in the header would otherwise be decoded, in seconds, to black.
     if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
         raise PhotoError(
@@ -213,14 +222,3 @@ def _damaged(error: Exception, problem: str = "the file is damaged") -> str:
     words = re.sub(r"\s+", " ", "".join(c if c.isprintable() else " " for c in str(error)))
     words = words.strip().rstrip(".")[:120]
     return f"{problem} ({words})" if words else problem
-
-
-def _allowed(max_pixels: int) -> str:
-    return f"{_count(max_pixels)}; raise max_pixels to read it."
-
-
-def _count(pixels: int) -> str:
-    """Write a number of pixels, in millions where two decimals suffice."""
-    if pixels >= 1_000_000 and pixels % 10_000 == 0:
-        return f"{pixels / 1e6:,.10g} million"
-    return f"{pixels:,}"

@@ -190,15 +190,15 @@ def _take_lower_bytes(picture: "ImageFile") -> None:
 def _load(picture: "ImageFile") -> None:
     """Decode a picture without output of libtiff on stderr."""
     if picture.format == "TIFF":
-        with _no_stderr():
+        with no_stderr():
             picture.load()
     else:
         picture.load()
 
 
 @contextmanager
-def _no_stderr() -> Iterator[None]:
-    """Redirect stderr to the null device: libtiff prints its warnings there."""
+def no_stderr() -> Iterator[None]:
+    """Redirect stderr to the null device: libtiff and LibRaw print their warnings there."""
     try:
         kept = os.dup(2)
     except OSError:  # a program without a console has none

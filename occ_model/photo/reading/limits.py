@@ -1,4 +1,4 @@
-"""Limit the size of a photo by its format, so that reading it takes bounded memory and time."""
+"""Limit a photo by its format, so that reading it takes bounded memory and time."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -6,23 +6,10 @@ from typing import TYPE_CHECKING
 
 from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.jpeg_scans import count_scans
+from occ_model.photo.reading.size_limits import check_bytes
 
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
-
-_MOST_MEMORY = 950_000_000
-"""Bytes of memory for reading a photo; numpy, OpenCV and the decoders' libraries take 150 MB more.
-
-A picture of 170 million pixels takes 4 bytes for each of them while it is decoded, whatever its
-colours, and 1 for the channel.
-"""
-
-_LONGEST_SIDE = 1_000_000
-"""Pixels of a photo's longer side: as many as a scene has columns, and ten times its rows.
-
-The means of columns and of lines are of 64 bits, and are sorted: of a photo of one line they
-would take many times the memory and time of its pixels.
-"""
 
 _MOST_SCANS = 500
 """Scans of a JPEG; encoders write about 10."""
@@ -40,6 +27,7 @@ _MOST_BYTES = {
     "WEBP": 36_000_000,
     "AVIF": 50_000_000,
     "HEIF": 40_000_000,
+    "RAW": 150_000_000,
 }
 """Largest file in bytes, for formats whose decoders take some seconds for it."""
 
@@ -99,21 +87,6 @@ def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
         )
 
 
-def check_sides(path: Path, picture: "ImageFile") -> None:
-    """Refuse a picture with a side longer than any camera's, before any of it is decoded.
-
-    Raises
-    ------
-    PhotoError
-        It is too wide or too high.
-    """
-    if max(picture.size) > _LONGEST_SIDE:
-        raise PhotoError(
-            f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels; "
-            f"allowed: at most {_LONGEST_SIDE:,} along each side."
-        )
-
-
 def check_transparency(path: Path, picture: "ImageFile") -> None:
     """Refuse a large picture of 16-bit colours with transparency, before any of it is decoded.
 
@@ -153,13 +126,7 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
     """
     pixels = picture.width * picture.height
     decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
-    if decoding + bytes_read > _MOST_MEMORY:
-        most = pixels * max(_MOST_MEMORY - bytes_read, 0) / decoding
-        raise PhotoError(
-            f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels, which take "
-            f"{(decoding + bytes_read) / 1e9:.2f} GB of memory to be decoded; allowed: at most "
-            f"{_MOST_MEMORY / 1e9:.2f} GB, {most / 1e6:.1f} million pixels of this kind."
-        )
+    check_bytes(path, picture.width, picture.height, decoding, bytes_read)
 
 
 def check_scans(

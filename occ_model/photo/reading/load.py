@@ -13,10 +13,11 @@ from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, shown
 from occ_model.photo.reading.channels import CHANNELS, take_channel, white_of
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
-from occ_model.photo.reading.file import open_picture
+from occ_model.photo.reading.file import open_file, picture_opener
 from occ_model.photo.reading.image_decoding import DECODED, DecodedPicture, Samples
+from occ_model.photo.reading.raw import is_raw, read_mosaic
 from occ_model.photo.reading.scan_axis import SCAN_AXES, means_along, stripes_are_lines
-from occ_model.photo.reading.watched_file import Progress, Reporter
+from occ_model.photo.reading.watched_file import Progress, Reporter, WatchedFile
 from occ_model.scene.argument_checks import check_choice, check_count
 
 __all__ = ["CHANNELS", "Photo", "column_means", "load_photo"]
@@ -46,6 +47,9 @@ class Photo:
         From the EXIF data, in SI units; None where they are missing or out of range.
     camera
         The camera's maker and model, None where both are missing.
+    is_linear
+        Whether the samples are in proportion to the light, as those of a RAW file are: the camera
+        has not applied its gamma.
     """
 
     path: Path
@@ -59,6 +63,18 @@ class Photo:
     f_number: float | None = None
     iso: float | None = None
     camera: str | None = None
+    is_linear: bool = False
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Read:
+    """What is read of a file, the scan axis being the columns."""
+
+    samples: Samples
+    channel: str
+    turned: bool
+    notes: CameraNotes
+    is_linear: bool
 
 
 def load_photo(
@@ -76,7 +92,8 @@ def load_photo(
     path
         An image file of one of the formats in :mod:`occ_model.photo.reading.formats`; of several
         pictures the first is read. Its EXIF orientation is applied, transparent parts are black,
-        and floating-point samples are grey levels.
+        and floating-point samples are grey levels. A camera's RAW file is read from its green
+        photosites, as :mod:`occ_model.photo.reading.raw` says.
     scan_axis
         ``"columns"`` or ``"lines"`` of the file, or ``"auto"``.
     channel
@@ -85,7 +102,8 @@ def load_photo(
         Largest number of pixels. Some formats' decoders allow fewer: the memory is limited too.
     progress
         Called with the share of the work that is done, from 0 to 1. What it raises cancels the
-        reading, though JPEG 2000, WebP, AVIF, HEIC and compressed TIFF only after decoding.
+        reading, though JPEG 2000, WebP, AVIF, HEIC, RAW and compressed TIFF only after
+        decoding.
 
     Raises
     ------
@@ -112,8 +130,8 @@ def _path(path: str | Path) -> Path:
         ) from None
 
 
-def _loaded(path: Path, read: tuple[Samples, str, bool, CameraNotes]) -> Photo:
-    samples, taken, turned, notes = read
+def _loaded(path: Path, read: _Read) -> Photo:
+    samples, notes = read.samples, read.notes
     white = white_of(samples)
     return Photo(
         path=path,
@@ -121,12 +139,13 @@ def _loaded(path: Path, read: tuple[Samples, str, bool, CameraNotes]) -> Photo:
         white=white,
         image=_in_grey_levels(samples),
         profile=means_along(samples, 0) * (WHITE / white),
-        turned=turned,
-        channel=taken,
+        turned=read.turned,
+        channel=read.channel,
         exposure_time=notes.exposure_time,
         f_number=notes.f_number,
         iso=notes.iso,
         camera=notes.camera,
+        is_linear=read.is_linear,
     )
 
 
@@ -160,16 +179,32 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     return means * (WHITE / photo.white)
 
 
-def _read(
-    path: Path, channel: str, scan_axis: str, max_pixels: int, report: Reporter
-) -> tuple[Samples, str, bool, CameraNotes]:
-    """Read the samples of one channel with the scan axis as columns.
+def _read(path: Path, channel: str, scan_axis: str, max_pixels: int, report: Reporter) -> _Read:
+    """Read the samples of one channel with the scan axis as columns."""
+    with open_file(path, max_pixels, report) as file:
+        if is_raw(file):
+            mosaic = read_mosaic(path, file, channel, max_pixels, report)
+            notes, orientation = mosaic.notes, mosaic.orientation
+            turned = _is_turned(mosaic.one_plane(), orientation, scan_axis)
+            along_lines = turned != turns_of(orientation)[0]
+            samples, taken = mosaic.samples(along_lines), mosaic.channel
+            is_linear = True
+        else:
+            samples, taken, notes, orientation = _taken(path, file, channel, max_pixels, report)
+            turned = _is_turned(samples, orientation, scan_axis)
+            is_linear = False
+    return _Read(_turned(samples, orientation, turned), taken, turned, notes, is_linear)
 
-    The other results are the channel, whether the file's lines became the columns, and EXIF data.
-    """
-    samples, taken, notes, orientation = _taken(path, channel, max_pixels, report)
+
+def _is_turned(samples: Samples, orientation: int, scan_axis: str) -> bool:
+    """Whether the lines of the upright photo are the scan axis."""
+    lying, _, _ = turns_of(orientation)
+    return scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, lying))
+
+
+def _turned(samples: Samples, orientation: int, turned: bool) -> Samples:
+    """Turn samples upright, and then the scan axis to the columns."""
     transpose, mirror_rows, mirror_columns = turns_of(orientation)
-    turned = scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, transpose))
     if turned:
         transpose, mirror_rows, mirror_columns = not transpose, mirror_columns, mirror_rows
     # Each step frees the array before it.
@@ -179,22 +214,21 @@ def _read(
         samples = cast("Samples", cv2.flip(samples, 0))
     if mirror_columns:
         samples = cast("Samples", cv2.flip(samples, 1))
-    return samples, taken, turned, notes
+    return samples
 
 
 def _taken(
-    path: Path, channel: str, max_pixels: int, report: Reporter
+    path: Path, file: WatchedFile, channel: str, max_pixels: int, report: Reporter
 ) -> tuple[Samples, str, CameraNotes, int]:
     """Read the samples of one channel as they are stored, with the EXIF data."""
-    with open_picture(path, max_pixels, report) as opened:
-        decoded = DecodedPicture(opened)
-        try:
-            notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
-            samples, taken = take_channel(
-                decoded, channel, lambda share: report(DECODED + (1.0 - DECODED) * share)
-            )
-        finally:
-            decoded.close()
+    decoded = DecodedPicture(picture_opener(path, file, max_pixels))
+    try:
+        notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
+        samples, taken = take_channel(
+            decoded, channel, lambda share: report(DECODED + (1.0 - DECODED) * share)
+        )
+    finally:
+        decoded.close()
     return samples, taken, notes, orientation
 
 

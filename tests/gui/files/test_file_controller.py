@@ -180,7 +180,8 @@ def test_the_dialogs_offer_the_formats_that_can_be_used(
     written = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
     assert offered == [
         f"Pictures ({written})",
-        f"Photos ({written} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2);;All files (*)",
+        f"Photos ({written} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2 "
+        "*.dng *.nef *.cr2 *.cr3 *.arw *.raf *.rw2 *.orf *.pef);;All files (*)",
     ]
 
 

@@ -1,0 +1,219 @@
+"""Read a camera's RAW file: the light in its green photosites, line by line of the sensor.
+
+The black level is taken off, and the white level is the largest sample. What is darker than black
+is 0. LibRaw, by way of rawpy, decodes the files.
+"""
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from occ_model.errors import PhotoError, one_line
+from occ_model.photo.reading.exif import (
+    EXIF_IFD,
+    EXPOSURE_TIME,
+    F_NUMBER,
+    ISO,
+    notes_of,
+)
+from occ_model.photo.reading.image_decoding import DECODED, no_stderr
+from occ_model.photo.reading.limits import check_file_size
+from occ_model.photo.reading.mosaic import WHITE_SAMPLE, Mosaic
+from occ_model.photo.reading.size_limits import check_bytes, check_pixels, check_sides
+from occ_model.photo.reading.watched_file import Reporter, WatchedFile
+
+if TYPE_CHECKING:
+    from rawpy import RawPy
+
+_BYTES_A_PIXEL = 10
+"""The sensor's samples and those taken of them, each while it is converted and turned."""
+
+_TIFF = (b"II*\0", b"MM\0*")
+_OTHERS = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILMCCD-RAW", b"FOVb")
+"""The first bytes of RAW files of Olympus, Panasonic, Fujifilm and Sigma."""
+
+_CR3 = b"ftypcrx "
+"""Bytes 4 to 11 of Canon's newer files."""
+
+_MOST_SUB_IFDS = 16
+_PHOTOMETRIC, _SUB_IFDS, _DNG_VERSION = 262, 330, 50706
+_SENSOR_SAMPLES = (32803, 34892)
+"""Photometric interpretations of TIFF/EP and DNG: a colour filter array, and linear samples."""
+
+_GREEN = b"G"[0]
+_ANY = "brightest"
+_NO_COLOUR = 6
+"""LibRaw's colour of a sensor without filters."""
+
+_ORIENTATIONS = {0: 1, 1: 2, 2: 4, 3: 3, 4: 5, 5: 8, 6: 6, 7: 7}
+"""The EXIF orientation for LibRaw's flip: bit 0 mirrors columns, bit 1 rows, bit 2 transposes."""
+
+
+def is_raw(file: IO[bytes]) -> bool:
+    """Whether a file is a camera's RAW file, by its first bytes and, of a TIFF, by its tags."""
+    file.seek(0, os.SEEK_SET)
+    start = file.read(16)
+    if start.startswith(_OTHERS) or start[4:12] == _CR3:
+        return True
+    if not start.startswith(_TIFF):
+        return False
+    # A damaged file is refused by the decoder that it is given to.
+    with suppress(Exception):
+        return start[8:10] == b"CR" or _has_sensor_samples(file)
+    return False
+
+
+def _has_sensor_samples(file: IO[bytes]) -> bool:
+    from PIL.TiffImagePlugin import ImageFileDirectory_v2
+
+    file.seek(0, os.SEEK_SET)
+    head = file.read(8)
+    first = ImageFileDirectory_v2(head)
+    offsets = [first.next]
+    for offset in offsets:
+        directory = ImageFileDirectory_v2(head)
+        file.seek(offset, os.SEEK_SET)
+        directory.load(file)
+        if _DNG_VERSION in directory or directory.get(_PHOTOMETRIC) in _SENSOR_SAMPLES:
+            return True
+        if offset == offsets[0]:
+            inner = directory.get(_SUB_IFDS, ())
+            offsets += list(inner)[:_MOST_SUB_IFDS] if isinstance(inner, tuple) else [inner]
+    return False
+
+
+def read_mosaic(
+    path: Path, file: WatchedFile, channel: str, max_pixels: int, report: Reporter
+) -> Mosaic:
+    """Read the photosites of a RAW file.
+
+    Parameters
+    ----------
+    path, file
+        The file's path, and the file.
+    channel
+        ``"green"`` or ``"brightest"``: the others have photosites in every second line only.
+    max_pixels
+        Largest number of photosites.
+    report
+        Called with the progress.
+
+    Raises
+    ------
+    PhotoError
+        rawpy is not installed, the file is damaged, too large, of another pattern of colours or
+        without a sensor's samples, or another channel is asked for.
+    """
+    shown = one_line(str(path))
+    try:
+        import rawpy
+    except ImportError:
+        raise PhotoError(
+            f"{shown} is a camera's RAW file; to read it: pip install occ-explorer[raw]."
+        ) from None
+    if channel not in (_ANY, "green"):
+        raise PhotoError(
+            f"{shown} is a camera's RAW file, which is read in green only: red and blue are in "
+            f"every second line of the sensor. The channel {channel} was asked for; allowed: green "
+            f"or {_ANY}."
+        )
+    size = os.fstat(file.fileno()).st_size
+    check_file_size(path, "RAW", size)
+    notes = _tags_of(file)
+    file.seek(0, os.SEEK_SET)
+    file.watch(size, 0.0, 0.5 * DECODED)
+    try:
+        with rawpy.RawPy() as raw, no_stderr():
+            raw.open_buffer(file)
+            width, height = raw.sizes.raw_width, raw.sizes.raw_height
+            check_pixels(path, width, height, max_pixels)
+            check_sides(path, width, height)
+            check_bytes(path, width, height, _BYTES_A_PIXEL * width * height, size)
+            raw.unpack()
+            report(DECODED)
+            return _mosaic(shown, raw, notes)
+    except (rawpy.LibRawError, rawpy.NotSupportedError) as error:
+        if report.ended_by is not None:
+            raise report.ended_by from None
+        raise PhotoError(
+            f"{shown} cannot be read: the file is damaged or of an unknown kind ({_words(error)})."
+        ) from None
+
+
+def _mosaic(shown: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
+    """Copy what is needed of an unpacked file."""
+    photosites = raw.raw_image_visible if raw.raw_type.name == "Flat" else None
+    pattern = raw.raw_pattern if photosites is not None else None
+    if photosites is None or pattern is None or photosites.dtype != np.uint16:
+        raise PhotoError(
+            f"{shown} cannot be read: it holds no photosites of one sensor, but colours that were "
+            "interpolated already; allowed: a Bayer pattern, or a sensor without colours."
+        )
+    sizes = raw.sizes
+    colours = np.array(
+        [
+            [raw.raw_color(sizes.top_margin + row, sizes.left_margin + column) for column in (0, 1)]
+            for row in (0, 1)
+        ]
+    )
+    if pattern.shape == (1, 1) or (colours == _NO_COLOUR).all():
+        is_green, colours = np.ones((2, 2), np.bool_), np.zeros((2, 2), np.int64)
+    else:
+        is_green = np.array([[raw.color_desc[c] == _GREEN for c in line] for line in colours])
+    if pattern.shape not in ((1, 1), (2, 2)) or not (
+        is_green.all() or (is_green.sum() == 2 and is_green[0, 0] == is_green[1, 1])
+    ):
+        raise PhotoError(
+            f"{shown} cannot be read: its sensor's colours are in another pattern; allowed: a "
+            "Bayer pattern, or a sensor without colours."
+        )
+    levels = np.array([[_levels(shown, raw, int(c)) for c in line] for line in colours])
+    other = raw.other
+    found = {EXPOSURE_TIME: other.shutter_speed, F_NUMBER: other.aperture, ISO: other.iso_speed}
+    return Mosaic(
+        photosites=photosites.copy(),
+        is_green=is_green,
+        levels=levels.transpose(2, 0, 1),
+        notes=notes_of(found | tags),
+        orientation=_ORIENTATIONS.get(sizes.flip, 1),
+    )
+
+
+def _levels(shown: str, raw: "RawPy", colour: int) -> tuple[float, float]:
+    """Give the black and the white level of a colour."""
+    black = float(raw.black_level_per_channel[colour])
+    white = float(raw.white_level)
+    noted = raw.camera_white_level_per_channel
+    if noted is not None and 0 < noted[colour] < white:
+        white = float(noted[colour])
+    if not 0.0 <= black < white <= WHITE_SAMPLE:
+        raise PhotoError(
+            f"{shown} cannot be read: the file is damaged (it says that black is {black:g} and "
+            f"white {white:g})."
+        )
+    return black, white
+
+
+def _tags_of(file: IO[bytes]) -> dict[int, Any]:
+    """Read the EXIF tags of a RAW file that is a TIFF; none of another one."""
+    from PIL import Image
+
+    tags: dict[int, Any] = {}
+    with suppress(Exception):
+        file.seek(0, os.SEEK_SET)
+        exif = Image.Exif()
+        exif.load_from_fp(file)
+        tags = dict(exif)
+        tags |= exif.get_ifd(EXIF_IFD)
+    return tags
+
+
+def _words(error: Exception) -> str:
+    """Give LibRaw's message, which rawpy passes on as bytes."""
+    text = error.args[0] if error.args else type(error).__name__
+    if isinstance(text, bytes):
+        text = text.decode("utf-8", errors="replace")
+    return one_line(str(text), 120)

@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     )
     from occ_model.photo.chips.read import read_chips as read_chips
     from occ_model.photo.comparison import compare as compare
+    from occ_model.photo.many.match_photos import match_photos as match_photos
     from occ_model.photo.match import match_photo as match_photo
     from occ_model.photo.reading.load import (
         Photo as Photo,
@@ -48,6 +49,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Frame as Frame,
         Limits as Limits,
         Match as Match,
+        PhotoTable as PhotoTable,
         Plan as Plan,
         Region as Region,
         Stripes as Stripes,
@@ -92,6 +94,7 @@ _MODULES = {
     "ParameterError": "errors",
     "Photo": "photo.reading.load",
     "PhotoError": "errors",
+    "PhotoTable": "results",
     "Plan": "results",
     "PresetError": "errors",
     "ProjectionError": "errors",
@@ -113,6 +116,7 @@ _MODULES = {
     "load_photo": "photo.reading.load",
     "load_preset": "scene.presets",
     "match_photo": "photo.match",
+    "match_photos": "photo.many.match_photos",
     "on_time": "camera.exposure",
     "packet": "transmitter.packet",
     "panel_corners": "camera.projection",

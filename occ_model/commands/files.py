@@ -1,7 +1,7 @@
 """Check the files that a command line reads and writes: no output may overwrite another one."""
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,12 +12,13 @@ from occ_model.scene.presets import user_folder
 
 INPUTS = {
     "file": "the photo",
+    "more": "one of the photos",
     "scene": "the file of --scene",
     "photo": "the file of --photo",
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",
 }
-"""Options that name a file to read, with the file's name in messages."""
+"""Options that name a file to read, or several, with the file's name in messages."""
 
 OUTPUTS = {
     "out": "--out",
@@ -71,7 +72,7 @@ def check_files(options: argparse.Namespace) -> None:
     ----------
     options
         The parsed command line. ``options.writes``, if there, maps an option to what is written to
-        its path.
+        its path, or to a function that says so of the parsed command line.
 
     Raises
     ------
@@ -96,10 +97,11 @@ def check_files(options: argparse.Namespace) -> None:
 
 
 def _check_endings(options: argparse.Namespace) -> None:
-    for option, written in vars(options).get("writes", {}).items():
+    for option in vars(options).get("writes", {}):
         path: Path | None = getattr(options, option)
         if path is None:
             continue
+        written = _written(options, option)
         if written is SCENE_FILE:
             check_scene_path(path)
         if path.suffix.lower() in written.refused:
@@ -112,8 +114,9 @@ def _check_endings(options: argparse.Namespace) -> None:
 def _inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
     named = vars(options)
     for option, name in INPUTS.items():
-        if named.get(option) is not None:
-            yield name, named[option]
+        paths = named.get(option)
+        if paths is not None:
+            yield from ((name, path) for path in (paths if isinstance(paths, list) else [paths]))
     if named.get("preset") is not None and named.get("scene") is None:
         yield "the file of --preset", user_folder() / f"{options.preset}.toml"
 
@@ -124,11 +127,18 @@ def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
         path: Path | None = named.get(option)
         if path is None:
             continue
-        written: Written = named.get("writes", {}).get(option, Written("A file"))
+        written = _written(options, option)
         if written.names:
             yield from ((f"{name}, where {each} goes,", path / each) for each in written.names)
         else:
             yield name, path
+
+
+def _written(options: argparse.Namespace, option: str) -> Written:
+    """Give what a command line writes to the path of an option."""
+    written: Written | Callable[[argparse.Namespace], Written]
+    written = vars(options).get("writes", {}).get(option, Written("A file"))
+    return written if isinstance(written, Written) else written(options)
 
 
 def is_same_file(path: Path, other: Path) -> bool:

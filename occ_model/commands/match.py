@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from occ_model.commands.files import SCENE_FILE
+from occ_model.commands.match_many import add_many_options, run_many, written_by
 from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
@@ -22,7 +22,8 @@ _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_tim
 def add_to(commands: Commands) -> None:
     """Add the command."""
     parser = commands.add_parser("match", help="find the settings that explain a photo")
-    parser.add_argument("file", type=Path, help="image file")
+    parser.add_argument("file", type=Path, help="image file; of several, one table is made")
+    add_many_options(parser)
     add_scene_options(parser)
     parser.add_argument(
         "--led-frequency",
@@ -49,14 +50,21 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--channel", choices=CHANNELS, default=CHANNELS[0], help="default: %(default)s"
     )
-    parser.add_argument("--out", type=Path, metavar="FILE.toml", help="write the fitted scene here")
-    parser.set_defaults(command=_run, writes={"out": SCENE_FILE})
+    parser.add_argument(
+        "--out",
+        type=Path,
+        metavar="FILE",
+        help="write the fitted scene here (.toml), or the table of several photos (.csv)",
+    )
+    parser.set_defaults(command=_run, writes={"out": written_by})
 
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     if options.led_frequency is not None:
         scene = _square_wave(scene, options.led_frequency)
+    if options.more:
+        return run_many(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
     with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
         match = match_photo(

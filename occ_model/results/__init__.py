@@ -5,6 +5,7 @@ from occ_model.results.decoding import DecodeResult, Location, Region, RunHistog
 from occ_model.results.frame import Frame
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.match import Alternative, ChipReading, Comparison, Match, Stripes
+from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
@@ -16,6 +17,7 @@ __all__ = [
     "AccuracyPoint",
     "Alternative",
     "ChipReading",
+    "CombinedEstimate",
     "Comparison",
     "Decision",
     "DecodeResult",
@@ -23,6 +25,8 @@ __all__ = [
     "Limits",
     "Location",
     "Match",
+    "PhotoRow",
+    "PhotoTable",
     "Plan",
     "RangeEnd",
     "RateSettings",

@@ -1,0 +1,147 @@
+"""The command ``occ-model match`` with several photos: one readout time from all of them."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from occ_model.commands.files import SCENE_FILE, TABLE, Written
+from occ_model.commands.progress_bar import progress_bar
+from occ_model.errors import OutputError, one_line
+from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
+from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
+from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
+from occ_model.results.photo_table import VERDICTS, CombinedEstimate, PhotoRow, PhotoTable
+from occ_model.results.photo_table_csv import csv_text
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+
+_LONGEST_FILE = 32
+
+
+def add_many_options(parser: argparse.ArgumentParser) -> None:
+    """Add what is for several photos only."""
+    parser.add_argument("more", nargs="*", type=Path, metavar="file", help=argparse.SUPPRESS)
+    parser.add_argument(
+        "--jobs", type=int, metavar="N", help="processes for several photos; default: one a core"
+    )
+
+
+def run_many(options: argparse.Namespace, scene: Scene) -> int:
+    """Match several photos, print their table, and write it where ``--out`` says."""
+    paths = [options.file, *options.more]
+    jobs = usual_jobs() if options.jobs is None else options.jobs
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    if options.out:
+        _check_out(options.out)
+    table = _matched(paths, scene, options, jobs)
+    if table is None:
+        return EXIT_INTERRUPTED
+    paste = [f"{program}: {line}" for program, line in lines_to_paste(table).items()]
+    if options.out:
+        write_whole(options.out, csv_text(table, paste).encode("utf-8"))
+    for line in _report(table):
+        print(line)
+    for line in paste:
+        print(line)
+    if options.out:
+        print(f"{one_line(str(options.out))}: {len(table.rows)} photos")
+    return EXIT_FAILURE if table.estimated is None else 0
+
+
+def _check_out(path: Path) -> None:
+    """Refuse a file that could not be written, before minutes of work are done."""
+    check_replaceable(path)
+    if not path.resolve().parent.is_dir():
+        raise OutputError(
+            f"{one_line(str(path))} cannot be written: name a file in a folder that is there."
+        )
+
+
+def _matched(
+    paths: list[Path], scene: Scene, options: argparse.Namespace, jobs: int
+) -> PhotoTable | None:
+    """Match with a progress bar; None after Ctrl-C."""
+    reached = 0
+    try:
+        with progress_bar(total=len(paths), unit="photo", leave=False, disable=None) as bar:
+
+            def progress(done: int, _total: int) -> None:
+                nonlocal reached
+                reached = done
+                bar.update(done - bar.n)
+
+            return match_photos(
+                paths,
+                scene,
+                estimate=options.estimate,
+                sent=options.sent,
+                fit_gamma=options.fit_gamma,
+                scan_axis=options.scan_axis,
+                channel=options.channel,
+                jobs=jobs,
+                progress=progress,
+            )
+    except KeyboardInterrupt:
+        pass
+    print(
+        f"occ-model: stopped after {reached} of {len(paths)} photos; nothing was written.",
+        file=sys.stderr,
+    )
+    return None
+
+
+def _report(table: PhotoTable) -> list[str]:
+    name = table.estimate
+    width = min(max(len(one_line(row.path.name)) for row in table.rows), _LONGEST_FILE)
+    lines = [
+        f"{_cut(row.path.name, width):{width}}  {row.verdict:10}  {_found(row, name)}"
+        + ("  outlier" if table.is_outlier(place) else "")
+        + (f"  {row.note}" if row.note else "")
+        for place, row in enumerate(table.rows)
+    ]
+    counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
+    lines += ["", f"{'photos':22}{len(table.rows)}: {counts}"]
+    lines += _mean(name, table.estimated) + _mean("exposure_time", table.exposure_time)
+    frame = frame_readout_time(table)
+    if frame is not None:
+        lines.append(f"{'readout of the frame':22}{_with_error('readout_time', *frame)}")
+    return lines + list(table.notes)
+
+
+def _found(row: PhotoRow, name: str) -> str:
+    """Write what was found in a photo, in columns."""
+    texts = []
+    for each in (name, "exposure_time"):
+        value, error = getattr(row, each), row.uncertainty(each)
+        texts.append("" if value is None else _with_error(each, value, error or 0.0))
+    return f"{texts[0]:24}  {texts[1]:22}".rstrip()
+
+
+def _mean(name: str, found: CombinedEstimate | None) -> list[str]:
+    if found is None:
+        return []
+    text = f"{_with_error(name, found.value, found.uncertainty)}, mean of {found.count}"
+    if found.count > 1:
+        text += f"; chi-square {found.chi_square:.3g} of {found.degrees_of_freedom}: " + (
+            "they agree" if found.agrees else "they differ by more than their errors"
+        )
+    if found.outliers:
+        text += f"; {len(found.outliers)} left out as too far from the others"
+    return [f"{name:22}{text}"]
+
+
+def _with_error(name: str, value: float, error: float) -> str:
+    symbol, factor = quantity(name).unit.display(value)
+    return f"{value / factor:.6g} ± {error / factor:.2g} {symbol}".rstrip()
+
+
+def _cut(text: str, width: int) -> str:
+    shown = one_line(text)
+    return shown if len(shown) <= width else f"…{shown[1 - width :]}"
+
+
+def written_by(options: argparse.Namespace) -> Written:
+    """Give what ``--out`` is: the table of several photos, or the scene fitted to one."""
+    return TABLE if options.more else SCENE_FILE

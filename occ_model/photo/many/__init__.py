@@ -1,0 +1,1 @@
+"""Match many photos, and combine what they measured."""

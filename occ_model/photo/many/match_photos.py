@@ -1,0 +1,153 @@
+"""Match many photos of one camera and one scene: one readout time from all of them."""
+
+import os
+from collections.abc import Callable, Generator, Iterable, Sequence
+from contextlib import closing
+from pathlib import Path
+from typing import TypeAlias
+
+from occ_model.errors import ParameterError, PhotoError, shown
+from occ_model.parallel.job import Heartbeat
+from occ_model.photo.many.row import MatchSettings, row_of_file, row_of_photo
+from occ_model.photo.many.table import table_of
+from occ_model.photo.many.workers import rows_by_workers
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
+from occ_model.photo.reading.load import CHANNELS, Photo
+from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.results.photo_table import PhotoRow, PhotoTable
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.scene import Scene
+
+Progress: TypeAlias = Callable[[int, int], object]
+"""Called with the number of photos done, and of all photos."""
+
+MOST_JOBS = 64
+
+Source: TypeAlias = Path | Photo
+
+
+def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it optional
+    photos: Iterable[str | Path | Photo],
+    scene: Scene,
+    *,
+    estimate: str = ESTIMATES[0],
+    sent: str = PATTERN_SOURCES[0],
+    averaging: str = "auto",
+    fit_gamma: bool = False,
+    scan_axis: str = SCAN_AXES[0],
+    channel: str = CHANNELS[0],
+    jobs: int = 1,
+    progress: Progress | None = None,
+) -> PhotoTable:
+    """Match many photos of one scene, and combine what they measured.
+
+    The mean is over the photos that are sure, without outliers; a doubtful one never changes it.
+    Its uncertainty is that of the photos' scatter and errors. An error that they share, such as
+    that of the frequency given, comes on top.
+
+    Parameters
+    ----------
+    photos
+        Files, or photos that were read already.
+    scene
+        The known settings, as for :func:`occ_model.match_photo`.
+    estimate, sent, averaging, fit_gamma
+        As for :func:`occ_model.match_photo`.
+    scan_axis, channel
+        As for :func:`occ_model.load_photo`; for files only.
+    jobs
+        Number of processes that read and match files; 1: this one. The module that calls this with
+        more must not do so when it is imported (``if __name__ == "__main__":``).
+    progress
+        Called after each photo, and several times a second meanwhile, with the number of photos
+        done and of all. What it raises ends the work.
+
+    Returns
+    -------
+    PhotoTable
+        A row for each photo, in their order. A file that cannot be read, and a photo that no
+        scene explains, have a row that says why.
+
+    Raises
+    ------
+    ParameterError
+        A setting or ``jobs`` is not allowed, or there are no photos.
+    PhotoError
+        One of the photos is neither a path nor a photo.
+    """
+    settings = MatchSettings(scene, estimate, sent, averaging, fit_gamma, scan_axis, channel)
+    sources = checked_photos(photos)
+    settings.check()
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    report = progress or (lambda _done, _total: None)
+    rows: dict[int, PhotoRow] = {}
+    report(0, len(sources))
+
+    def heartbeat() -> None:
+        report(len(rows), len(sources))
+
+    # Closed here, whatever ends it: workers that are not closed would go on.
+    with closing(matched_rows(sources, settings, jobs, heartbeat)) as found:
+        for place, row in found:
+            rows[place] = row
+            heartbeat()
+    return table_of(settings, [rows[place] for place in range(len(sources))])
+
+
+def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
+    """Check what is to be matched: at least one file or photo.
+
+    Raises
+    ------
+    ParameterError
+        There are none.
+    PhotoError
+        One is neither a path nor a photo.
+    """
+    given = [photos] if isinstance(photos, str | Path | Photo) else photos
+    sources: list[Source] = []
+    for photo in given:
+        if not isinstance(photo, str | Path | Photo):
+            raise PhotoError(
+                f"{shown(photo)} is not the path of a photo; allowed: str, Path or Photo."
+            )
+        sources.append(Path(photo) if isinstance(photo, str) else photo)
+    if not sources:
+        raise ParameterError("There are no photos to match; allowed: one or more.")
+    return sources
+
+
+def matched_rows(
+    sources: Sequence[Source], settings: MatchSettings, jobs: int, heartbeat: Heartbeat
+) -> Generator[tuple[int, PhotoRow], None, None]:
+    """Match photos, and give each row with its place as soon as it is ready.
+
+    Parameters
+    ----------
+    sources
+        Files, or photos that were read already: those are matched in this process.
+    settings
+        How they are read and matched.
+    jobs
+        Number of processes for the files.
+    heartbeat
+        Called several times a second; whatever it raises ends the work.
+    """
+    files = [(place, one) for place, one in enumerate(sources) if isinstance(one, Path)]
+    for place, one in enumerate(sources):
+        if isinstance(one, Photo):
+            yield place, row_of_photo(one, settings, heartbeat)
+    if jobs > 1 and len(files) > 1:
+        yield from rows_by_workers(files, settings, min(jobs, len(files)), heartbeat)
+        return
+    for place, path in files:
+        yield place, row_of_file(path, settings, heartbeat)
+
+
+def usual_jobs() -> int:
+    """Give the number of processes that use this computer well: one for each core allowed."""
+    try:
+        cores = len(os.sched_getaffinity(0))
+    except AttributeError:  # not on every system
+        cores = os.cpu_count() or 1
+    return min(cores, MOST_JOBS)

@@ -1,0 +1,85 @@
+"""A measured readout time as other programs take it: OpenDroneMap and Gyroflow.
+
+Both take the time of the whole frame in milliseconds: the readout time of a line times the lines.
+
+OpenDroneMap has the options ``--rolling-shutter`` and ``--rolling-shutter-readout``
+(https://docs.opendronemap.org/arguments/rolling-shutter-readout/).
+
+Gyroflow has the fields ``frame_readout_time`` and ``frame_readout_direction`` in its lens profiles
+(``src/core/lens_profile.rs``), as has the head of its text format for motion data, GCSV
+(https://docs.gyroflow.xyz/app/technical-details/gcsv-format). A profile names the direction
+``TopToBottom``, ``BottomToTop``, ``LeftToRight`` or ``RightToLeft``. Stripes tell along which axis
+the sensor is read out, but not from which end; most are read from the top.
+"""
+
+import math
+
+from occ_model.results.photo_table import PhotoRow, PhotoTable
+
+_DIRECTIONS = {"lines": "TopToBottom", "columns": "LeftToRight"}
+"""Gyroflow's usual direction by the axis of the upright picture that is scanned."""
+
+_MILLISECOND = 1e-3
+
+_PRECISE = 0.01
+"""Relative error up to which photos that differ by more than their errors give one answer."""
+
+
+def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
+    """Give the readout time of the whole frame and its standard deviation in seconds.
+
+    Parameters
+    ----------
+    table
+        The photos. They must be as the camera stored them: of a photo that was cut or made
+        smaller the lines are others.
+
+    Returns
+    -------
+    tuple or None
+        None where the readout time was not measured, or the photos in the mean have different
+        numbers of lines.
+    """
+    counted = _counted(table)
+    lines = {row.lines for row in counted}
+    if table.estimate != "readout_time" or table.estimated is None or len(lines) != 1:
+        return None
+    (count,) = lines
+    return table.estimated.value * count, table.estimated.uncertainty * count
+
+
+def lines_to_paste(table: PhotoTable) -> dict[str, str]:
+    """Write the readout time as other programs take it.
+
+    Returns
+    -------
+    dict
+        A line for each program, by its name; empty where :func:`frame_readout_time` gives none, or
+        where the photos contradict each other.
+    """
+    frame = frame_readout_time(table)
+    if frame is None or table.estimated is None:
+        return {}
+    if not table.estimated.agrees and frame[1] > _PRECISE * frame[0]:
+        return {}
+    written = _milliseconds(*frame)
+    lines = {"OpenDroneMap": f"--rolling-shutter --rolling-shutter-readout {written}"}
+    axes = {row.scanned_along for row in _counted(table)}
+    if len(axes) == 1:
+        direction = _DIRECTIONS[axes.pop()]
+        lines["Gyroflow"] = (
+            f'"frame_readout_time": {written}, "frame_readout_direction": "{direction}"'
+        )
+    return lines
+
+
+def _counted(table: PhotoTable) -> list[PhotoRow]:
+    return [row for place, row in enumerate(table.rows) if table.is_counted(place)]
+
+
+def _milliseconds(seconds: float, deviation: float) -> str:
+    """Write a time to the second digit of its standard deviation, at least to a microsecond."""
+    digits = 3
+    if deviation > 0.0:
+        digits = max(digits, 1 - math.floor(math.log10(deviation / _MILLISECOND)))
+    return f"{seconds / _MILLISECOND:.{min(digits, 9)}f}"

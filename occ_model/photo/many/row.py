@@ -1,0 +1,121 @@
+"""Match one of several photos: a row of their table, also where it cannot be read."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from occ_model.errors import MatchError, PhotoError
+from occ_model.parallel.job import Heartbeat
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
+from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
+from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.results import Match
+from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow
+from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.scene import Scene, check_scene
+
+
+@dataclass(frozen=True, slots=True)
+class MatchSettings:
+    """How each photo is read and matched.
+
+    Parameters
+    ----------
+    scene
+        The known settings, as for :func:`occ_model.match_photo`.
+    estimate, sent, averaging, fit_gamma
+        As for :func:`occ_model.match_photo`.
+    scan_axis, channel
+        As for :func:`occ_model.load_photo`.
+    """
+
+    scene: Scene
+    estimate: str = ESTIMATES[0]
+    sent: str = PATTERN_SOURCES[0]
+    averaging: str = "auto"
+    fit_gamma: bool = False
+    scan_axis: str = SCAN_AXES[0]
+    channel: str = CHANNELS[0]
+
+    def check(self) -> None:
+        """Refuse settings that are not allowed, before any photo is read.
+
+        Raises
+        ------
+        ParameterError
+            A setting is not one of its words, or the scene is none.
+        """
+        check_scene(self.scene)
+        check_choice("estimate", self.estimate, ESTIMATES)
+        check_choice("sent", self.sent, PATTERN_SOURCES)
+        check_choice("scan_axis", self.scan_axis, SCAN_AXES)
+        check_choice("channel", self.channel, CHANNELS)
+
+
+def row_of_file(path: Path, settings: MatchSettings, heartbeat: Heartbeat) -> PhotoRow:
+    """Read and match a file; a sentence stands in the row where that fails.
+
+    Parameters
+    ----------
+    path
+        The file.
+    settings
+        How it is read and matched.
+    heartbeat
+        Called repeatedly; whatever it raises ends the work.
+    """
+    try:
+        photo = load_photo(
+            path,
+            settings.scan_axis,
+            channel=settings.channel,
+            progress=lambda _share: heartbeat(),
+        )
+    except PhotoError as error:
+        return PhotoRow(path, UNREADABLE, _one_paragraph(str(error)))
+    return row_of_photo(photo, settings, heartbeat)
+
+
+def row_of_photo(photo: Photo, settings: MatchSettings, heartbeat: Heartbeat) -> PhotoRow:
+    """Match a photo that was read."""
+    try:
+        match = match_photo(
+            photo,
+            settings.scene,
+            estimate=settings.estimate,
+            sent=settings.sent,
+            averaging=settings.averaging,
+            fit_gamma=settings.fit_gamma,
+            progress=lambda _share: heartbeat(),
+        )
+    except MatchError as error:
+        return _row(photo, REFUSED, str(error))
+    return _row(photo, match.verdict, " ".join(match.reasons), match)
+
+
+def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> PhotoRow:
+    rows, columns = photo.samples.shape
+    found = PhotoRow(
+        photo.path,
+        verdict,
+        _one_paragraph(note),
+        noted_exposure=photo.exposure_time,
+        lines=columns,
+        size=(rows, columns) if photo.turned else (columns, rows),
+        scanned_along="lines" if photo.turned else "columns",
+        camera=photo.camera,
+    )
+    if match is None:
+        return found
+    return replace(
+        found,
+        readout_time=match.readout_time,
+        switching_frequency=match.switching_frequency,
+        exposure_time=match.exposure_time,
+        uncertainties=tuple(match.uncertainties.items()),
+        correlation=match.correlation,
+        pattern=match.pattern,
+    )
+
+
+def _one_paragraph(sentences: str) -> str:
+    return " ".join(sentences.split())

@@ -1,0 +1,96 @@
+"""Combine estimates of one quantity: a weighted mean, whether they agree, and outliers.
+
+The mean is weighted by the inverse variances. Where the estimates scatter by more than their
+standard deviations say, that of the mean is multiplied by the Birge ratio (R. T. Birge, "The
+calculation of errors by the method of least squares", Physical Review 40, 207, 1932), as the
+Particle Data Group does.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.results.photo_table import CombinedEstimate
+
+_FALSE_ALARM = 0.01
+"""Probability that any of several estimates with right deviations is taken for an outlier."""
+
+_NORMAL_MAD = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation."""
+
+_LEAST_FOR_OUTLIERS = 3
+"""Fewer estimates do not tell which of them is wrong."""
+
+
+def combine(values: Sequence[float], deviations: Sequence[float]) -> CombinedEstimate | None:
+    """Combine estimates of one quantity.
+
+    Parameters
+    ----------
+    values
+        The estimates.
+    deviations
+        Their standard deviations, above 0.
+
+    Returns
+    -------
+    CombinedEstimate or None
+        None where there are no estimates.
+    """
+    if not len(values):
+        return None
+    x, sigma = np.asarray(values, dtype=np.float64), np.asarray(deviations, dtype=np.float64)
+    outliers = _outliers(x, sigma)
+    kept = np.setdiff1d(np.arange(len(x)), outliers)
+    x, sigma = x[kept], sigma[kept]
+    mean, internal = _weighted_mean(x, sigma)
+    chi_square = float(np.sum(((x - mean) / sigma) ** 2))
+    degrees = len(x) - 1
+    ratio = math.sqrt(chi_square / degrees) if degrees else 1.0
+    scale = max(1.0, ratio)
+    return CombinedEstimate(
+        value=mean,
+        uncertainty=internal * scale,
+        count=len(x),
+        chi_square=chi_square,
+        probability=_probability(chi_square, degrees),
+        scale=scale,
+        outliers=tuple(outliers.tolist()),
+    )
+
+
+def _weighted_mean(x: FloatArray, sigma: FloatArray) -> tuple[float, float]:
+    """Give the mean weighted by the inverse variances, and its standard deviation."""
+    weights = (sigma.min() / sigma) ** 2
+    total = float(weights.sum())
+    return float(weights @ x) / total, float(sigma.min()) / math.sqrt(total)
+
+
+def _probability(chi_square: float, degrees: int) -> float:
+    """Give the probability of a chi-square that is as large or larger."""
+    if not degrees:
+        return 1.0
+    from scipy.special import gammaincc  # slow to import
+
+    return float(gammaincc(0.5 * degrees, 0.5 * chi_square))
+
+
+def _outliers(x: FloatArray, sigma: FloatArray) -> IndexArray:
+    """Find estimates that are too far from the median of all.
+
+    Distances are measured in standard deviations, or in those that the scatter shows where it is
+    larger: where all stated deviations are too small, that makes no outliers. The median has no
+    weights: one wrong estimate with a tiny deviation would have nearly all of it.
+    """
+    count = len(x)
+    if count < _LEAST_FOR_OUTLIERS:
+        return np.zeros(0, np.int64)
+    of_median = math.sqrt(0.5 * math.pi / count) * float(np.median(sigma))
+    distances = np.abs(x - np.median(x)) / np.hypot(sigma, of_median)
+    scatter = max(1.0, _NORMAL_MAD * float(np.median(distances)))
+    from scipy.special import ndtri  # slow to import
+
+    limit = -float(ndtri(0.5 * _FALSE_ALARM / count))
+    return np.flatnonzero(distances > limit * scatter)

@@ -1,0 +1,148 @@
+"""The table of several photos that were matched, and what they measured together."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from occ_model.scene.scene import Scene
+
+SURE, DOUBTFUL, REFUSED, UNREADABLE = "sure", "doubtful", "refused", "unreadable"
+"""Verdicts on a photo: those of a match, no match, and a file that cannot be read."""
+
+VERDICTS = (SURE, DOUBTFUL, REFUSED, UNREADABLE)
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoRow:
+    """What was found in one photo.
+
+    Parameters
+    ----------
+    path
+        The file.
+    verdict
+        One of :data:`VERDICTS`.
+    note
+        Why it is not sure, in sentences; empty where it is.
+    readout_time, switching_frequency, exposure_time
+        In SI units; None where there is no match.
+    uncertainties
+        Standard deviations of those that were estimated, as pairs of name and value.
+    noted_exposure
+        Seconds, as the camera noted it in the file; None where it did not.
+    correlation
+        That of the match, None where there is none.
+    pattern
+        The chips sent; empty where there is no match.
+    lines
+        Lines that the shutter reads out in a picture: the photo's columns; 0 of an unreadable one.
+    size
+        Width and height of the upright picture in pixels; (0, 0) of an unreadable one.
+    scanned_along
+        ``"lines"`` or ``"columns"`` of the upright picture; empty of an unreadable one.
+    camera
+        The camera's maker and model, None where it is not known.
+    """
+
+    path: Path
+    verdict: str
+    note: str = ""
+    readout_time: float | None = None
+    switching_frequency: float | None = None
+    exposure_time: float | None = None
+    uncertainties: tuple[tuple[str, float], ...] = ()
+    noted_exposure: float | None = None
+    correlation: float | None = None
+    pattern: str = ""
+    lines: int = 0
+    size: tuple[int, int] = (0, 0)
+    scanned_along: str = ""
+    camera: str | None = None
+
+    def uncertainty(self, name: str) -> float | None:
+        """Give the standard deviation of an estimate, None where it was not estimated."""
+        return dict(self.uncertainties).get(name)
+
+
+@dataclass(frozen=True, slots=True)
+class CombinedEstimate:
+    """One value from several estimates of it.
+
+    Parameters
+    ----------
+    value
+        The mean, weighted by the inverse variances.
+    uncertainty
+        Its standard deviation: that of the estimates' own ones, times ``scale``.
+    count
+        Number of estimates in it.
+    chi_square
+        Sum of squares of the differences from the mean, each in its standard deviations.
+    probability
+        Of a chi-square that is as large or larger, where the standard deviations are right.
+    scale
+        The Birge ratio, the root of chi-square over its degrees of freedom, where that is above 1;
+        else 1.
+    outliers
+        Places of the estimates that were left out, as too far from the others.
+    """
+
+    value: float
+    uncertainty: float
+    count: int
+    chi_square: float
+    probability: float
+    scale: float
+    outliers: tuple[int, ...] = ()
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Degrees of freedom of chi-square."""
+        return self.count - 1
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the estimates agree within their standard deviations, at a level of 1 %."""
+        return self.probability >= _DISAGREE
+
+
+_DISAGREE = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoTable:
+    """Several photos of one scene.
+
+    Parameters
+    ----------
+    scene
+        The scene that the photos were matched with.
+    estimate
+        The parameter that was measured: ``"readout_time"`` or ``"switching_frequency"``.
+    rows
+        One for each photo, in the order in which they were given.
+    estimated, exposure_time
+        The estimate and the exposure time from all sure photos; None where there are none, or for
+        an exposure time that the photos do not share. ``outliers`` are places in ``rows``.
+    notes
+        Sentences about the photos together.
+    """
+
+    scene: Scene
+    estimate: str
+    rows: tuple[PhotoRow, ...]
+    estimated: CombinedEstimate | None
+    exposure_time: CombinedEstimate | None
+    notes: tuple[str, ...] = ()
+
+    def count(self, verdict: str) -> int:
+        """Count the photos with a verdict."""
+        return sum(row.verdict == verdict for row in self.rows)
+
+    def is_outlier(self, place: int) -> bool:
+        """Whether the photo at a place was left out of the mean as too far from the others."""
+        return self.estimated is not None and place in self.estimated.outliers
+
+    def is_counted(self, place: int) -> bool:
+        """Whether the photo at a place is in the mean."""
+        sure = self.rows[place].verdict == SURE
+        return self.estimated is not None and sure and not self.is_outlier(place)

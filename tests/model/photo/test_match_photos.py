@@ -1,0 +1,223 @@
+"""Many photos of one scene: a row each, and one answer that only sure ones make."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from simulated_photos import photo_of
+
+import occ_model as occ
+from occ_model.photo.many import match_photos as module
+from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
+from occ_model.photo.many.row import MatchSettings
+from occ_model.photo.many.table import table_of
+from occ_model.results import PhotoRow, PhotoTable
+from occ_model.results.photo_table_csv import csv_text
+from occ_model.scene.scene import Scene
+
+SCENE = occ.load_preset("phone-68us").replace(
+    rows=120,
+    columns=1600,
+    pattern="10",
+    switching_frequency=5e3,
+    readout_time=9e-6,
+    exposure_time=80e-6,
+    panel_width=3.0,
+    enhancement="none",
+    averaging="light",
+)
+
+
+def picture_of(scene: Scene, seed: int) -> np.ndarray:
+    start = float(np.random.default_rng(seed).uniform(0.0, 4e-4))
+    return occ.render(scene.replace(start_time=start), tolerance=0.0, seed=seed).image
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("photos")
+    for seed in range(3):
+        Image.fromarray(picture_of(SCENE, seed)).save(folder / f"{seed}.png")
+    (folder / "damaged.jpg").write_bytes(b"\xff\xd8\xff nothing")
+    Image.new("L", (300, 200), 128).save(folder / "flat.png")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def table(folder: Path) -> PhotoTable:
+    return occ.match_photos(sorted(folder.iterdir()), SCENE)
+
+
+def row(value: float, error: float = 1e-9, verdict: str = "sure", **more: object) -> PhotoRow:
+    made = PhotoRow(
+        Path("x.png"),
+        verdict,
+        readout_time=value,
+        exposure_time=80e-6,
+        uncertainties=(("readout_time", error), ("exposure_time", 1e-6)),
+        lines=1000,
+        size=(600, 1000),
+        scanned_along="lines",
+    )
+    return replace(made, **more)  # type: ignore[arg-type]
+
+
+def made(*rows: PhotoRow, estimate: str = "readout_time") -> PhotoTable:
+    return table_of(MatchSettings(SCENE, estimate), rows)
+
+
+def test_every_photo_has_a_row_in_the_order_given(table: PhotoTable, folder: Path) -> None:
+    assert [one.path for one in table.rows] == sorted(folder.iterdir())
+    verdicts = {one.path.name: one.verdict for one in table.rows}
+    assert verdicts.pop("damaged.jpg") == "unreadable"
+    assert verdicts.pop("flat.png") == "refused"
+    assert set(verdicts.values()) == {"sure"}
+    assert all(bool(one.note) == (one.verdict != "sure") for one in table.rows)
+
+
+def test_a_row_says_what_the_match_of_its_photo_says(table: PhotoTable, folder: Path) -> None:
+    for one in table.rows[:3]:
+        match = occ.match_photo(occ.load_photo(one.path), SCENE)
+        assert (one.readout_time, one.exposure_time) == (match.readout_time, match.exposure_time)
+        assert dict(one.uncertainties) == dict(match.uncertainties)
+
+
+def test_the_mean_is_the_truth_within_its_error(table: PhotoTable) -> None:
+    assert table.estimated is not None
+    assert table.exposure_time is not None
+    assert table.estimated.count == 3
+    assert abs(table.estimated.value - 9e-6) < 4.0 * table.estimated.uncertainty
+    assert abs(table.exposure_time.value - 80e-6) < 4.0 * table.exposure_time.uncertainty
+
+
+def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
+    reports: list[tuple[int, int]] = []
+    parallel = occ.match_photos(
+        sorted(folder.iterdir()), SCENE, jobs=2, progress=lambda *report: reports.append(report)
+    )
+    assert parallel.rows == table.rows
+    assert parallel.estimated == table.estimated
+    assert reports[0] == (0, 5)
+    assert reports[-1] == (5, 5)
+
+
+def test_photos_that_were_read_give_the_same_rows(folder: Path, table: PhotoTable) -> None:
+    photos = [occ.load_photo(folder / f"{seed}.png") for seed in range(3)]
+    assert occ.match_photos(photos, SCENE).rows == table.rows[:3]
+
+
+def test_doubtful_photos_never_change_the_mean() -> None:
+    sure = made(row(1e-5), row(1.0001e-5))
+    mixed = made(
+        row(1e-5), row(3e-5, 1e-15, "doubtful"), row(1.0001e-5), row(9e-6, 1e-12, "doubtful")
+    )
+    assert (mixed.estimated, mixed.exposure_time) == (sure.estimated, sure.exposure_time)
+    assert [mixed.is_counted(place) for place in range(4)] == [True, False, True, False]
+
+
+def test_outliers_are_marked_by_their_place_in_the_table() -> None:
+    rows = [row(1e-5 + k * 1e-10) for k in range(5)]
+    table = made(row(2e-5, verdict="doubtful"), *rows[:3], row(1.5e-5), *rows[3:])
+    assert table.estimated is not None
+    assert table.estimated.outliers == (4,)
+    assert [place for place in range(7) if table.is_outlier(place)] == [4]
+    assert table.estimated.count == 5
+
+
+def test_no_sure_photo_gives_no_mean_and_says_so() -> None:
+    table = made(row(1e-5, verdict="doubtful"))
+    assert (table.estimated, table.exposure_time) == (None, None)
+    assert table.notes == ("No photo is sure: there is no mean of the readout time.",)
+    assert lines_to_paste(table) == {}
+
+
+def test_exposures_that_were_set_differently_have_no_mean() -> None:
+    table = made(row(1e-5, noted_exposure=1e-4), row(1e-5, noted_exposure=2e-4))
+    assert table.exposure_time is None
+    assert table.notes == (
+        "The camera noted exposure times from 100 µs to 200 µs: they have no mean.",
+    )
+
+
+def test_photos_of_different_sizes_are_named() -> None:
+    table = made(row(1e-5), row(1e-5), row(1e-5, size=(300, 500), lines=500))
+    assert table.notes == (
+        "The photos in the mean are of different sizes, 600 x 1000 (2), 300 x 500 (1): their "
+        "readout time need not be the same.",
+    )
+    assert frame_readout_time(table) is None
+
+
+def test_readout_of_the_frame_is_that_of_all_lines() -> None:
+    table = made(row(7.0e-6, 1e-9), row(7.0e-6, 1e-9))
+    assert frame_readout_time(table) == pytest.approx((7e-3, 1e-6 / math.sqrt(2)))
+    assert lines_to_paste(table) == {
+        "OpenDroneMap": "--rolling-shutter --rolling-shutter-readout 7.00000",
+        "Gyroflow": '"frame_readout_time": 7.00000, "frame_readout_direction": "TopToBottom"',
+    }
+
+
+def test_photos_that_contradict_each_other_give_no_line_to_paste() -> None:
+    table = made(row(7e-6), row(9e-6))
+    assert table.estimated is not None
+    assert not table.estimated.agrees
+    assert lines_to_paste(table) == {}
+    assert "differ by more than their errors" in table.notes[0]
+
+
+def test_a_measured_frequency_gives_no_line_to_paste() -> None:
+    frequency = row(1e-5, switching_frequency=5e3, uncertainties=(("switching_frequency", 1.0),))
+    table = made(frequency, estimate="switching_frequency")
+    assert table.estimated is not None
+    assert table.estimated.value == 5e3
+    assert lines_to_paste(table) == {}
+
+
+def test_the_file_holds_every_row_and_the_scene(table: PhotoTable) -> None:
+    import csv
+
+    text = csv_text(table, ["more"])
+    comments = [line[2:] for line in text.splitlines() if line.startswith("#")]
+    assert "Match of 5 photos: 3 sure, 1 unreadable, 1 refused" in comments
+    assert "more" in comments
+    assert occ.Scene.from_toml("\n".join(comments[comments.index("scene at hand:") + 1 :])) == SCENE
+    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+    assert [one["file"] for one in rows] == [str(one.path) for one in table.rows]
+    assert [one["in the mean"] for one in rows] == ["yes"] * 3 + ["no"] * 2
+    assert float(rows[0]["readout time (s)"]) == table.rows[0].readout_time
+
+
+@pytest.mark.parametrize("photos", [[], ()])
+def test_no_photos_are_refused(photos: list[Path]) -> None:
+    with pytest.raises(occ.ParameterError, match="There are no photos to match"):
+        occ.match_photos(photos, SCENE)
+
+
+def test_wrong_arguments_are_refused_before_any_work(folder: Path) -> None:
+    with pytest.raises(occ.PhotoError, match="7 is not the path of a photo"):
+        occ.match_photos([7], SCENE)  # type: ignore[list-item]
+    with pytest.raises(occ.ParameterError, match="jobs"):
+        occ.match_photos([folder / "0.png"], SCENE, jobs=0)
+    with pytest.raises(occ.ParameterError, match="channel"):
+        occ.match_photos([folder / "0.png"], SCENE, channel="ultraviolet")
+
+
+def test_what_progress_raises_ends_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    matched: list[object] = []
+    photo = photo_of(picture_of(SCENE, 1))
+
+    def matching(*arguments: object) -> PhotoRow:
+        matched.append(arguments)
+        return row(1e-5)
+
+    def stop_after_two(done: int, _total: int) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(module, "row_of_photo", matching)
+    with pytest.raises(KeyboardInterrupt):
+        occ.match_photos([photo] * 5, SCENE, progress=stop_after_two)
+    assert len(matched) == 2

@@ -24,7 +24,9 @@ _LEAST_FOR_OUTLIERS = 3
 """Fewer estimates do not tell which of them is wrong."""
 
 
-def combine(values: Sequence[float], deviations: Sequence[float]) -> CombinedEstimate | None:
+def combine(
+    values: Sequence[float] | FloatArray, deviations: Sequence[float] | FloatArray
+) -> CombinedEstimate | None:
     """Combine estimates of one quantity.
 
     Parameters

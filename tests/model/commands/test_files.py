@@ -25,6 +25,8 @@ REFUSED = {
     "match p.png --out link.toml": "--out is link.toml, the same file as the photo; ",
     "match p.png --out hard.toml": "--out is hard.toml, the same file as the photo; ",
     "match hard.toml --out away/../hard.toml": "the same file as the photo; ",
+    "match p.png w.csv --out w.csv": "the same file as one of the photos; ",
+    "match p.png w.csv --out w.png": "A table is not written to a .png file",
     "match p.png --scene s.toml --out s.toml": "the same file as the file of --scene; ",
     "match p.png --out t.csv": "t.csv has no ending of a scene file; use .toml.",
     "render -o q.png --save-scene q.png": "--out and --save-scene are the same file, ",

@@ -1,0 +1,106 @@
+"""The command ``match`` with several photos."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from interruption import interrupted
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+
+SCENE = occ.load_preset("phone-68us").replace(
+    rows=100, columns=1500, pattern="10", switching_frequency=5e3, readout_time=9e-6,
+    exposure_time=80e-6, panel_width=3.0, enhancement="none", averaging="light",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("photos")
+    for seed in range(2):
+        image = occ.render(SCENE.replace(start_time=seed * 3e-5), tolerance=0.0, seed=seed).image
+        Image.fromarray(np.rot90(image)).save(folder / f"{seed}.png")
+    (folder / "damaged.png").write_bytes(b"\x89PNG nothing")
+    (folder / "known.toml").write_text(SCENE.to_toml(), encoding="utf-8")
+    return folder
+
+
+def words(folder: Path, *more: str) -> list[str]:
+    photos = sorted(map(str, folder.glob("*.png")))
+    return ["match", *photos, "--scene", str(folder / "known.toml"), "--jobs", "1", *more]
+
+
+def test_table_mean_and_lines_to_paste_are_printed(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "readout.csv"
+    assert main(words(folder, "--out", str(out))) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert [line.split()[:2] for line in said[:3]] == [
+        ["0.png", "sure"],
+        ["1.png", "sure"],
+        ["damaged.png", "unreadable"],
+    ]
+    assert "photos                3: 2 sure, 1 unreadable" in said
+    (mean,) = (line for line in said if line.startswith("readout_time"))
+    assert float(mean.split()[1]) == pytest.approx(9.0, rel=1e-3)
+    (frame,) = (line for line in said if line.startswith("readout of the frame"))
+    assert float(frame.split()[4]) == pytest.approx(1500 * 9e-3, rel=1e-3)
+    drone, video = said[-3:-1]
+    assert drone.startswith("OpenDroneMap: --rolling-shutter --rolling-shutter-readout 13.")
+    assert float(drone.split()[-1]) == pytest.approx(13.5, rel=1e-3)
+    assert video.startswith(f'Gyroflow: "frame_readout_time": {drone.split()[-1]}, ')
+    assert video.endswith('"frame_readout_direction": "TopToBottom"')
+    rows = csv.DictReader(line for line in out.read_text().splitlines() if line[0] != "#")
+    assert [row["verdict"] for row in rows] == ["sure", "sure", "unreadable"]
+
+
+def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    damaged = str(folder / "damaged.png")
+    assert main(["match", damaged, damaged, "--jobs", "1"]) == 1
+    assert "No photo is sure" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("place", ["nowhere/x.csv", "."])
+def test_an_unwritable_table_is_refused_before_the_work(
+    folder: Path, tmp_path: Path, place: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words(folder, "--out", str(tmp_path / place))) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "name a file" in said.err
+
+
+def test_a_full_disk_leaves_the_old_table(
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "readout.csv"
+    out.write_text("old")
+
+    def full(self: Path, data: bytes) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    assert main(words(folder, "--out", str(out))) == 2
+    assert "readout.csv cannot be written: No space left on device." in capsys.readouterr().err
+    assert (out.read_text(), [path.name for path in tmp_path.iterdir()]) == ("old", [out.name])
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.8, 1.6, 3.0])
+def test_interrupts_end_all_processes_with_one_line(
+    folder: Path, tmp_path: Path, delay: float
+) -> None:
+    out = tmp_path / "readout.csv"
+    many = words(folder, "--jobs", "2", "--out", str(out))
+    many[1:1] = [str(folder / "0.png")] * 60
+    code, error = interrupted("occ_model.cli", many, delay)
+    assert code == 130
+    assert error.startswith("occ-model: ")
+    assert error.count("\n") == 1
+    assert not out.exists()

@@ -162,6 +162,7 @@ class Application(QObject):
         self.photo_wiring.matching.failed.connect(self.messages.show_match_failure)
         self.preferences.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
+        self.files.several_opened.connect(self._show_several)
 
     def _connect_menus(self) -> None:
         for name, slot in {
@@ -214,6 +215,10 @@ class Application(QObject):
         """
         self._match_next, self._front_next = match, front
         self.photos.open(path)
+
+    def _show_several(self, paths: list[Path]) -> None:
+        self.photo_wiring.many.show_files(paths)
+        self.window.bring_to_front("photo")
 
     def show_mode(self, mode: str) -> None:
         """Show the photo beside the simulated picture or over it, by one of MODES."""

@@ -69,6 +69,9 @@ class FileController(QObject):
     scene_opened = Signal(Path)
     """The scene file that has been opened."""
 
+    several_opened = Signal(list)
+    """The paths of the photos that were dropped together, of which the first is opened."""
+
     scene_saved = Signal(Path)
     """The file that the scene has been saved to."""
 
@@ -137,7 +140,7 @@ class FileController(QObject):
         self._photos.open(path)
 
     def open_dropped(self, paths: Sequence[Path]) -> None:
-        """Open the first scene and the first photo of the dropped files."""
+        """Open the first scene of the dropped files and their photos: the first, or a table."""
         files = [path for path in paths if _is_file(path)]
         scenes = [path for path in files if _has_scene(path)]
         photos = [path for path in files if path not in scenes]
@@ -154,8 +157,10 @@ class FileController(QObject):
             self.open_scene(path)
         for path in photos[:1]:
             self._photos.open(path)
+        if len(photos) > 1:
+            self.several_opened.emit(photos)
         opened = [one_line(path.name) for path in (*scenes[:1], *photos[:1])]
-        if len(paths) > len(opened):
+        if len(paths) > len(scenes[:1]) + len(photos):
             self.status_message.emit(
                 self.tr("Of {count} things that were dropped, only {names} can be shown.").format(
                     count=len(paths), names=self.tr(" and ").join(opened)

@@ -63,11 +63,22 @@ def request_of(photo: Photo, scene: Scene, choice: MatchChoice) -> MatchRequest:
     ParameterError
         The frequency of the square wave is out of range.
     """
-    sent = choice.sent
-    if sent == "square":
-        chips = CHIPS_OF_A_CYCLE * choice.square_frequency
-        scene, sent = scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
+    scene, sent = known_scene(scene, choice)
     return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma)
+
+
+def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
+    """Give the scene with what the user knows, and where the sent pattern is taken from.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
+    if choice.sent != "square":
+        return scene, choice.sent
+    chips = CHIPS_OF_A_CYCLE * choice.square_frequency
+    return scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
 
 
 def match(request: MatchRequest, report: Report) -> Match:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_facts import PhotoFacts
@@ -35,6 +36,7 @@ class PhotoView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.many = ManyPhotosView()
         self.facts, self.form = PhotoFacts(), MatchForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.failure = QLabel()
@@ -52,6 +54,8 @@ class PhotoView(QWidget):
         self.result.hide()
         self._path: Path | None = None
         self.form.certain_changed.connect(self.result.show_certain)
+        self._has_photo = False
+        self.many.files_shown.connect(self._show_page)
 
     def _make_invitation(self) -> QWidget:
         page = QWidget()
@@ -76,6 +80,7 @@ class PhotoView(QWidget):
         layout = QVBoxLayout(page)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(5)
+        layout.addWidget(self.many)
         layout.addWidget(self.facts)
         layout.addWidget(_line())
         layout.addWidget(self.form)
@@ -90,7 +95,8 @@ class PhotoView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
-        self._pages.setCurrentIndex(0 if photo is None else 1)
+        self._has_photo = photo is not None
+        self._show_page()
         self.failure.hide()
         path = None if photo is None else photo.path
         if path != self._path:  # else the same photo is read in another way
@@ -98,6 +104,12 @@ class PhotoView(QWidget):
             self.form.forget_certain()
         if photo is not None:
             self.facts.show_photo(photo)
+
+    def _show_page(self) -> None:
+        """Show the forms where there is a photo or a table of several, else the invitation."""
+        self._pages.setCurrentIndex(1 if self._has_photo or self.many.rows.paths else 0)
+        for part in (self.facts, self.form.start, self.placement):
+            part.setVisible(self._has_photo)
 
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene."""

@@ -3,6 +3,7 @@
 from PySide6.QtCore import QObject
 
 from occ_gui.photo.comparison_controller import ComparisonController
+from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.photo_controller import PhotoController, PhotoReading
 from occ_gui.photo.photo_view import PhotoView
@@ -34,6 +35,7 @@ class PhotoWiring(QObject):
         self.placements = PlacementStore()
         self.comparison = ComparisonController(self.placements, profile)
         self.matching = MatchController(scenes, pane)
+        self.many = ManyPhotosController(scenes, pane.many)
         self.photos = PhotoController([image, pane, self.comparison, self.matching])
         self.placements.changed.connect(self._show_placement)
         image.overlay.placed.connect(self.placements.move)
@@ -47,6 +49,8 @@ class PhotoWiring(QObject):
         pane.facts.settings_asked.connect(self.matching.use_notes)
         pane.form.asked.connect(self.matching.start)
         pane.form.cancelled.connect(self.matching.cancel)
+        pane.many.match_asked.connect(self.match_all)
+        pane.many.photo_chosen.connect(self.photos.open)
         pane.result.apply_asked.connect(self.matching.apply)
         self.matching.matched.connect(self.comparison.show_match)
         self.matching.matched.connect(self._on_match)
@@ -58,12 +62,16 @@ class PhotoWiring(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether no work is running in the background."""
-        runs = (self.photos.runner, self.matching.runner)
+        runs = (self.photos.runner, self.matching.runner, self.many.runner)
         return self.comparison.runner.is_idle and not any(run.is_running for run in runs)
 
     def match(self) -> None:
         """Match the photo with the choices of the pane."""
         self.matching.start(self._pane.form.choice())
+
+    def match_all(self) -> None:
+        """Match the photos of the table with the choices of the pane."""
+        self.many.start(self._pane.form.choice(), self.photos.reading)
 
     def _let_move(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
@@ -84,6 +92,7 @@ class PhotoWiring(QObject):
 
     def stop(self) -> None:
         """Stop the work in the background."""
+        self.many.stop()
         self.matching.stop()
         self.comparison.stop()
         self.photos.stop()

@@ -104,11 +104,36 @@ def test_a_dropped_photo_and_scene_are_opened(
 
 
 def test_dropped_files_that_are_not_shown_are_reported(
+    application: Application, user: User, photo_file: Path, tmp_path: Path
+) -> None:
+    scenes = [tmp_path / "one.toml", tmp_path / "other.toml"]
+    for scene in scenes:
+        scene.write_text(Scene().to_toml(), encoding="utf-8")
+    application.window.dropped.emit([photo_file, *scenes])
+    assert "only one.toml and stripes.png" in user.message
+    user.wait_until_idle()
+
+
+def test_photos_dropped_together_become_a_table_and_the_first_opens(
     application: Application, user: User, photo_file: Path, taken: Path
 ) -> None:
     application.window.dropped.emit([photo_file, taken])
-    assert "only stripes.png" in user.message
     user.wait_until_idle()
+    assert application.photo.many.rows.paths == (photo_file, taken)
+    assert application.window.windowTitle().startswith("stripes.png")
+
+
+def test_a_table_whose_first_photo_is_damaged_is_shown(
+    application: Application, user: User, photo_file: Path, tmp_path: Path
+) -> None:
+    damaged = tmp_path / "damaged.png"
+    damaged.write_bytes(b"nothing")
+    application.window.dropped.emit([damaged, photo_file])
+    user.wait_until_idle()
+    assert application.photo.many.isVisibleTo(application.photo)
+    application.photo.many.photo_chosen.emit(photo_file)
+    user.wait_until_idle()
+    assert application.window.windowTitle().startswith("stripes.png")
 
 
 @pytest.mark.parametrize("what", ["nothing", "folder"])

@@ -1,0 +1,1 @@
+"""Several photos together: their table, and what they measured."""

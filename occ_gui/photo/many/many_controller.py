@@ -1,0 +1,122 @@
+"""Controller of several photos: match them in the background, and combine what they measure."""
+
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.photo.many.many_view import ManyPhotosView
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.match_controller import known_scene
+from occ_gui.photo.photo_controller import PhotoReading
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.errors import OccError
+from occ_model.photo.many.match_photos import matched_rows, usual_jobs
+from occ_model.photo.many.row import MatchSettings
+from occ_model.photo.many.table import table_of
+from occ_model.results import PhotoRow, PhotoTable
+
+
+@dataclass(frozen=True, slots=True)
+class ManyRequest:
+    """The photos to match, and how."""
+
+    paths: tuple[Path, ...]
+    settings: MatchSettings
+    jobs: int
+
+
+def match_all(request: ManyRequest, report: Report) -> PhotoTable:
+    """Match all photos, and report each row with its place."""
+    rows: dict[int, PhotoRow] = {}
+    work = matched_rows(request.paths, request.settings, request.jobs, lambda: report(None))
+    # Closed here: processes that are not closed would go on after a cancel.
+    with closing(work) as found:
+        for place, row in found:
+            rows[place] = row
+            report((place, row))
+    return table_of(request.settings, [rows[place] for place in range(len(rows))])
+
+
+class ManyPhotosController(QObject):
+    """Matches the photos of a table.
+
+    Parameters
+    ----------
+    scenes
+        The scene with the known values.
+    view
+        The table.
+    jobs
+        Number of processes; by default one for each core.
+    """
+
+    matched = Signal(object)
+    """The complete table: a PhotoTable."""
+
+    def __init__(self, scenes: SceneStore, view: ManyPhotosView, jobs: int | None = None) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self._view = view
+        self._jobs = usual_jobs() if jobs is None else jobs
+        self._paths: tuple[Path, ...] = ()
+        self._done = 0
+        self.table: PhotoTable | None = None
+        self.runner: Cancellable[ManyRequest, PhotoTable] = Cancellable(
+            match_all, "match of several photos"
+        )
+        self.runner.reported.connect(self._take_row)
+        self.runner.finished.connect(self._take)
+        self.runner.failed.connect(view.show_failed)
+        view.cancelled.connect(self.cancel)
+        view.closed.connect(lambda: self.show_files(()))
+
+    def show_files(self, paths: Sequence[Path]) -> None:
+        """Show these files in place of the previous ones."""
+        self.runner.cancel()
+        self._paths, self.table = tuple(paths), None
+        self._view.show_files(self._paths)
+
+    def start(self, choice: MatchChoice, reading: PhotoReading) -> None:
+        """Match all photos with the current scene."""
+        if not self._paths:
+            return
+        try:
+            scene, sent = known_scene(self._scenes.scene, choice)
+        except OccError as error:
+            self._view.show_failed(str(error))
+            return
+        settings = MatchSettings(
+            scene,
+            choice.estimate,
+            sent,
+            fit_gamma=choice.fit_gamma,
+            scan_axis=reading.scan_axis,
+            channel=reading.channel,
+        )
+        self._done, self.table = 0, None
+        self._view.show_begun(choice.estimate)
+        self.runner.start(ManyRequest(self._paths, settings, self._jobs))
+
+    def cancel(self) -> None:
+        """Cancel the work; the rows that are done stay."""
+        if self.runner.is_running:
+            self.runner.cancel()
+            self._view.show_ended()
+
+    def stop(self) -> None:
+        """Stop the work, and end its thread."""
+        self.runner.stop()
+
+    def _take_row(self, found: tuple[int, PhotoRow] | None) -> None:
+        if found is not None:
+            self._done += 1
+            self._view.show_row(*found, self._done)
+
+    def _take(self, table: PhotoTable) -> None:
+        self.table = table
+        self._view.show_table(table)
+        self.matched.emit(table)

@@ -1,0 +1,245 @@
+"""Table of several photos: what was found in each, their mean, and lines for other programs."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QModelIndex, Qt, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTableView,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.photo.many.rows_model import PhotoRowsModel
+from occ_gui.photo.match_result import with_uncertainty
+from occ_gui.widgets.work_bar import WorkBar
+from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
+from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
+from occ_model.results.photo_table import VERDICTS
+from occ_model.results.photo_table_csv import csv_text
+from occ_model.scene.parameters import quantity
+
+_ROWS_SEEN = 6
+
+
+class ManyPhotosView(QWidget):
+    """The table of the photos that were dropped together, and what they measured."""
+
+    match_asked = Signal()
+    """The user matches all photos."""
+
+    cancelled = Signal()
+    closed = Signal()
+    """The user puts the table away."""
+
+    files_shown = Signal()
+    """Other files are shown, or none."""
+
+    photo_chosen = Signal(Path)
+    """The user opens one of the photos."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.rows = PhotoRowsModel(self)
+        self.title = _text(self.tr("How many photos"))
+        self._make_buttons()
+        self._make_table()
+        self.work = WorkBar(self.tr("Photos that are matched"))
+        self.work.cancelled.connect(self.cancelled)
+        self.mean, self.exposure, self.frame, self.notes = (
+            _text(name)
+            for name in (
+                self.tr("Mean of the photos"),
+                self.tr("Mean exposure time"),
+                self.tr("Readout time of the whole frame"),
+                self.tr("Notes on the photos together"),
+            )
+        )
+        self.lines: dict[str, QLineEdit] = {}
+        self._found: PhotoTable | None = None
+        self._form = QFormLayout()
+        self._form.setVerticalSpacing(2)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        buttons = QHBoxLayout()
+        for button in (self.start, self.copy, self.close_table):
+            buttons.addWidget(button)
+        buttons.addStretch()
+        parts = (self.title, self.table, self.work, self.mean, self.exposure, self.frame)
+        for part in (*parts, self.notes):
+            layout.addWidget(part)
+        layout.addLayout(self._form)
+        layout.addLayout(buttons)
+        self.hide()
+
+    def _make_buttons(self) -> None:
+        self.start = QPushButton(self.tr("Match &all"))
+        self.start.setToolTip(
+            self.tr("Match every photo with the choices below, and combine what they measure.")
+        )
+        self.start.clicked.connect(self.match_asked)
+        self.copy = QPushButton(self.tr("&Copy table"))
+        self.copy.setToolTip(self.tr("Copy the table as CSV, with the scene that it belongs to."))
+        self.copy.clicked.connect(self._copy_table)
+        self.close_table = QPushButton(self.tr("Close table"))
+        self.close_table.setToolTip(self.tr("Put the table away; the open photo stays."))
+        self.close_table.clicked.connect(self.closed)
+
+    def _make_table(self) -> None:
+        self.table = QTableView()
+        self.table.setModel(self.rows)
+        self.table.setAccessibleName(self.tr("Photos"))
+        self.table.setShowGrid(False)
+        self.table.setWordWrap(False)
+        self.table.setTabKeyNavigation(False)
+        self.table.setSelectionBehavior(QTableView.SelectionBehavior.SelectRows)
+        self.table.setSelectionMode(QTableView.SelectionMode.SingleSelection)
+        self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
+        self.table.verticalHeader().hide()
+        self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 6)
+        self.table.horizontalHeader().setStretchLastSection(True)
+        self.table.horizontalHeader().setHighlightSections(False)
+        row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader().sizeHint()
+        self.table.setMinimumHeight(header.height() + _ROWS_SEEN * row)
+        self.table.clicked.connect(self._choose)
+        self.table.activated.connect(self._choose)
+
+    def _choose(self, index: QModelIndex) -> None:
+        self.photo_chosen.emit(self.rows.paths[index.row()])
+
+    def show_files(self, paths: Sequence[Path]) -> None:
+        """Show these files in place of the previous ones, or put the table away."""
+        self.rows.show_files(paths)
+        self._show_found(None)
+        self.work.end()
+        self.title.setText(
+            self.tr("{count} photos, not matched yet: say below what is known.").format(
+                count=len(paths)
+            )
+        )
+        self.table.resizeColumnsToContents()
+        self.setVisible(bool(paths))
+        self.files_shown.emit()
+
+    def show_begun(self, estimate: str) -> None:
+        """Show that the photos are being matched, to find this parameter."""
+        self.rows.show_begun(estimate)
+        self._show_found(None)
+        self.start.setEnabled(False)
+        self.title.setText(self.tr("{count} photos").format(count=len(self.rows.paths)))
+        self.work.begin()
+
+    def show_row(self, place: int, row: PhotoRow, done: int) -> None:
+        """Show what was found in a photo, and how many are done."""
+        self.rows.show_row(place, row)
+        self.work.show_progress(done / len(self.rows.paths))
+
+    def show_ended(self) -> None:
+        """Show that no more photos are matched."""
+        self.work.end()
+        self.start.setEnabled(True)
+        self.table.resizeColumnsToContents()
+
+    def show_failed(self, sentence: str) -> None:
+        """Show why the photos could not be matched."""
+        self.show_ended()
+        self.notes.setText(sentence)
+        self.notes.show()
+
+    def show_table(self, table: PhotoTable) -> None:
+        """Show the complete table, and the mean."""
+        self.rows.show_table(table)
+        self.show_ended()
+        counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
+        known = quantity(
+            "switching_frequency" if table.estimate == "readout_time" else "readout_time"
+        )
+        self.title.setText(
+            self.tr("{count} photos: {counts}; the {known} being {value}").format(
+                count=len(table.rows),
+                counts=counts,
+                known=known.label.lower(),
+                value=known.format(float(table.scene.value(known.name))),
+            )
+        )
+        self._show_found(table)
+
+    def _show_found(self, table: PhotoTable | None) -> None:
+        """Show the mean, the notes and the lines to paste of a table, or none."""
+        self._found = table
+        self.copy.setEnabled(table is not None)
+        texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
+        if table is not None:
+            texts[self.mean] = self._mean(table.estimate, table.estimated)
+            texts[self.exposure] = self._mean("exposure_time", table.exposure_time)
+            frame = frame_readout_time(table)
+            if frame is not None:
+                time = with_uncertainty(quantity("readout_time"), *frame)
+                texts[self.frame] = self.tr("Readout of the whole frame: {time}").format(time=time)
+            texts[self.notes] = "\n".join(table.notes)
+        for label, text in texts.items():
+            label.setText(text)
+            label.setVisible(bool(text))
+        self._show_lines({} if table is None else lines_to_paste(table))
+
+    def _mean(self, name: str, found: CombinedEstimate | None) -> str:
+        if found is None:
+            return ""
+        declared = quantity(name)
+        value = with_uncertainty(declared, found.value, found.uncertainty)
+        text = self.tr("{label}: {value}, mean of {count}").format(
+            label=declared.label, value=value, count=found.count
+        )
+        if found.count > 1:
+            how = self.tr("they agree") if found.agrees else self.tr("they do not agree")
+            text += self.tr("; χ² {chi:.3g} of {degrees}: {how}").format(
+                chi=found.chi_square, degrees=found.degrees_of_freedom, how=how
+            )
+        if found.outliers:
+            text += self.tr("; {count} left out").format(count=len(found.outliers))
+        return text
+
+    def _show_lines(self, lines: dict[str, str]) -> None:
+        while self._form.rowCount():
+            self._form.removeRow(0)
+        self.lines = {}
+        for program, line in lines.items():
+            field = QLineEdit(line)
+            field.setReadOnly(True)
+            field.setCursorPosition(0)
+            field.setAccessibleName(self.tr("Line for {program}").format(program=program))
+            field.setToolTip(line)
+            copy = QToolButton()
+            copy.setText(self.tr("Copy"))
+            copy.setToolTip(self.tr("Copy the line for {program}.").format(program=program))
+            copy.clicked.connect(lambda _checked=False, text=line: _to_clipboard(text))
+            both = QHBoxLayout()
+            both.addWidget(field)
+            both.addWidget(copy)
+            self._form.addRow(program, both)
+            self.lines[program] = field
+
+    def _copy_table(self) -> None:
+        if self._found is not None:
+            _to_clipboard(csv_text(self._found))
+
+
+def _text(name: str) -> QLabel:
+    label = QLabel()
+    label.setWordWrap(True)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    label.setAccessibleName(name)
+    return label
+
+
+def _to_clipboard(text: str) -> None:
+    QGuiApplication.clipboard().setText(text)

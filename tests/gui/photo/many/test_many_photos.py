@@ -1,0 +1,221 @@
+"""Several photos: their rows, the mean, lines to paste, and cancelling."""
+
+import threading
+from collections.abc import Callable, Generator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QToolButton
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.photo.many import many_controller as module
+from occ_gui.photo.many.many_controller import ManyPhotosController
+from occ_gui.photo.many.many_view import ManyPhotosView
+from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, NOTE, PHOTO, VERDICT
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.photo_controller import PhotoReading
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.photo.many.row import MatchSettings
+from occ_model.photo.many.table import table_of
+from occ_model.results import PhotoRow, PhotoTable
+
+PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
+
+
+def row(path: Path, readout: float = 7e-6, verdict: str = "sure", note: str = "") -> PhotoRow:
+    return PhotoRow(
+        path, verdict, note, readout_time=readout, switching_frequency=2e3, exposure_time=8e-5,
+        uncertainties=(("readout_time", 2e-9), ("exposure_time", 4e-7)), noted_exposure=7.9e-5,
+        correlation=0.98765, lines=1000, size=(600, 1000), scanned_along="lines",
+    )  # fmt: skip
+
+
+ROWS = (
+    row(PATHS[0]),
+    row(PATHS[1], 7.001e-6),
+    row(PATHS[2], 9e-6),
+    row(PATHS[3], 5e-6, "doubtful", "Only 1.2 periods are in view."),
+    PhotoRow(PATHS[4], "unreadable", "photo-4.jpg is an empty file, not a photo."),
+    row(PATHS[5], 6.999e-6),
+)
+
+
+def table() -> PhotoTable:
+    return table_of(MatchSettings(occ.Scene()), ROWS)
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> ManyPhotosView:
+    view = ManyPhotosView()
+    qtbot.addWidget(view)
+    view.resize(420, 500)
+    view.show_files(PATHS)
+    return view
+
+
+def column(view: ManyPhotosView, which: int) -> list[str]:
+    return [view.rows.text(place, which) for place in range(len(PATHS))]
+
+
+def test_no_table_is_seen_without_files(view: ManyPhotosView) -> None:
+    assert not view.isHidden()
+    view.show_files(())
+    assert view.isHidden()
+
+
+def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:
+    view.show_table(table())
+    assert column(view, PHOTO) == [path.name for path in PATHS]
+    sure, unreadable = "● sure", "✕ unreadable"
+    assert column(view, VERDICT) == [
+        sure, sure, f"{sure}, outlier", "◐ doubtful", unreadable, sure,
+    ]  # fmt: skip
+    assert column(view, ESTIMATE)[0] == "7.0000 ± 0.0020 µs"
+    assert column(view, EXPOSURE)[4] == ""
+    assert column(view, NOTE)[3:5] == [ROWS[3].note, ROWS[4].note]
+
+
+def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
+    view.show_table(table())
+    found = table().estimated
+    assert found is not None
+    assert view.mean.text() == (
+        "Readout time: 7.0000 ± 0.0012 µs, mean of 3; χ² 0.5 of 2: they agree; 1 left out"
+    )
+    assert found.value == pytest.approx(7e-6)
+    assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.23 µs, mean of 3")
+    assert view.frame.text() == "Readout of the whole frame: 7.0000 ± 0.0012 ms"
+    assert view.title.text().startswith("6 photos: 4 sure, 1 doubtful, 1 unreadable; the ")
+
+
+def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:
+    view.show_table(table())
+    assert list(view.lines) == ["OpenDroneMap", "Gyroflow"]
+    for button in view.findChildren(QToolButton):
+        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+        assert QGuiApplication.clipboard().text() in {f.text() for f in view.lines.values()}
+    view.show_begun("readout_time")
+    assert view.lines == {}
+    assert view.mean.isHidden()
+
+
+def test_the_table_is_copied_as_the_shell_writes_it(view: ManyPhotosView, qtbot: QtBot) -> None:
+    from occ_model.results.photo_table_csv import csv_text
+
+    assert not view.copy.isEnabled()
+    view.show_table(table())
+    qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)
+    assert QGuiApplication.clipboard().text() == csv_text(table())
+
+
+def test_a_click_on_a_row_opens_its_photo(view: ManyPhotosView, qtbot: QtBot) -> None:
+    with qtbot.waitSignal(view.photo_chosen) as chosen:
+        view.table.clicked.emit(view.rows.index(2, VERDICT))
+    assert chosen.args == [PATHS[2]]
+
+
+class Bench:
+    """A controller, and a model that gives the rows above when it is let."""
+
+    def __init__(self, view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
+        monkeypatch.setattr(module, "matched_rows", self._rows)
+        self.controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
+        self.controller.show_files(PATHS)
+
+    def _rows(
+        self,
+        paths: tuple[Path, ...],
+        settings: MatchSettings,
+        jobs: int,
+        beat: Callable[[], object],
+    ) -> Generator[tuple[int, PhotoRow], None, None]:
+        self.settings.append(settings)
+        try:
+            yield 0, ROWS[0]
+            while not self.go_on.wait(0.01):
+                beat()
+            yield from list(enumerate(ROWS))[1 : len(paths)]
+        finally:
+            self.closed.set()
+
+    def start(self, **choice: object) -> None:
+        self.controller.start(MatchChoice(**choice), PhotoReading("lines", "green"))  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def bench(view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> Generator[Bench, None, None]:
+    bench = Bench(view, monkeypatch)
+    yield bench
+    bench.go_on.set()
+    bench.controller.stop()
+
+
+def test_rows_appear_as_they_are_found_and_then_the_mean(
+    bench: Bench, view: ManyPhotosView, qtbot: QtBot
+) -> None:
+    bench.start(sent="square", square_frequency=1000.0)
+    qtbot.waitUntil(lambda: column(view, VERDICT)[0] == "● sure")
+    assert column(view, VERDICT)[1:] == [""] * 5
+    assert not view.start.isEnabled()
+    with qtbot.waitSignal(bench.controller.matched):
+        bench.go_on.set()
+    (settings,) = bench.settings
+    assert (settings.sent, settings.scan_axis, settings.channel) == ("scene", "lines", "green")
+    assert settings.scene.transmitter.switching_frequency == 2e3
+    assert bench.controller.table is not None
+    assert bench.controller.table.rows == ROWS
+    assert view.mean.text()
+    assert view.start.isEnabled()
+
+
+def test_cancelling_ends_the_work_and_keeps_the_rows(
+    bench: Bench, view: ManyPhotosView, qtbot: QtBot
+) -> None:
+    bench.start()
+    qtbot.waitUntil(lambda: column(view, VERDICT)[0] == "● sure")
+    view.cancelled.emit()
+    assert bench.closed.wait(10.0)
+    assert column(view, VERDICT) == ["● sure"] + [""] * 5
+    assert (view.start.isEnabled(), bench.controller.table) == (True, None)
+    assert view.mean.isHidden()
+
+
+def test_other_files_cancel_the_work_on_the_first(bench: Bench, view: ManyPhotosView) -> None:
+    bench.start()
+    bench.controller.show_files(PATHS[:2])
+    assert not bench.controller.runner.is_running
+    assert view.rows.paths == PATHS[:2]
+
+
+def test_a_failure_is_a_sentence_in_the_table(
+    view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    def fail(*_arguments: object) -> None:
+        raise occ.MatchError("Nothing works.")
+
+    monkeypatch.setattr(module, "matched_rows", fail)
+    controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
+    controller.show_files(PATHS)
+    controller.start(MatchChoice(), PhotoReading())
+    qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")
+    assert view.start.isEnabled()
+    controller.stop()
+
+
+def test_real_photos_are_matched_from_the_window(
+    view: ManyPhotosView, tmp_path: Path, qtbot: QtBot
+) -> None:
+    missing = tmp_path / "missing.jpg"
+    controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
+    controller.show_files((missing, missing))
+    with qtbot.waitSignal(controller.matched) as found:
+        controller.start(MatchChoice(), PhotoReading())
+    (made,) = found.args  # type: ignore[misc]
+    assert [one.verdict for one in made.rows] == ["unreadable", "unreadable"]
+    assert replace(made.rows[0], note="") == PhotoRow(missing, "unreadable")
+    controller.stop()

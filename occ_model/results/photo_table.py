@@ -72,7 +72,7 @@ class CombinedEstimate:
     value
         The mean, weighted by the inverse variances.
     uncertainty
-        Its standard deviation: that of the estimates' own ones, times ``scale``.
+        Its standard deviation: that of a mean of independent estimates, times ``scale``.
     count
         Number of estimates in it.
     chi_square
@@ -80,8 +80,8 @@ class CombinedEstimate:
     probability
         Of a chi-square that is as large or larger, where the standard deviations are right.
     scale
-        The Birge ratio, the root of chi-square over its degrees of freedom, where that is above 1;
-        else 1.
+        At least 1, as :mod:`occ_model.photo.many.weighted_mean` says: above 1 where the estimates
+        scatter by more than their standard deviations, or by less, so that they may share an error.
     outliers
         Places of the estimates that were left out, as too far from the others.
     """

@@ -125,7 +125,7 @@ class PhotoRowsModel(QAbstractTableModel):
         names = {
             SURE: self.tr("sure"),
             DOUBTFUL: self.tr("doubtful"),
-            REFUSED: self.tr("no match"),
+            REFUSED: self.tr("refused"),
             UNREADABLE: self.tr("unreadable"),
         }
         name = names[row.verdict]

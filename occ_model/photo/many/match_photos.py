@@ -42,8 +42,8 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
     """Match many photos of one scene, and combine what they measured.
 
     The mean is over the photos that are sure, without outliers; a doubtful one never changes it.
-    Its uncertainty is that of the photos' scatter and errors. An error that they share, such as
-    that of the frequency given, comes on top.
+    Its uncertainty is that of the photos' scatter and errors. The error of the frequency, or of the
+    readout time, that is given comes on top.
 
     Parameters
     ----------

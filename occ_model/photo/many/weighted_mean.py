@@ -1,9 +1,14 @@
 """Combine estimates of one quantity: a weighted mean, whether they agree, and outliers.
 
-The mean is weighted by the inverse variances. Where the estimates scatter by more than their
-standard deviations say, that of the mean is multiplied by the Birge ratio (R. T. Birge, "The
-calculation of errors by the method of least squares", Physical Review 40, 207, 1932), as the
-Particle Data Group does.
+The mean is weighted by the inverse variances. The Birge ratio R is the root of chi-square over its
+degrees of freedom (R. T. Birge, "The calculation of errors by the method of least squares",
+Physical Review 40, 207, 1932). With s the standard deviation of a mean of n independent estimates:
+
+* R >= 1: the estimates scatter by more than their deviations say. That of the mean is R s, as the
+  Particle Data Group takes it.
+* R < 1: they scatter by less. What their deviations hold besides the scatter, a variance of
+  (1 - R^2) n s^2, may be the same error in all of them, as of photos of one scene, and does not
+  average out. The variance of the mean is (R^2 + n (1 - R^2)) s^2.
 """
 
 import math
@@ -50,8 +55,7 @@ def combine(
     mean, internal = _weighted_mean(x, sigma)
     chi_square = float(np.sum(((x - mean) / sigma) ** 2))
     degrees = len(x) - 1
-    ratio = math.sqrt(chi_square / degrees) if degrees else 1.0
-    scale = max(1.0, ratio)
+    scale = _scale(chi_square, degrees)
     return CombinedEstimate(
         value=mean,
         uncertainty=internal * scale,
@@ -68,6 +72,14 @@ def _weighted_mean(x: FloatArray, sigma: FloatArray) -> tuple[float, float]:
     weights = (sigma.min() / sigma) ** 2
     total = float(weights.sum())
     return float(weights @ x) / total, float(sigma.min()) / math.sqrt(total)
+
+
+def _scale(chi_square: float, degrees: int) -> float:
+    """Give the factor by which the mean is less certain than one of independent estimates."""
+    if not degrees:
+        return 1.0
+    square = chi_square / degrees
+    return math.sqrt(square if square >= 1.0 else square + (degrees + 1) * (1.0 - square))
 
 
 def _probability(chi_square: float, degrees: int) -> float:

@@ -84,11 +84,11 @@ def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     found = table().estimated
     assert found is not None
     assert view.mean.text() == (
-        "Readout time: 7.0000 ± 0.0012 µs, mean of 3; χ² 0.5 of 2: they agree; 1 left out"
+        "Readout time: 7.0000 ± 0.0018 µs, mean of 3; χ² 0.5 of 2: they agree; 1 left out"
     )
     assert found.value == pytest.approx(7e-6)
-    assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.23 µs, mean of 3")
-    assert view.frame.text() == "Readout of the whole frame: 7.0000 ± 0.0012 ms"
+    assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.40 µs, mean of 3")
+    assert view.frame.text() == "Readout of the whole frame: 7.0000 ± 0.0018 ms"
     assert view.title.text().startswith("6 photos: 4 sure, 1 doubtful, 1 unreadable; the ")
 
 

@@ -215,7 +215,7 @@ def test_real_photos_are_matched_from_the_window(
     controller.show_files((missing, missing))
     with qtbot.waitSignal(controller.matched) as found:
         controller.start(MatchChoice(), PhotoReading())
-    (made,) = found.args  # type: ignore[misc]
+    (made,) = found.args
     assert [one.verdict for one in made.rows] == ["unreadable", "unreadable"]
     assert replace(made.rows[0], note="") == PhotoRow(missing, "unreadable")
     controller.stop()

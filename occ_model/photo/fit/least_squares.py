@@ -120,6 +120,11 @@ class StripeModel:
         self._shapes = smooth_shapes(len(profile), level_freedom(step * len(profile)))
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
+        shapes = smooth_shapes(len(profile), 2 * self._shapes.shape[1] - 1)
+        self._kept_shapes = np.ascontiguousarray(shapes[self._kept].T)
+        self._kept_profile = profile[self._kept]
+        self._of_ones = self._products(np.ones(len(self._kept_profile)))
+        self._of_profile = self._kept_shapes[: len(self._of_ones)] @ self._kept_profile
 
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Fit the levels for a given timing.
@@ -130,16 +135,28 @@ class StripeModel:
             The profile is the model's, limited to white.
         """
         lit = timing.lit_fraction(self._waveform, len(self._profile))
-        tone = self._tone(lit, timing.gamma)[:, None]
-        parts = np.hstack([self._shapes, self._shapes * tone])
-        kept = parts[self._kept]
-        products = kept.T @ kept
+        tone = self._tone(lit, timing.gamma)
+        kept = tone[self._kept]
+        once, twice = self._products(kept), self._products(kept**2)
+        products = np.block([[self._of_ones, once], [once, twice]])
         # Where the response hardly varies the levels are undetermined: keep them small.
         products[np.diag_indices_from(products)] += 1e-9 * len(kept)
-        weights = np.linalg.solve(products, kept.T @ self._profile[self._kept])
         freedom = self._shapes.shape[1]
+        of_lit = self._kept_shapes[:freedom] @ (kept * self._kept_profile)
+        weights = np.linalg.solve(products, np.concatenate([self._of_profile, of_lit]))
         low, swing = self._shapes @ weights[:freedom], self._shapes @ weights[freedom:]
-        return low, swing, np.minimum(parts @ weights, WHITE)
+        return low, swing, np.minimum(low + swing * tone, WHITE)
+
+    def _products(self, weights: FloatArray) -> FloatArray:
+        """Give the weighted sums over columns of the products of any two shapes.
+
+        Of Chebyshev polynomials the product is half the sum of two others,
+        T_i T_j = (T_(i+j) + T_|i-j|) / 2: all products follow from one sum for each polynomial.
+        """
+        sums = self._kept_shapes @ weights
+        place = np.arange(self._shapes.shape[1])
+        up, down = place[:, None] + place, np.abs(place[:, None] - place)
+        return np.asarray(0.5 * (sums[up] + sums[down]))
 
     def fit(self, start: Timing, with_gamma: bool = False, spread: float = 0.0) -> StripeFit:
         """Fit the timing from a first guess.

@@ -54,6 +54,7 @@ class PhotoView(QWidget):
         self.result.hide()
         self._path: Path | None = None
         self.form.certain_changed.connect(self.result.show_certain)
+        self.form.certain_changed.connect(self.many.show_certain)
         self._has_photo = False
         self.many.files_shown.connect(self._show_page)
 
@@ -115,6 +116,7 @@ class PhotoView(QWidget):
         """Show the known values of this scene."""
         self.form.show_scene(scene)
         self.result.show_scene(scene)
+        self.many.show_scene(scene)
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         """Show where the photo lies."""

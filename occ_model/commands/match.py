@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from occ_model.commands.assumption import assumption
 from occ_model.commands.match_many import add_many_options, run_many, written_by
 from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
@@ -75,7 +76,8 @@ def _run(options: argparse.Namespace) -> int:
             fit_gamma=options.fit_gamma,
             progress=lambda share: bar.update(share - bar.n),
         )
-    for line in _report(match, _assumption(match, options)):
+    (known,) = (name for name in ESTIMATES if name not in match.uncertainties)
+    for line in _report(match, assumption(known, getattr(match, known), options)):
         print(line)
     if options.out:
         write_scene_file(options.out, match.scene)
@@ -87,19 +89,6 @@ def _square_wave(scene: Scene, text: str) -> Scene:
     """Make a scene send a square wave: two chips per cycle."""
     frequency = parameter_named("switching_frequency").parse(text)
     return scene.replace(pattern="10", switching_frequency=2.0 * float(frequency))
-
-
-def _assumption(match: Match, options: argparse.Namespace) -> str:
-    """Name the value that the estimates of time rest on, unless the command line states it."""
-    name = next(name for name in ESTIMATES if name not in match.uncertainties)
-    stated = {setting.partition("=")[0].strip() for setting in options.settings}
-    if options.led_frequency is not None:
-        stated.add("switching_frequency")
-    if name in stated:
-        return ""
-    known = PARAMETERS[name]
-    assert isinstance(known, Quantity)  # noqa: S101 - both are
-    return f"if {name} = {known.format(getattr(match, name))}: "
 
 
 def _report(match: Match, assumption: str) -> list[str]:

@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from occ_model.commands.assumption import assumption
 from occ_model.commands.files import SCENE_FILE, TABLE, Written
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import OutputError, one_line
@@ -38,12 +39,11 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     table = _matched(paths, scene, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
-    paste = [f"{program}: {line}" for program, line in lines_to_paste(table).items()]
+    known = assumption(table.known, float(table.scene.value(table.known)), options)
+    paste = [f"{program}: {known}{line}" for program, line in lines_to_paste(table).items()]
     if options.out:
         write_whole(options.out, csv_text(table, paste).encode("utf-8"))
-    for line in _report(table):
-        print(line)
-    for line in paste:
+    for line in [*_report(table, known), *paste]:
         print(line)
     if options.out:
         print(f"{one_line(str(options.out))}: {len(table.rows)} photos")
@@ -92,7 +92,7 @@ def _matched(
     return None
 
 
-def _report(table: PhotoTable) -> list[str]:
+def _report(table: PhotoTable, known: str) -> list[str]:
     name = table.estimate
     width = min(max(len(one_line(row.path.name)) for row in table.rows), _LONGEST_FILE)
     lines = [
@@ -103,10 +103,11 @@ def _report(table: PhotoTable) -> list[str]:
     ]
     counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
     lines += ["", f"{'photos':22}{len(table.rows)}: {counts}"]
-    lines += _mean(name, table.estimated) + _mean("exposure_time", table.exposure_time)
+    lines += _mean(name, table.estimated, known)
+    lines += _mean("exposure_time", table.exposure_time, known)
     frame = frame_readout_time(table)
     if frame is not None:
-        lines.append(f"{'readout of the frame':22}{_with_error('readout_time', *frame)}")
+        lines.append(f"{'readout of the frame':22}{known}{_with_error('readout_time', *frame)}")
     return lines + list(table.notes)
 
 
@@ -119,10 +120,10 @@ def _found(row: PhotoRow, name: str) -> str:
     return f"{texts[0]:24}  {texts[1]:22}".rstrip()
 
 
-def _mean(name: str, found: CombinedEstimate | None) -> list[str]:
+def _mean(name: str, found: CombinedEstimate | None, known: str) -> list[str]:
     if found is None:
         return []
-    text = f"{_with_error(name, found.value, found.uncertainty)}, mean of {found.count}"
+    text = f"{known}{_with_error(name, found.value, found.uncertainty)}, mean of {found.count}"
     if found.count > 1:
         text += f"; chi-square {found.chi_square:.3g} of {found.degrees_of_freedom}: " + (
             "they agree" if found.agrees else "they differ by more than their errors"

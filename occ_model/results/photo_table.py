@@ -134,6 +134,12 @@ class PhotoTable:
     exposure_time: CombinedEstimate | None
     notes: tuple[str, ...] = ()
 
+    @property
+    def known(self) -> str:
+        """The parameter that was taken as known: the other one of the two."""
+        both = ("readout_time", "switching_frequency")
+        return both[1 - both.index(self.estimate)]
+
     def count(self, verdict: str) -> int:
         """Count the photos with a verdict."""
         return sum(row.verdict == verdict for row in self.rows)

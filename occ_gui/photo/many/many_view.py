@@ -1,6 +1,7 @@
 """Table of several photos: what was found in each, their mean, and lines for other programs."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QModelIndex, Qt, Signal
@@ -26,6 +27,7 @@ from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.photo_table import VERDICTS
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
 
 _ROWS_SEEN = 6
 
@@ -64,7 +66,11 @@ class ManyPhotosView(QWidget):
             )
         )
         self.lines: dict[str, QLineEdit] = {}
+        self.stale = _text(self.tr("Whether the table still belongs to the known value"))
         self._found: PhotoTable | None = None
+        self._scene: Scene | None = None
+        self._given = math.nan
+        self._certain: Mapping[str, float] = {}
         self._form = QFormLayout()
         self._form.setVerticalSpacing(2)
         layout = QVBoxLayout(self)
@@ -75,7 +81,7 @@ class ManyPhotosView(QWidget):
             buttons.addWidget(button)
         buttons.addStretch()
         parts = (self.title, self.table, self.work, self.mean, self.exposure, self.frame)
-        for part in (*parts, self.notes):
+        for part in (*parts, self.notes, self.stale):
             layout.addWidget(part)
         layout.addLayout(self._form)
         layout.addLayout(buttons)
@@ -164,44 +170,76 @@ class ManyPhotosView(QWidget):
         self.rows.show_table(table)
         self.show_ended()
         counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
-        known = quantity(
-            "switching_frequency" if table.estimate == "readout_time" else "readout_time"
-        )
         self.title.setText(
-            self.tr("{count} photos: {counts}; the {known} being {value}").format(
-                count=len(table.rows),
-                counts=counts,
-                known=known.label.lower(),
-                value=known.format(float(table.scene.value(known.name))),
-            )
+            self.tr("{count} photos: {counts}").format(count=len(table.rows), counts=counts)
         )
         self._show_found(table)
 
+    def show_certain(self, certain: Mapping[str, float]) -> None:
+        """Show which known values, in SI units by name, are confirmed and not only assumed."""
+        self._certain = certain
+        self._show_found(self._found)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show whether the table was made with the known value of this scene."""
+        self._scene = scene
+        self._show_stale()
+
+    def _show_stale(self) -> None:
+        table, scene = self._found, self._scene
+        self.stale.hide()
+        if table is None or scene is None:
+            return
+        known = quantity(table.known)
+        now, then = float(scene.value(known.name)), float(table.scene.value(known.name))
+        self.stale.setText(
+            self.tr("Found with {then}; the scene has {now} now: match all again.").format(
+                then=known.format(then), now=known.format(now)
+            )
+        )
+        self.stale.setVisible(now not in {then, self._given})
+
+    def _condition(self, table: PhotoTable) -> str:
+        """Name the value that the times rest on, unless the user is certain of it."""
+        known, value = quantity(table.known), float(table.scene.value(table.known))
+        if math.isclose(value, self._certain.get(table.known, math.nan), rel_tol=1e-9):
+            return ""
+        return self.tr("if {symbol} = {value}: ").format(
+            symbol=known.symbol, value=known.format(value)
+        )
+
     def _show_found(self, table: PhotoTable | None) -> None:
         """Show the mean, the notes and the lines to paste of a table, or none."""
+        if table is not None and table is not self._found and self._scene is not None:
+            # A square wave is known by its own frequency, not by the scene's.
+            self._given = float(self._scene.value(table.known))
         self._found = table
+        self._show_stale()
         self.copy.setEnabled(table is not None)
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
         if table is not None:
-            texts[self.mean] = self._mean(table.estimate, table.estimated)
-            texts[self.exposure] = self._mean("exposure_time", table.exposure_time)
+            condition = self._condition(table)
+            texts[self.mean] = self._mean(table.estimate, table.estimated, condition)
+            texts[self.exposure] = self._mean("exposure_time", table.exposure_time, condition)
             frame = frame_readout_time(table)
             if frame is not None:
                 time = with_uncertainty(quantity("readout_time"), *frame)
-                texts[self.frame] = self.tr("Readout of the whole frame: {time}").format(time=time)
+                texts[self.frame] = self.tr("Readout of the whole frame: {time}").format(
+                    time=condition + time
+                )
             texts[self.notes] = "\n".join(table.notes)
         for label, text in texts.items():
             label.setText(text)
             label.setVisible(bool(text))
         self._show_lines({} if table is None else lines_to_paste(table))
 
-    def _mean(self, name: str, found: CombinedEstimate | None) -> str:
+    def _mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
         if found is None:
             return ""
         declared = quantity(name)
         value = with_uncertainty(declared, found.value, found.uncertainty)
         text = self.tr("{label}: {value}, mean of {count}").format(
-            label=declared.label, value=value, count=found.count
+            label=declared.label, value=condition + value, count=found.count
         )
         if found.count > 1:
             how = self.tr("they agree") if found.agrees else self.tr("they do not agree")

@@ -24,13 +24,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         image = occ.render(SCENE.replace(start_time=seed * 3e-5), tolerance=0.0, seed=seed).image
         Image.fromarray(np.rot90(image)).save(folder / f"{seed}.png")
     (folder / "damaged.png").write_bytes(b"\x89PNG nothing")
-    (folder / "known.toml").write_text(SCENE.to_toml(), encoding="utf-8")
     return folder
 
 
 def words(folder: Path, *more: str) -> list[str]:
     photos = sorted(map(str, folder.glob("*.png")))
-    return ["match", *photos, "--scene", str(folder / "known.toml"), "--jobs", "1", *more]
+    return ["match", *photos, "--led-frequency", "2.5kHz", "--jobs", "1", *more]
 
 
 def test_table_mean_and_lines_to_paste_are_printed(
@@ -56,6 +55,18 @@ def test_table_mean_and_lines_to_paste_are_printed(
     assert video.endswith('"frame_readout_direction": "TopToBottom"')
     rows = csv.DictReader(line for line in out.read_text().splitlines() if line[0] != "#")
     assert [row["verdict"] for row in rows] == ["sure", "sure", "unreadable"]
+
+
+def test_an_assumed_frequency_stands_before_every_time(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    known = tmp_path / "known.toml"
+    known.write_text(SCENE.to_toml(), encoding="utf-8")
+    photos = [str(folder / "0.png"), str(folder / "1.png")]
+    assert main(["match", *photos, "--scene", str(known), "--jobs", "1"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    condition = "if switching_frequency = 5 kHz: "
+    assert sum(condition in line for line in said) == 5
 
 
 def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -22,6 +22,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results import PhotoRow, PhotoTable
+from occ_model.scene.parameters import quantity
 
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
 
@@ -80,6 +81,7 @@ def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:
 
 
 def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
+    view.show_certain({"switching_frequency": occ.Scene().transmitter.switching_frequency})
     view.show_table(table())
     found = table().estimated
     assert found is not None
@@ -89,7 +91,29 @@ def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     assert found.value == pytest.approx(7e-6)
     assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.40 µs, mean of 3")
     assert view.frame.text() == "Readout of the whole frame: 7.0000 ± 0.0018 ms"
-    assert view.title.text().startswith("6 photos: 4 sure, 1 doubtful, 1 unreadable; the ")
+    assert view.title.text() == "6 photos: 4 sure, 1 doubtful, 1 unreadable"
+
+
+def test_times_name_the_frequency_that_they_rest_on(view: ManyPhotosView) -> None:
+    frequency = occ.Scene().transmitter.switching_frequency
+    condition = f": if f = {quantity('switching_frequency').format(frequency)}: "
+    view.show_table(table())
+    for label in (view.mean, view.exposure, view.frame):
+        assert condition in label.text()
+    view.show_certain({"switching_frequency": frequency})
+    for label in (view.mean, view.exposure, view.frame):
+        assert condition not in label.text()
+
+
+def test_another_known_value_asks_to_match_again(view: ManyPhotosView) -> None:
+    view.show_scene(occ.Scene())
+    view.show_table(table())
+    assert view.stale.isHidden()
+    view.show_scene(occ.Scene().replace(switching_frequency=4321.0))
+    assert not view.stale.isHidden()
+    assert "the scene has 4.321 kHz now: match all again." in view.stale.text()
+    view.show_scene(occ.Scene().replace(exposure_time=1e-4))
+    assert view.stale.isHidden()
 
 
 def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:

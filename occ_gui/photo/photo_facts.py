@@ -97,6 +97,8 @@ class PhotoFacts(QWidget):
         )
         if photo.turned:
             size += self.tr(", turned")
+        if photo.is_linear:
+            size += self.tr(", RAW: gamma 1")
         camera = f"{photo.camera}, " if photo.camera else ""
         self.size_line.set_full_text(camera + size)
         recorded = self._recorded(photo)

@@ -28,7 +28,7 @@ from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 if TYPE_CHECKING:
     from rawpy import RawPy
 
-_BYTES_A_PIXEL = 10
+_BYTES_A_PIXEL = 8
 """The sensor's samples and those taken of them, each while it is converted and turned."""
 
 _TIFF = (b"II*\0", b"MM\0*")

@@ -43,6 +43,11 @@ def test_a_photo_without_notes_offers_none(view: PhotoView, photo: Photo) -> Non
     assert not view.facts.use_settings.isEnabled()
 
 
+def test_a_raw_photo_says_that_it_has_no_gamma(view: PhotoView, photo: Photo) -> None:
+    view.show_photo(replace(photo, is_linear=True))
+    assert view.facts.size_line.toolTip() == "100 x 60 px, grey, RAW: gamma 1"
+
+
 def test_using_the_photos_settings_emits_a_signal(
     view: PhotoView, photo: Photo, qtbot: QtBot
 ) -> None:

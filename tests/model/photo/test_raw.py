@@ -157,7 +157,7 @@ def test_too_many_photosites_are_refused_before_decoding(tmp_path: Path) -> None
     path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
     with pytest.raises(occ.PhotoError, match="has 60 x 40 pixels, 2,400; allowed: at most 2,399"):
         occ.load_photo(path, max_pixels=2399)
-    overwrite(path, ImageWidth=12_000, ImageLength=12_000)
+    overwrite(path, ImageWidth=13_000, ImageLength=13_000)
     with pytest.raises(occ.PhotoError, match="GB of memory"):
         occ.load_photo(path)
 

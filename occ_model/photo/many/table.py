@@ -64,7 +64,8 @@ def _notes(table: PhotoTable, exposures: Sequence[float]) -> list[str]:
             f"is widened {table.estimated.scale:.2g} times."
         )
     for what, kinds in (
-        ("sizes", Counter(" x ".join(map(str, row.size)) for row in counted)),
+        # However the camera was held.
+        ("sizes", Counter("{} x {}".format(*sorted(row.size)) for row in counted)),
         ("cameras", Counter(row.camera for row in counted if row.camera)),
     ):
         if len(kinds) > 1:

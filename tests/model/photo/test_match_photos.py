@@ -141,6 +141,12 @@ def test_exposures_that_were_set_differently_have_no_mean() -> None:
     )
 
 
+def test_photos_in_portrait_and_landscape_are_of_one_size() -> None:
+    table = made(row(1e-5), row(1e-5, size=(1000, 600), scanned_along="columns"))
+    assert table.notes == ()
+    assert list(lines_to_paste(table)) == ["OpenDroneMap"]  # of no one direction
+
+
 def test_photos_of_different_sizes_are_named() -> None:
     table = made(row(1e-5), row(1e-5), row(1e-5, size=(300, 500), lines=500))
     assert table.notes == (

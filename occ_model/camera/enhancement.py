@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT, WHITE
 
 _SAME = 1e-9
@@ -91,14 +91,10 @@ class Enhancement:
         mean, deviation : ndarray of float64, shape as ``levels``
         """
         curve = self.curve.astype(np.float64)
-        reach = min(math.ceil(_FAR * float(spread.max())) + 1, 256)
-        lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
-        edge = lowest[:, None] + np.arange(2 * reach)
-        passed = _tail(
-            (edge + (0.5 - levels[:, None])) * (1.0 / np.maximum(spread, _SAME))[:, None]
-        )
-        steps = np.concatenate([np.diff(curve), np.zeros(2 * reach + 1)])
-        square_steps = np.concatenate([np.diff(curve**2), np.zeros(2 * reach + 1)])
+        edge, passed = _steps_passed(levels, spread)
+        lowest, beyond = edge[:, 0], np.zeros(edge.shape[1] + 1)
+        steps = np.concatenate([np.diff(curve), beyond])
+        square_steps = np.concatenate([np.diff(curve**2), beyond])
         mean = curve[lowest] + np.einsum("ij,ij->i", steps[edge], passed)
         square = curve[lowest] ** 2 + np.einsum("ij,ij->i", square_steps[edge], passed)
         return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
@@ -106,6 +102,54 @@ class Enhancement:
     def of_bytes(self, image: ByteArray) -> ByteArray:
         """Enhance grey levels that are rounded already, shape (rows, columns)."""
         return np.asarray(cv2.LUT(image, self.curve), dtype=np.uint8)
+
+
+def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
+    """Return the distribution of noisy pixels over the 256 grey levels.
+
+    Parameters
+    ----------
+    levels, spread : ndarray of float64, shape (values,)
+        Mean and standard deviation in grey levels.
+    weights : ndarray of float64, shape (values,)
+        How often each value occurs.
+
+    Returns
+    -------
+    ndarray of float64, shape (256,)
+        Its sum is that of the weights.
+    """
+    edge, passed = _steps_passed(levels, spread)
+    ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
+    share = np.hstack([ones, passed]) - np.hstack([passed, none])
+    place = np.hstack([edge, edge[:, -1:] + 1])
+    flat = np.minimum(place, 255).ravel()
+    counts = np.bincount(flat, weights=(share * weights[:, None]).ravel(), minlength=256)
+    return np.asarray(counts, dtype=np.float64)
+
+
+def share_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatArray:
+    """Return the share of noisy pixels above a limit, for each mean and standard deviation."""
+    return _tail((limit - levels) / np.maximum(spread, _SAME))
+
+
+def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, FloatArray]:
+    """Return the steps from one grey level to the next near some levels, and who passes them.
+
+    Returns
+    -------
+    step : ndarray of int64, shape (values, steps)
+        The grey level below each step; below the first one lies hardly any pixel.
+    passed : ndarray of float64, shape (values, steps)
+        The share of the pixels above it.
+    """
+    reach = min(math.ceil(_FAR * float(spread.max())) + 1, 256)
+    lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
+    step = lowest[:, None] + np.arange(2 * reach)
+    scale = (1.0 / np.maximum(spread, _SAME))[:, None]
+    passed = _tail((step + (0.5 - levels[:, None])) * scale)
+    passed[step >= 255] = 0.0
+    return step, passed
 
 
 def _tail(deviations: FloatArray) -> FloatArray:

@@ -1,5 +1,7 @@
 """Locate the panel in an image by its brightest pixels."""
 
+import math
+
 import cv2
 import numpy as np
 
@@ -41,7 +43,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
         return None
     bright = _above(image, level - 1)
     rows, columns = image.shape
-    cell = -(-max(rows, columns) // _GRID)
+    cell = cell_size(rows, columns)
     grid_size = (-(-columns // cell), -(-rows // cell))
     share = np.asarray(cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     cells = _above(share, 255 * _SPECK)
@@ -59,6 +61,16 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     )
     reach = _growth_to_one(cells)
     return Location(_bounds(bright, around), level, _contours(cells), reach * cell)
+
+
+def cell_size(rows: int, columns: int) -> int:
+    """Return the pixels along a side of a cell of the grid."""
+    return -(-max(rows, columns) // _GRID)
+
+
+def least_bright_share() -> float:
+    """Return the share of bright pixels that a cell of a contour exceeds, as a byte holds it."""
+    return (math.floor(255 * _SPECK) + 0.5) / 255.0
 
 
 def _histogram(image: ByteArray) -> IndexArray:

@@ -5,28 +5,22 @@ mean is known without its pixels. Noise passes through the enhancement as it doe
 its distribution, and is averaged over the rows. Where rows differ, a sample of them is simulated.
 """
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.photometry import saturate
 from occ_model.camera.projection import panel_corners, row_spans
-from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.effects.paper_view import PaperView, paper_view_of
-from occ_model.effects.registry import planned
 from occ_model.receiver.decode import decode
 from occ_model.receiver.locate import bright_level, locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Plan, Region
 from occ_model.scene.scene import Scene
-from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.row_sample import SampledPicture
-
-_LEVELS = 512
-"""Column values at which it is evaluated where there are more columns; between them linearly."""
+from occ_model.study.noisy_columns import NoisyColumns
 
 
 def panel_span(scene: Scene) -> Region | None:
@@ -119,15 +113,19 @@ def observe_profile(
     if span.columns == 0:
         return Observation(to_bytes(around), None)
     enhancement = Enhancement(profile, scene.model.enhancement)
-    bright = _bright_span(scene, span, enhancement(profile), to_bytes(around))
-    if bright is not None:
-        span = replace(span, first_column=bright.start, last_column=bright.stop)
-    noise = planned(plan, NoiseEffect)
+    if "noise" in plan.kinds:
+        noisy = NoisyColumns(scene, columns, plan, span, enhancement)
+        span = _narrowed(span, noisy.bright_span(random))
+        return Observation(noisy.means(span, random), span)
+    span = _narrowed(span, _bright_span(scene, span, enhancement(profile), to_bytes(around)))
     seen = slice(span.first_column, span.last_column)
-    signal = enhancement(profile[seen]).astype(np.float64)
-    if noise:
-        signal = _noisy_means(scene, columns, noise, span, enhancement, random)
-    return Observation(signal, span)
+    return Observation(enhancement(profile[seen]).astype(np.float64), span)
+
+
+def _narrowed(span: Region, bright: slice | None) -> Region:
+    if bright is None:
+        return span
+    return replace(span, first_column=bright.start, last_column=bright.stop)
 
 
 def _bright_span(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> slice | None:
@@ -143,32 +141,6 @@ def _bright_span(scene: Scene, span: Region, panel: ByteArray, around: ByteArray
         return None
     bright = np.flatnonzero(panel[left:right] >= level)
     return slice(left + int(bright[0]), left + int(bright[-1]) + 1) if bright.size else None
-
-
-def _noisy_means(
-    scene: Scene,
-    columns: Columns,
-    noise: tuple[NoiseEffect, ...],
-    span: Region,
-    enhancement: Enhancement,
-    random: np.random.Generator,
-) -> FloatArray:
-    """Average noisy, enhanced pixels over rows, by the distribution of their values."""
-    panel = columns.panel[span.first_column : span.last_column]
-    low, high = float(panel.min()), float(panel.max())
-    levels = panel if len(panel) <= _LEVELS else np.linspace(low, high, _LEVELS)
-    spread = pixel_spread(noise, scene, levels[None, :].astype(np.float32))[0].astype(np.float64)
-    if len(panel) > _LEVELS and spread.min() < (high - low) / _LEVELS:
-        # Steps of the enhancement would show between the levels.
-        levels = panel
-        spread = pixel_spread(noise, scene, levels[None, :].astype(np.float32))[0].astype(
-            np.float64
-        )
-    mean, deviation = enhancement.moments(saturate(levels), spread)
-    deviation /= math.sqrt(span.rows)
-    if levels is not panel:
-        mean, deviation = np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
-    return np.asarray(mean + deviation * random.standard_normal(len(panel)))
 
 
 def observe_sample(

@@ -2,11 +2,10 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypeAlias, cast
+from typing import TypeAlias
 
 from occ_model.camera.photometry import WHITE
 from occ_model.errors import ParameterError, shown
-from occ_model.photo.reading.image_decoding import Samples
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.scan_axis import means_along
 from occ_model.results import Region
@@ -48,6 +47,6 @@ def part_of(photo: Photo, region: Region) -> Photo:
     """Cut a rectangle out of a photo; its pixels are views of the photo's, not copies."""
     rows = slice(region.first_row, region.last_row)
     columns = slice(region.first_column, region.last_column)
-    samples = cast("Samples", photo.samples[rows, columns])
+    samples = photo.samples[rows, columns]
     means = means_along(samples, 0) * (WHITE / photo.white)
     return replace(photo, samples=samples, image=photo.image[rows, columns], profile=means)

@@ -32,6 +32,8 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     )
     from occ_model.photo.chips.read import read_chips as read_chips
     from occ_model.photo.comparison import compare as compare
+    from occ_model.photo.lamps.find import find_lamps as find_lamps
+    from occ_model.photo.lamps.match import match_lamps as match_lamps
     from occ_model.photo.many.match_photos import match_photos as match_photos
     from occ_model.photo.match import match_photo as match_photo
     from occ_model.photo.reading.load import (
@@ -47,6 +49,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Decision as Decision,
         DecodeResult as DecodeResult,
         Frame as Frame,
+        Lamp as Lamp,
         Limits as Limits,
         Match as Match,
         PhotoTable as PhotoTable,
@@ -86,6 +89,7 @@ _MODULES = {
     "DecodeInputError": "errors",
     "DecodeResult": "results",
     "Frame": "results",
+    "Lamp": "results",
     "Limits": "results",
     "Match": "results",
     "MatchError": "errors",
@@ -111,10 +115,12 @@ _MODULES = {
     "compare": "photo.comparison",
     "decode": "receiver.decode",
     "delete_preset": "scene.presets",
+    "find_lamps": "photo.lamps.find",
     "find_stripes": "photo.stripes.find",
     "limits": "study.limits",
     "load_photo": "photo.reading.load",
     "load_preset": "scene.presets",
+    "match_lamps": "photo.lamps.match",
     "match_photo": "photo.match",
     "match_photos": "photo.many.match_photos",
     "on_time": "camera.exposure",

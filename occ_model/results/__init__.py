@@ -3,6 +3,7 @@
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.frame import Frame
+from occ_model.results.lamp import Lamp
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.match import Alternative, ChipReading, Comparison, Match, Stripes
 from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
@@ -22,6 +23,7 @@ __all__ = [
     "Decision",
     "DecodeResult",
     "Frame",
+    "Lamp",
     "Limits",
     "Location",
     "Match",

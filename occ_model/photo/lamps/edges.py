@@ -1,0 +1,122 @@
+"""The edges between bright and dark in one strip of a photo."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+
+_ABOVE_NOISE = 6.0
+"""Number of standard deviations of noise that a step must have."""
+
+LEAST_SWING = 6.0
+"""Grey levels that a step must have."""
+
+_BESIDE = 0.15
+"""Share of a neighbouring step below which a step is ringing, scatter or texture beside it."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Edges:
+    """Edges between bright and dark, from left to right, falling and rising in turn.
+
+    Parameters
+    ----------
+    place : ndarray of float64, shape (edges,)
+        The column at which each passes the middle between its two levels.
+    rises : ndarray of bool, shape as ``place``
+        Whether it is bright on the right.
+    low, high : ndarray of float64, shape as ``place``
+        The two levels in grey levels.
+    """
+
+    place: FloatArray
+    rises: np.ndarray
+    low: FloatArray
+    high: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.place)
+
+    def part(self, first: int, last: int) -> "Edges":
+        """Give the edges from the first to before the last."""
+        chosen = slice(first, last)
+        return Edges(self.place[chosen], self.rises[chosen], self.low[chosen], self.high[chosen])
+
+
+def edges_of(profile: FloatArray) -> Edges:
+    """Find the edges of a profile that stand out of its noise.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        Grey levels.
+    """
+    steps = np.diff(profile)
+    noise = 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / np.sqrt(2.0)
+    turns = _turning_points(profile, max(_ABOVE_NOISE * noise, LEAST_SWING))
+    turns = _without_ringing(profile, turns)
+    first, last = turns[:-1], turns[1:]
+    levels = profile[turns]
+    low, high = np.minimum(levels[:-1], levels[1:]), np.maximum(levels[:-1], levels[1:])
+    place = np.array(
+        [
+            _crossing(profile, int(a), int(b), 0.5 * float(low[i] + high[i]))
+            for i, (a, b) in enumerate(zip(first, last, strict=True))
+        ]
+    )
+    return Edges(place.reshape(-1), levels[1:] > levels[:-1], low, high)
+
+
+def _turning_points(profile: FloatArray, least: float) -> IndexArray:
+    """Find the highest and lowest columns in turn, each step being at least so large."""
+    inner = np.flatnonzero(np.diff(np.sign(np.diff(profile)))) + 1
+    places = np.concatenate([[0], inner, [len(profile) - 1]]).tolist()
+    values = profile[places].tolist()
+    turns: list[int] = []
+    top = bottom = 0
+    upward: bool | None = None
+    for index, value in enumerate(values):
+        if value > values[top]:
+            top = index
+        if value < values[bottom]:
+            bottom = index
+        if upward is not False and value <= values[top] - least:
+            turns.append(places[top])
+            upward, bottom, top = False, index, index
+        elif upward is not True and value >= values[bottom] + least:
+            turns.append(places[bottom])
+            upward, top, bottom = True, index, index
+    if upward is not None:
+        turns.append(places[top if upward else bottom])
+    return np.array(turns, dtype=np.int64)
+
+
+def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
+    """Take out steps that are much smaller than those beside them."""
+    kept: list[int] = turns.tolist()
+    while len(kept) > 2:  # noqa: PLR2004 - a step and a neighbour
+        steps = np.abs(np.diff(profile[kept]))
+        beside = np.maximum(np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0))
+        small = steps < _BESIDE * beside
+        if not small.any():
+            break
+        at = int(np.argmin(np.where(small, steps, np.inf)))
+        if at == 0:
+            del kept[0]
+        elif at == len(steps) - 1:
+            del kept[-1]
+        else:
+            del kept[at : at + 2]
+    return np.array(kept, dtype=np.int64)
+
+
+def _crossing(profile: FloatArray, first: int, last: int, level: float) -> float:
+    """Find where a profile passes a level between two columns, in the middle if several times."""
+    above = profile[first : last + 1] >= level
+    changes = np.flatnonzero(above[1:] != above[:-1])
+    if changes.size == 0:
+        return 0.5 * (first + last)
+    at = first + int(changes[len(changes) // 2])
+    step = float(profile[at + 1] - profile[at])
+    return at + (level - float(profile[at])) / step if step else at + 0.5

@@ -1,0 +1,106 @@
+"""Put together the segments of neighbouring strips that belong to one lamp.
+
+All rows of a lamp have their edges at the same columns, whatever its shape; those of another lamp
+have not, even where both touch.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.photo.lamps.edges import Edges
+from occ_model.photo.lamps.segments import Segment
+
+_NEAR = 2
+"""Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""
+
+_ALIKE = 0.7
+"""Share of the edges of two segments, where both are, that must agree."""
+
+_LEAST_ALIKE = 3
+"""Fewest edges that must agree."""
+
+_OFF = 0.16
+"""Share of a chip, besides a column, by which edges of one lamp may differ."""
+
+_LEAST_STRIPS = 2
+
+
+def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
+    """Put together the segments of each lamp, in order of the strips.
+
+    What stands in a single strip is texture or the border of two lamps, and is left out.
+    """
+    parents = list(range(len(segments)))
+
+    def root(index: int) -> int:
+        while parents[index] != index:
+            parents[index] = parents[parents[index]]
+            index = parents[index]
+        return index
+
+    by_strip: dict[int, list[int]] = {}
+    for index, segment in enumerate(segments):
+        by_strip.setdefault(segment.strip, []).append(index)
+    for index, segment in enumerate(segments):
+        for strip in range(segment.strip + 1, segment.strip + 1 + _NEAR):
+            for other in by_strip.get(strip, ()):
+                if _agree(segment, segments[other]):
+                    parents[root(other)] = root(index)
+    groups: dict[int, list[Segment]] = {}
+    for index, segment in enumerate(segments):
+        groups.setdefault(root(index), []).append(segment)
+    return [
+        group for group in groups.values() if len({one.strip for one in group}) >= _LEAST_STRIPS
+    ]
+
+
+def _agree(one: Segment, other: Segment) -> bool:
+    """Whether the edges of two segments lie at the same columns where both have some."""
+    off = 1.0 + _OFF * min(one.chip, other.chip)
+    first = max(one.edges.place[0], other.edges.place[0]) - off
+    last = min(one.edges.place[-1], other.edges.place[-1]) + off
+    counts = [np.count_nonzero((e.place >= first) & (e.place <= last)) for e in
+              (one.edges, other.edges)]
+    if min(counts) < _LEAST_ALIKE:
+        return False
+    return agreeing(one.edges, other.edges, off) >= max(_LEAST_ALIKE, _ALIKE * max(counts))
+
+
+def agreeing(one: Edges, other: Edges, off: float) -> int:
+    """Count the edges of one that have an edge of the same kind nearby in the other."""
+    count = 0
+    for kind in (True, False):
+        here, there = one.place[one.rises == kind], other.place[other.rises == kind]
+        if here.size and there.size:
+            after = np.clip(np.searchsorted(there, here), 1, max(there.size - 1, 1))
+            after = np.minimum(after, there.size - 1)
+            nearest = np.minimum(
+                np.abs(there[after] - here), np.abs(there[np.maximum(after - 1, 0)] - here)
+            )
+            count += int(np.count_nonzero(nearest <= off))
+    return count
+
+
+def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
+    """Give the edges that several segments of a group share, and how many share each.
+
+    The rim of a round lamp lies at other columns in each strip, and so is not among them.
+    """
+    off = 0.5 + 0.5 * _OFF * float(np.median([one.chip for one in group]))
+    place = np.concatenate([one.edges.place for one in group])
+    rises = np.concatenate([one.edges.rises for one in group])
+    low = np.concatenate([one.edges.low for one in group])
+    high = np.concatenate([one.edges.high for one in group])
+    rows: list[tuple[float, bool, float, float, int]] = []
+    least = max(_LEAST_STRIPS, 0.08 * len(group))
+    for kind in (True, False):
+        order = np.flatnonzero(rises == kind)
+        order = order[np.argsort(place[order], kind="stable")]
+        for same in np.split(order, np.flatnonzero(np.diff(place[order]) > off) + 1):
+            if len(same) >= least:
+                levels = (float(np.median(low[same])), float(np.median(high[same])))
+                rows.append((float(np.median(place[same])), kind, *levels, len(same)))
+    rows.sort()
+    columns = [np.array(column) for column in zip(*rows, strict=True)] or [np.zeros(0)] * 5
+    return Edges(columns[0], columns[1].astype(bool), columns[2], columns[3]), columns[4]

@@ -1,0 +1,73 @@
+"""Find what is bright and has no stripes: lamps of constant light, windows, screens."""
+
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.camera.photometry import WHITE
+from occ_model.results import Lamp, Region
+
+_BRIGHT = 0.6
+"""Share of white from which a place is bright."""
+
+_ABOVE_MEDIAN = 1.6
+"""Ratio to the picture's median from which a place stands out of it."""
+
+_LEAST_SHARE = 3e-4
+"""Share of the picture that a lamp fills at least."""
+
+_OWN = 0.3
+"""Largest share of a bright place that lies within lamps with stripes."""
+
+_MOST_COLUMNS = 512
+
+
+def steady_lamps(
+    means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
+) -> list[Lamp]:
+    """Find the bright places without stripes.
+
+    Parameters
+    ----------
+    means : ndarray of float64, shape (strips, columns)
+        Grey levels.
+    bounds : ndarray of int64, shape (strips + 1,)
+        The first row of each strip, and the number of rows.
+    blinking
+        The lamps with stripes.
+    """
+    strips, columns = means.shape
+    narrow = min(columns, _MOST_COLUMNS)
+    levels = cv2.resize(means, (narrow, strips), interpolation=cv2.INTER_AREA)
+    least = max(_BRIGHT * WHITE, min(_ABOVE_MEDIAN * float(np.median(levels)), 0.98 * WHITE))
+    taken = np.zeros((strips, narrow), dtype=bool)
+    for lamp in blinking:
+        for first, last, left, right in lamp.spans.tolist():
+            rows = slice(*np.searchsorted(bounds, [first, last]).tolist())
+            taken[rows, max(left * narrow // columns - 2, 0) : right * narrow // columns + 3] = True
+    bright = ((levels >= least)).astype(np.uint8)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(bright, connectivity=4)
+    found = []
+    for label in range(1, count):
+        place = labels == label
+        area = int(stats[label, cv2.CC_STAT_AREA])
+        if area < _LEAST_SHARE * labels.size or np.mean(taken[place]) > _OWN:
+            continue
+        spans = _spans(place, bounds, columns / narrow)
+        region = Region(
+            int(spans[0, 0]), int(spans[-1, 1]), int(spans[:, 2].min()), int(spans[:, 3].max())
+        )
+        found.append(Lamp(region, spans, float(np.median(levels[place])), modulated=False))
+    return found
+
+
+def _spans(place: np.ndarray, bounds: IndexArray, scale: float) -> IndexArray:
+    """Give the shape of a place by strips."""
+    rows = []
+    for strip in np.flatnonzero(place.any(axis=1)).tolist():
+        here = np.flatnonzero(place[strip])
+        first, last = int(here[0] * scale), int(np.ceil((here[-1] + 1) * scale))
+        rows.append((int(bounds[strip]), int(bounds[strip + 1]), first, last))
+    return np.array(rows, dtype=np.int64)

@@ -1,0 +1,42 @@
+"""Average the rows of a photo in strips: a lamp's stripes are alike in all its rows."""
+
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE
+from occ_model.photo.reading.load import Photo
+
+_MOST_STRIPS = 160
+_LEAST_ROWS = 8
+
+
+def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, FloatArray]:
+    """Average the rows of a photo in strips.
+
+    Parameters
+    ----------
+    photo
+        The photo.
+    report
+        Called with the share of the work that is done.
+
+    Returns
+    -------
+    means : ndarray of float64, shape (strips, columns)
+        Grey levels.
+    bounds : ndarray of int64, shape (strips + 1,)
+        The first row of each strip, and the number of rows.
+    """
+    rows, columns = photo.samples.shape
+    count = int(np.clip(rows // _LEAST_ROWS, 1, _MOST_STRIPS))
+    bounds = np.arange(count + 1, dtype=np.int64) * rows // count
+    means = np.empty((count, columns))
+    for strip in range(count):
+        part = photo.samples[bounds[strip] : bounds[strip + 1]]
+        sums = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
+        means[strip] = sums[0] * (WHITE / photo.white / len(part))
+        report((strip + 1) / count)
+    return means, bounds

@@ -1,0 +1,100 @@
+"""How a lamp blinks: its period, or the length of a chip of its code, from its edges."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.lamps.edges import Edges
+from occ_model.photo.lamps.segments import Segment, segments_of
+
+_FAR = 0.12
+"""Share of the spacing by which an edge may lie off a lattice and still count."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampTiming:
+    """How a lamp blinks.
+
+    Parameters
+    ----------
+    spacing
+        Columns of a period of a pulse that repeats, or of a chip of a code.
+    uncertainty
+        Its standard deviation in columns.
+    rise, fall
+        Column of a rising and of a falling edge, less whole spacings.
+    is_code
+        Whether the spacing is that of a code's chips.
+    edges
+        The edges on the lattice.
+    """
+
+    spacing: float
+    uncertainty: float
+    rise: float
+    fall: float
+    is_code: bool
+    edges: Edges
+
+    @property
+    def chip(self) -> float:
+        """Columns of a chip; a pulse that repeats counts as two chips a cycle."""
+        return self.spacing if self.is_code else 0.5 * self.spacing
+
+    def agrees(self, other: "LampTiming") -> bool:
+        """Whether another lamp blinks in time with this one: its edges lie on the same lattices."""
+        if self.is_code != other.is_code:
+            return False
+        if abs(self.spacing - other.spacing) > 0.02 * self.spacing + 3.0 * other.uncertainty:
+            return False
+        offs = []
+        for kind, start in ((True, self.rise), (False, self.fall)):
+            turns = (other.edges.place[other.edges.rises == kind] - start) / self.spacing
+            offs.append(np.abs(turns - np.rint(turns)))
+        return bool(np.median(np.concatenate(offs)) < _FAR)
+
+
+def timing_of(edges: Edges, weights: FloatArray) -> LampTiming | None:
+    """Find the period or the chip of the edges of one lamp; None where they have neither.
+
+    Parameters
+    ----------
+    edges
+        The edges.
+    weights : ndarray of float64, shape (edges,)
+        How many rows show each.
+    """
+    found = segments_of(edges, 0)
+    if not found:
+        return None
+    longest = max(found, key=lambda one: len(one.edges))
+    return _refined(longest, edges, weights)
+
+
+def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
+    """Fit the lattices of the rising and of the falling edges by least squares."""
+    is_code = segment.period is None
+    spacing = segment.chip if segment.period is None else segment.period
+    inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
+    edges = Edges(edges.place[inside], edges.rises[inside], edges.low[inside], edges.high[inside])
+    weights = weights[inside]
+    steps = np.zeros(len(edges))
+    for kind in (True, False):
+        same = edges.rises == kind
+        if not same.any():
+            return None
+        # From one edge to the next, so that an error of the spacing does not add up.
+        steps[same] = np.concatenate([[0.0], np.cumsum(np.rint(np.diff(edges.place[same]) / spacing))])
+    shapes = np.column_stack([steps, edges.rises, ~edges.rises]).astype(np.float64)
+    root = np.sqrt(weights)
+    fitted, *_ = np.linalg.lstsq(shapes * root[:, None], edges.place * root, rcond=None)
+    residual = edges.place - shapes @ fitted
+    freedom = max(len(edges) - 3, 1)
+    inverse = np.linalg.pinv((shapes * root[:, None]).T @ (shapes * root[:, None]))
+    # Edges are found to a tenth of a column at best, whatever few of them happen to agree.
+    variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * 0.01)
+    return LampTiming(
+        float(fitted[0]), float(np.sqrt(variance * inverse[0, 0])),
+        float(fitted[1]), float(fitted[2]), is_code, edges,
+    )  # fmt: skip

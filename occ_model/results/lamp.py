@@ -1,0 +1,82 @@
+"""Result of searching a photo for lamps."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.results.decoding import Region
+
+_SURE_PERIODS = 2.5
+"""Fewest periods in view from which a frequency is no coincidence of two bright things."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Lamp:
+    """A lamp in a photo.
+
+    Parameters
+    ----------
+    region
+        The smallest rectangle around it.
+    spans : ndarray of int64, shape (strips, 4)
+        Its shape, as rectangles one below another: first row, row after the last, first column and
+        column after the last of each.
+    level
+        Grey level where it is lit.
+    modulated
+        Whether it has stripes: its light changes while the picture is read out.
+    period
+        Columns after which its stripes repeat; None without stripes, and for a code that does not
+        repeat within the lamp.
+    period_uncertainty
+        Its standard deviation in columns.
+    switching_frequency_times_readout
+        Product of switching frequency and readout time, in chips per column; None without stripes.
+        A pulse that repeats counts as two chips a cycle, however short it is.
+    product_uncertainty
+        Its standard deviation in chips per column.
+    periods
+        Number of periods in view; None where none is known.
+    reflections
+        Fainter places that blink in time with the lamp.
+    """
+
+    region: Region
+    spans: IndexArray
+    level: float
+    modulated: bool
+    period: float | None = None
+    period_uncertainty: float | None = None
+    switching_frequency_times_readout: float | None = None
+    product_uncertainty: float | None = None
+    periods: float | None = None
+    reflections: tuple[Region, ...] = ()
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether its stripes repeat too seldom in view for their frequency to be sure."""
+        return self.modulated and self.periods is not None and self.periods < _SURE_PERIODS
+
+    @property
+    def area(self) -> int:
+        """Number of its pixels."""
+        first, last, left, right = self.spans.T
+        return int(((last - first) * (right - left)).sum())
+
+    @property
+    def outline(self) -> FloatArray:
+        """The corners of its shape in order, shape (corners, 2): column and row."""
+        first, last, left, right = self.spans.T.astype(np.float64)
+        rows = np.column_stack([first, last]).ravel()
+        down = np.column_stack([np.repeat(right, 2), rows])
+        up = np.column_stack([np.repeat(left, 2), rows])[::-1]
+        # The first pixel's centre is at (0, 0).
+        return np.vstack([down, up, down[:1]]) - 0.5
+
+    def covers(self, row: float, column: float) -> bool:
+        """Whether a pixel belongs to the lamp."""
+        first, last, left, right = self.spans.T
+        return bool(
+            np.any((first <= row) & (row < last) & (left <= column) & (column < right))
+        )

@@ -77,6 +77,4 @@ class Lamp:
     def covers(self, row: float, column: float) -> bool:
         """Whether a pixel belongs to the lamp."""
         first, last, left, right = self.spans.T
-        return bool(
-            np.any((first <= row) & (row < last) & (left <= column) & (column < right))
-        )
+        return bool(np.any((first <= row) & (row < last) & (left <= column) & (column < right)))

@@ -120,3 +120,20 @@ def _crossing(profile: FloatArray, first: int, last: int, level: float) -> float
     at = first + int(changes[len(changes) // 2])
     step = float(profile[at + 1] - profile[at])
     return at + (level - float(profile[at])) / step if step else at + 0.5
+
+
+def matches(edges: Edges, others: Edges, off: float) -> np.ndarray:
+    """Whether each edge has one of the same kind near it among others, shape (edges,)."""
+    near = np.zeros(len(edges), dtype=bool)
+    for kind in (True, False):
+        here, there = edges.rises == kind, others.place[others.rises == kind]
+        if there.size and here.any():
+            near[here] = _distance(edges.place[here], there) <= off
+    return near
+
+
+def _distance(places: FloatArray, others: FloatArray) -> FloatArray:
+    """Give the distance of each place from the nearest of others, which are in order."""
+    after = np.clip(np.searchsorted(others, places), 0, len(others) - 1)
+    before = np.maximum(after - 1, 0)
+    return np.minimum(np.abs(others[after] - places), np.abs(others[before] - places))

@@ -1,18 +1,19 @@
 """Find the lamps in a photo: where each is, of what shape, and how it blinks."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.photo.lamps.edges import edges_of
+from occ_model.photo.lamps.edges import Edges, edges_of, matches
 from occ_model.photo.lamps.grouping import common_edges, groups_of
 from occ_model.photo.lamps.segments import Segment, segments_of
+from occ_model.photo.lamps.shape import around, spans_of
 from occ_model.photo.lamps.steady import steady_lamps
 from occ_model.photo.lamps.strips import strips_of
-from occ_model.photo.lamps.timing import LampTiming, timing_of
+from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Region
 
@@ -22,11 +23,19 @@ _FAINT = 0.6
 _GAMMA = 2.2
 """Exponent by which grey levels are compared as light."""
 
-_EVEN = (0.22, 0.78)
-"""Shares of a period within which two bright stripes are a lamp's: two panes are nearer."""
+_EVEN = (0.3, 0.7)
+"""Shares of a period that are lit by a lamp; the panes of a window are wider than its bars."""
 
-_SHORT_EDGES = 5
-"""Fewest edges of a lamp whose bright stripes are much wider or narrower than its dark ones."""
+_LEAST_EDGES, _FEW_EDGES = 4, 6
+"""Edges, from a rising to a falling one, that two and three bright things side by side have."""
+
+_LEAST_SPACING = 3.0
+"""Fewest columns of a period or a chip: what is shorter is noise."""
+
+_LEAST_STRIPS = 2
+
+_GLOW, _GLOW_STRIPS = 0.5, 4
+"""Share of a lamp's light, and number of strips, up to which stripes at its rim are its glow."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -59,16 +68,17 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     report = progress or (lambda _share: None)
     report(0.0)
     means, bounds = strips_of(photo, lambda share: report(0.4 * share))
-    segments: list[Segment] = []
-    for strip, profile in enumerate(means):
-        segments += segments_of(edges_of(profile), strip)
-        report(0.4 + 0.4 * (strip + 1) / len(means))
+    strips = []
+    for number, profile in enumerate(means):
+        strips.append(edges_of(profile))
+        report(0.4 + 0.3 * (number + 1) / len(means))
+    segments = [one for number, edges in enumerate(strips) for one in segments_of(edges, number)]
+    report(0.8)
     blinking = []
     for group in groups_of(segments):
-        found = _blinking(group, bounds, means.shape[1])
-        if found is not None:
-            blinking.append(found)
+        blinking += _blinking(group, strips, bounds, means.shape[1])
         report(0.85)
+    blinking = _without_glow(blinking)
     lamps = _without_reflections(blinking)
     report(0.9)
     lamps += steady_lamps(means, bounds, [one.lamp for one in blinking])
@@ -76,19 +86,27 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     return tuple(sorted(lamps, key=lambda lamp: (-round(lamp.level), -lamp.area)))
 
 
-def _blinking(group: list[Segment], bounds: IndexArray, columns: int) -> _Blinking | None:
-    """Describe the lamp of a group of segments; None where its edges have no period."""
+def _blinking(
+    group: Sequence[Segment], strips: Sequence[Edges], bounds: IndexArray, columns: int
+) -> list[_Blinking]:
+    """Describe the lamps of a group of segments."""
     edges, weights = common_edges(group)
-    if len(edges) < 4:  # noqa: PLR2004 - two stripes
-        return None
-    timing = timing_of(edges, weights)
-    if timing is None or not _is_lamp(timing):
-        return None
-    spans = _spans(group, timing, bounds, columns)
-    region = _around(spans)
+    found = []
+    for timing in timings_of(edges, weights):
+        if not _is_lamp(timing):
+            continue
+        near = 1.0 + 0.06 * timing.chip
+        inner = [one.strip for one in group if matches(one.edges, timing.edges, near).sum() > 2]
+        spans = spans_of(strips, inner, timing, bounds, columns) if inner else np.zeros((0, 4))
+        if len(spans) >= _LEAST_STRIPS:
+            found.append(_described(timing, spans))
+    return found
+
+
+def _described(timing: LampTiming, spans: IndexArray) -> _Blinking:
+    region = around(spans)
     low, high = float(np.median(timing.edges.low)), float(np.median(timing.edges.high))
     chip, spacing = timing.chip, timing.spacing
-    per_spacing = timing.uncertainty / spacing
     lamp = Lamp(
         region=region,
         spans=spans,
@@ -97,49 +115,44 @@ def _blinking(group: list[Segment], bounds: IndexArray, columns: int) -> _Blinki
         period=None if timing.is_code else spacing,
         period_uncertainty=None if timing.is_code else timing.uncertainty,
         switching_frequency_times_readout=1.0 / chip,
-        product_uncertainty=per_spacing / chip,
+        product_uncertainty=timing.uncertainty / spacing / chip,
         periods=None if timing.is_code else region.columns / spacing,
     )
     return _Blinking(lamp, timing, (high / WHITE) ** _GAMMA - (low / WHITE) ** _GAMMA)
 
 
 def _is_lamp(timing: LampTiming) -> bool:
-    """Whether few stripes are as even as those of a lamp, and no two bright things side by side."""
-    if timing.is_code or len(timing.edges) >= _SHORT_EDGES:
+    """Whether some stripes are those of a lamp, and not of a few bright things side by side."""
+    if timing.spacing < _LEAST_SPACING:
+        return False
+    edges = timing.edges
+    if timing.is_code or len(edges) > _FEW_EDGES or not edges.rises[0] or edges.rises[-1]:
         return True
     lit = (timing.fall - timing.rise) / timing.spacing % 1.0
-    return _EVEN[0] <= lit <= _EVEN[1]
+    return len(edges) > _LEAST_EDGES and _EVEN[0] <= lit <= _EVEN[1]
 
 
-def _spans(
-    group: list[Segment], timing: LampTiming, bounds: IndexArray, columns: int
-) -> IndexArray:
-    """Give the shape of a group of segments: the columns from the first to the last, by strips."""
-    reach = 1.2 * (6.0 * timing.chip if timing.is_code else timing.spacing)
-    left, right = timing.edges.place[0] - reach, timing.edges.place[-1] + reach
-    spans: dict[int, tuple[float, float]] = {}
-    for one in group:
-        first, last = spans.get(one.strip, (np.inf, -np.inf))
-        spans[one.strip] = min(first, max(one.first, left)), max(last, min(one.last, right))
-    rows = []
-    for strip in range(min(spans), max(spans) + 1):
-        # Noise can hide a lamp in a strip: it is as wide there as above.
-        span = spans.get(strip) or rows_before
-        rows_before = span
-        first, last = max(int(np.floor(span[0])), 0), min(int(np.ceil(span[1])) + 1, columns)
-        if last > first:
-            rows.append((int(bounds[strip]), int(bounds[strip + 1]), first, last))
-    return np.array(rows, dtype=np.int64)
+def _without_glow(blinking: Sequence[_Blinking]) -> list[_Blinking]:
+    """Leave out low strips of faint stripes right above or below a lamp: its scattered light."""
+    return [
+        one for one in blinking
+        if not any(one.light < _GLOW * other.light and _lies_at(one.lamp, other.lamp)
+                   for other in blinking)
+    ]  # fmt: skip
 
 
-def _around(spans: IndexArray) -> Region:
-    return Region(
-        int(spans[:, 0].min()), int(spans[:, 1].max()),
-        int(spans[:, 2].min()), int(spans[:, 3].max()),
-    )  # fmt: skip
+def _lies_at(low: Lamp, lamp: Lamp) -> bool:
+    """Whether a few strips lie right above or below a lamp, or within it."""
+    here, there = low.region, lamp.region
+    near = 3 * here.rows // max(len(low.spans), 1)
+    if len(low.spans) > _GLOW_STRIPS:
+        return False
+    above = here.last_row >= there.first_row - near and here.first_row <= there.last_row + near
+    shared = min(here.last_column, there.last_column) - max(here.first_column, there.first_column)
+    return above and shared > 0.5 * here.columns
 
 
-def _without_reflections(blinking: list[_Blinking]) -> list[Lamp]:
+def _without_reflections(blinking: Sequence[_Blinking]) -> list[Lamp]:
     """Give the lamps, each with the regions of the fainter ones that blink in time with it."""
     ordered = sorted(blinking, key=lambda one: -one.light)
     kept: list[_Blinking] = []
@@ -160,5 +173,3 @@ def _without_reflections(blinking: list[_Blinking]) -> list[Lamp]:
         replace(one.lamp, reflections=tuple(mirrored.get(number, ())))
         for number, one in enumerate(kept)
     ]
-
-

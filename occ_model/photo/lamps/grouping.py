@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import Segment
+from occ_model.photo.lamps.edges import Edges, matches
 
 _NEAR = 2
 """Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""
@@ -20,7 +20,7 @@ _ALIKE = 0.7
 _LEAST_ALIKE = 3
 """Fewest edges that must agree."""
 
-_OFF = 0.16
+_OFF = 0.06
 """Share of a chip, besides a column, by which edges of one lamp may differ."""
 
 _LEAST_STRIPS = 2
@@ -60,26 +60,13 @@ def _agree(one: Segment, other: Segment) -> bool:
     off = 1.0 + _OFF * min(one.chip, other.chip)
     first = max(one.edges.place[0], other.edges.place[0]) - off
     last = min(one.edges.place[-1], other.edges.place[-1]) + off
-    counts = [np.count_nonzero((e.place >= first) & (e.place <= last)) for e in
-              (one.edges, other.edges)]
+    counts = [
+        np.count_nonzero((e.place >= first) & (e.place <= last)) for e in (one.edges, other.edges)
+    ]
     if min(counts) < _LEAST_ALIKE:
         return False
-    return agreeing(one.edges, other.edges, off) >= max(_LEAST_ALIKE, _ALIKE * max(counts))
-
-
-def agreeing(one: Edges, other: Edges, off: float) -> int:
-    """Count the edges of one that have an edge of the same kind nearby in the other."""
-    count = 0
-    for kind in (True, False):
-        here, there = one.place[one.rises == kind], other.place[other.rises == kind]
-        if here.size and there.size:
-            after = np.clip(np.searchsorted(there, here), 1, max(there.size - 1, 1))
-            after = np.minimum(after, there.size - 1)
-            nearest = np.minimum(
-                np.abs(there[after] - here), np.abs(there[np.maximum(after - 1, 0)] - here)
-            )
-            count += int(np.count_nonzero(nearest <= off))
-    return count
+    near = np.count_nonzero(matches(one.edges, other.edges, off))
+    return near >= max(_LEAST_ALIKE, _ALIKE * max(counts))
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
@@ -87,7 +74,7 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
 
     The rim of a round lamp lies at other columns in each strip, and so is not among them.
     """
-    off = 0.5 + 0.5 * _OFF * float(np.median([one.chip for one in group]))
+    off = 1.0 + _OFF * float(np.median([one.chip for one in group]))
     place = np.concatenate([one.edges.place for one in group])
     rises = np.concatenate([one.edges.rises for one in group])
     low = np.concatenate([one.edges.low for one in group])

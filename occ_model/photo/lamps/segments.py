@@ -56,8 +56,6 @@ class Segment:
         The number of the strip.
     edges
         The edges, without those of the lamp's rim.
-    first, last
-        First column of the lamp in this strip, and the one after the last.
     period
         Columns of a cycle of a pulse that repeats; None for a code.
     chip
@@ -66,24 +64,34 @@ class Segment:
 
     strip: int
     edges: Edges
-    first: float
-    last: float
     period: float | None
     chip: float
 
 
-def segments_of(edges: Edges, strip: int) -> list[Segment]:
-    """Split the edges of a strip into those of single lamps."""
+def segments_of(edges: Edges, strip: int, tolerance: float = 1.0) -> list[Segment]:
+    """Split the edges of a strip into those of single lamps.
+
+    Parameters
+    ----------
+    edges
+        The edges.
+    strip
+        The number of the strip.
+    tolerance
+        Factor of the distance by which edges may lie off their place.
+    """
     found: list[Segment] = []
-    _split(edges, strip, 0, len(edges), found)
-    return sorted(found, key=lambda one: one.first)
+    _split(edges, strip, 0, len(edges), tolerance, found)
+    return sorted(found, key=lambda one: float(one.edges.place[0]))
 
 
-def _split(edges: Edges, strip: int, first: int, last: int, found: list[Segment]) -> None:
+def _split(
+    edges: Edges, strip: int, first: int, last: int, tolerance: float, found: list[Segment]
+) -> None:
     """Take out the longest progression, or a code, and go on to both its sides."""
     if last - first < _LEAST_EDGES:
         return
-    begin, end, period = _longest_progression(edges.place, first, last)
+    begin, end, period = _longest_progression(edges.place, first, last, tolerance)
     coded = _code_around(edges, first, last)
     if coded is not None and coded[1] - coded[0] >= end - begin + _RIM_EDGES:
         begin, end, chip = coded
@@ -92,38 +100,13 @@ def _split(edges: Edges, strip: int, first: int, last: int, found: list[Segment]
         chip = 0.5 * period
     else:
         return
-    found.append(_segment(edges, strip, (begin, end), period, chip, (first, last)))
-    _split(edges, strip, first, begin, found)
-    _split(edges, strip, end, last, found)
-
-
-def _segment(
-    edges: Edges,
-    strip: int,
-    span: tuple[int, int],
-    period: float | None,
-    chip: float,
-    free: tuple[int, int],
-) -> Segment:
-    """Make a segment of some edges, and of the rim beside them."""
-    begin, end = span
-    first, last = float(edges.place[begin]), float(edges.place[end - 1])
-    # A lamp's rim cuts its outermost bright stripe; that lies nearer than a cycle.
-    reach = 1.1 * (period if period is not None else 4.0 * chip)
-    swing = float(np.median((edges.high - edges.low)[begin:end]))
-    inner = edges.part(begin, end)
-    before, after = begin - 1, end
-    if before >= free[0] and edges.rises[before] and first - edges.place[before] < reach:
-        if edges.high[before] - edges.low[before] > _UNLIKE * swing:
-            first = float(edges.place[before])
-    if after < free[1] and not edges.rises[after] and edges.place[after] - last < reach:
-        if edges.high[after] - edges.low[after] > _UNLIKE * swing:
-            last = float(edges.place[after])
-    return Segment(strip, inner, first, last, period, chip)
+    found.append(Segment(strip, edges.part(begin, end), period, chip))
+    _split(edges, strip, first, begin, tolerance, found)
+    _split(edges, strip, end, last, tolerance, found)
 
 
 def _longest_progression(
-    place: FloatArray, first: int, last: int
+    place: FloatArray, first: int, last: int, tolerance: float
 ) -> tuple[int, int, float | None]:
     """Find the most neighbouring edges whose every second one is a period farther."""
     apart = (place[first + 2 : last] - place[first : last - 2]).tolist()
@@ -131,7 +114,9 @@ def _longest_progression(
     begin = 0
     while begin < len(apart) - 1:
         period, end = apart[begin], begin + 1
-        while end < len(apart) and abs(apart[end] - period) <= _TOLERANCE * period + _COLUMN:
+        while end < len(apart) and abs(apart[end] - period) <= tolerance * (
+            _TOLERANCE * period + _COLUMN
+        ):
             end += 1
             period = sum(apart[begin:end]) / (end - begin)
         if end - begin > 1 and end - begin + 2 > best[1] - best[0]:
@@ -158,8 +143,11 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
     turns = np.exp(2j * np.pi * edges.place[first:last] / chip)
     off = np.zeros(last - first)
     for which in (edges.rises[first:last], ~edges.rises[first:last]):
-        off[which] = np.abs(np.angle(turns[which] / max(abs(turns[which].sum()), 1e-9) * np.conj(
-            turns[which].sum())))
+        off[which] = np.abs(
+            np.angle(
+                turns[which] / max(abs(turns[which].sum()), 1e-9) * np.conj(turns[which].sum())
+            )
+        )
     gaps = np.diff(edges.place[first:last])
     wrong = off > 2.0 * np.pi * _OFF_LATTICE
     begin, end = 0, last - first

@@ -24,9 +24,7 @@ _OWN = 0.3
 _MOST_COLUMNS = 512
 
 
-def steady_lamps(
-    means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
-) -> list[Lamp]:
+def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]) -> list[Lamp]:
     """Find the bright places without stripes.
 
     Parameters
@@ -47,7 +45,7 @@ def steady_lamps(
         for first, last, left, right in lamp.spans.tolist():
             rows = slice(*np.searchsorted(bounds, [first, last]).tolist())
             taken[rows, max(left * narrow // columns - 2, 0) : right * narrow // columns + 3] = True
-    bright = ((levels >= least)).astype(np.uint8)
+    bright = (levels >= least).astype(np.uint8)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(bright, connectivity=4)
     found = []
     for label in range(1, count):

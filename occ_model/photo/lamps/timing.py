@@ -12,6 +12,14 @@ _FAR = 0.12
 """Share of the spacing by which an edge may lie off a lattice and still count."""
 
 
+_SAME, _AT_MOST = 0.004, 0.02
+"""Shares of the spacing by which those of a lamp and of its reflection may differ."""
+
+
+_TIGHTER = 0.5
+"""Share of the tolerance of a single strip's edges with which those of many rows are judged."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class LampTiming:
     """How a lamp blinks.
@@ -42,11 +50,19 @@ class LampTiming:
         """Columns of a chip; a pulse that repeats counts as two chips a cycle."""
         return self.spacing if self.is_code else 0.5 * self.spacing
 
+    @property
+    def longest_stripe(self) -> float:
+        """Columns of the widest bright stripe that has both its edges."""
+        rises, place = self.edges.rises, self.edges.place
+        whole = rises[:-1] & ~rises[1:]
+        return float(np.diff(place)[whole].max()) if whole.any() else self.spacing
+
     def agrees(self, other: "LampTiming") -> bool:
         """Whether another lamp blinks in time with this one: its edges lie on the same lattices."""
         if self.is_code != other.is_code:
             return False
-        if abs(self.spacing - other.spacing) > 0.02 * self.spacing + 3.0 * other.uncertainty:
+        off = min(_SAME + 3.0 * other.uncertainty / other.spacing, _AT_MOST)
+        if abs(self.spacing - other.spacing) > off * self.spacing:
             return False
         offs = []
         for kind, start in ((True, self.rise), (False, self.fall)):
@@ -55,8 +71,10 @@ class LampTiming:
         return bool(np.median(np.concatenate(offs)) < _FAR)
 
 
-def timing_of(edges: Edges, weights: FloatArray) -> LampTiming | None:
-    """Find the period or the chip of the edges of one lamp; None where they have neither.
+def timings_of(edges: Edges, weights: FloatArray) -> list[LampTiming]:
+    """Find the period or the chip of edges that some rows share.
+
+    There are several where lamps beside each other are as high as each other.
 
     Parameters
     ----------
@@ -65,11 +83,8 @@ def timing_of(edges: Edges, weights: FloatArray) -> LampTiming | None:
     weights : ndarray of float64, shape (edges,)
         How many rows show each.
     """
-    found = segments_of(edges, 0)
-    if not found:
-        return None
-    longest = max(found, key=lambda one: len(one.edges))
-    return _refined(longest, edges, weights)
+    found = (_refined(segment, edges, weights) for segment in segments_of(edges, 0, _TIGHTER))
+    return [timing for timing in found if timing is not None]
 
 
 def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
@@ -85,7 +100,9 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
         if not same.any():
             return None
         # From one edge to the next, so that an error of the spacing does not add up.
-        steps[same] = np.concatenate([[0.0], np.cumsum(np.rint(np.diff(edges.place[same]) / spacing))])
+        steps[same] = np.concatenate(
+            [[0.0], np.cumsum(np.rint(np.diff(edges.place[same]) / spacing))]
+        )
     shapes = np.column_stack([steps, edges.rises, ~edges.rises]).astype(np.float64)
     root = np.sqrt(weights)
     fitted, *_ = np.linalg.lstsq(shapes * root[:, None], edges.place * root, rcond=None)

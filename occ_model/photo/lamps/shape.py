@@ -1,0 +1,112 @@
+"""The shape of a lamp: the columns that it fills in each strip of a photo."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import IndexArray
+from occ_model.photo.lamps.edges import Edges, matches
+from occ_model.photo.lamps.timing import LampTiming
+from occ_model.results import Region
+
+_OFF = 0.06
+"""Share of a chip, besides a column, by which an edge may lie off the lamp's."""
+
+_FAINT = 0.2
+"""Share of a lamp's swing below which a strip shows light scattered from it, not the lamp."""
+
+_RIM = 0.4
+"""Share of the swing beside it with which a rim cuts a bright stripe."""
+
+_WIDER = 1.15
+"""Ratio to a whole bright stripe up to which a stripe is one that the rim cuts."""
+
+_SMOOTH = 2
+"""Strips to either side over whose columns a rim is taken in the median."""
+
+
+def spans_of(
+    strips: Sequence[Edges], inner: Sequence[int], timing: LampTiming, bounds: IndexArray,
+    columns: int,
+) -> IndexArray:  # fmt: skip
+    """Find the columns of a lamp in each strip that shows its edges.
+
+    Parameters
+    ----------
+    strips
+        The edges of all strips of the photo.
+    inner
+        The strips that surely show the lamp.
+    timing
+        How the lamp blinks, and its common edges.
+    bounds : ndarray of int64, shape (strips + 1,)
+        The first row of each strip, and the number of rows.
+    columns
+        Number of columns of the photo.
+
+    Returns
+    -------
+    ndarray of int64, shape (strips of the lamp, 4)
+        First row, row after the last, first column and column after the last.
+    """
+    spans: dict[int, tuple[float, float]] = {}
+    first, last = min(inner), max(inner)
+    for strip in range(first, last + 1):
+        span = _span(strips[strip], timing)
+        if span is not None:
+            spans[strip] = span
+    for outward, begin in ((-1, first - 1), (1, last + 1)):
+        strip = begin
+        # A round lamp's topmost strips show too few stripes to be found by themselves.
+        while 0 <= strip < len(strips) and (span := _span(strips[strip], timing)) is not None:
+            spans[strip] = span
+            strip += outward
+    return _rectangles(spans, bounds, columns)
+
+
+def _rectangles(
+    spans: dict[int, tuple[float, float]], bounds: IndexArray, columns: int
+) -> IndexArray:
+    """Smooth the columns over neighbouring strips, and write them as rectangles."""
+    if not spans:
+        return np.zeros((0, 4), dtype=np.int64)
+    shown = np.arange(min(spans), max(spans) + 1)
+    known = np.array(sorted(spans))
+    sides = np.array([spans[strip] for strip in known.tolist()])
+    smooth = np.array(
+        [np.median(sides[np.abs(known - strip) <= _SMOOTH], axis=0)
+         if np.any(np.abs(known - strip) <= _SMOOTH) else sides[np.argmin(np.abs(known - strip))]
+         for strip in shown.tolist()]
+    )  # fmt: skip
+    left = np.maximum(np.floor(smooth[:, 0]), 0).astype(np.int64)
+    right = np.minimum(np.ceil(smooth[:, 1]) + 1, columns).astype(np.int64)
+    return np.column_stack([bounds[shown], bounds[shown + 1], left, np.maximum(right, left + 1)])
+
+
+def _span(edges: Edges, timing: LampTiming) -> tuple[float, float] | None:
+    """Give the first and the last column of a lamp in one strip; None if it is not seen there."""
+    swing = edges.high - edges.low
+    least = _FAINT * float(np.median(timing.edges.high - timing.edges.low))
+    shared = np.flatnonzero(
+        matches(edges, timing.edges, 1.0 + _OFF * timing.chip) & (swing > least)
+    )
+    if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():  # noqa: PLR2004 - both sides of a stripe
+        return None
+    begin, end = int(shared[0]), int(shared[-1])
+    first, last = float(edges.place[begin]), float(edges.place[end])
+    stripe = _WIDER * timing.longest_stripe
+    if begin > 0 and edges.rises[begin - 1] and first - edges.place[begin - 1] < stripe:
+        if swing[begin - 1] > _RIM * swing[begin]:
+            first = float(edges.place[begin - 1])
+    if end + 1 < len(edges) and not edges.rises[end + 1] and edges.place[end + 1] - last < stripe:
+        if swing[end + 1] > _RIM * swing[end]:
+            last = float(edges.place[end + 1])
+    return first, last
+
+
+def around(spans: IndexArray) -> Region:
+    """Give the smallest rectangle around a shape."""
+    return Region(
+        int(spans[:, 0].min()), int(spans[:, 1].max()),
+        int(spans[:, 2].min()), int(spans[:, 3].max()),
+    )  # fmt: skip

@@ -95,7 +95,7 @@ def _turning_points(profile: FloatArray, least: float) -> IndexArray:
 def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     """Take out steps that are much smaller than those beside them."""
     kept: list[int] = turns.tolist()
-    while len(kept) > 2:  # noqa: PLR2004 - a step and a neighbour
+    while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
         beside = np.maximum(np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0))
         small = steps < _BESIDE * beside

@@ -23,8 +23,8 @@ _FAINT = 0.6
 _GAMMA = 2.2
 """Exponent by which grey levels are compared as light."""
 
-_EVEN = (0.3, 0.7)
-"""Shares of a period that are lit by a lamp; the panes of a window are wider than its bars."""
+_PANES = 0.7
+"""Share of a period that is lit from which few stripes are the panes of a window between bars."""
 
 _LEAST_EDGES, _FEW_EDGES = 4, 6
 """Edges, from a rising to a falling one, that two and three bright things side by side have."""
@@ -33,6 +33,9 @@ _LEAST_SPACING = 3.0
 """Fewest columns of a period or a chip: what is shorter is noise."""
 
 _LEAST_STRIPS = 2
+
+_WITHIN = 0.5
+"""Share of a lamp within another one from which it is a part of that one."""
 
 _GLOW, _GLOW_STRIPS = 0.5, 4
 """Share of a lamp's light, and number of strips, up to which stripes at its rim are its glow."""
@@ -78,7 +81,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     for group in groups_of(segments):
         blinking += _blinking(group, strips, bounds, means.shape[1])
         report(0.85)
-    blinking = _without_glow(blinking)
+    blinking = _without_parts(_without_glow(blinking))
     lamps = _without_reflections(blinking)
     report(0.9)
     lamps += steady_lamps(means, bounds, [one.lamp for one in blinking])
@@ -129,7 +132,7 @@ def _is_lamp(timing: LampTiming) -> bool:
     if timing.is_code or len(edges) > _FEW_EDGES or not edges.rises[0] or edges.rises[-1]:
         return True
     lit = (timing.fall - timing.rise) / timing.spacing % 1.0
-    return len(edges) > _LEAST_EDGES and _EVEN[0] <= lit <= _EVEN[1]
+    return len(edges) > _LEAST_EDGES and lit <= _PANES
 
 
 def _without_glow(blinking: Sequence[_Blinking]) -> list[_Blinking]:
@@ -150,6 +153,24 @@ def _lies_at(low: Lamp, lamp: Lamp) -> bool:
     above = here.last_row >= there.first_row - near and here.first_row <= there.last_row + near
     shared = min(here.last_column, there.last_column) - max(here.first_column, there.first_column)
     return above and shared > 0.5 * here.columns
+
+
+def _without_parts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
+    """Leave out what lies within a lamp of more edges: noise has split some of its strips."""
+    ordered = sorted(blinking, key=lambda one: -len(one.timing.edges) * one.lamp.area)
+    kept: list[_Blinking] = []
+    for one in ordered:
+        if all(_shared(one.lamp, other.lamp) < _WITHIN for other in kept):
+            kept.append(one)
+    return kept
+
+
+def _shared(one: Lamp, other: Lamp) -> float:
+    """Give the share of a lamp's area that lies within another one."""
+    here, there = one.spans[:, None, :], other.spans[None, :, :]
+    high = np.minimum(here[..., 1], there[..., 1]) - np.maximum(here[..., 0], there[..., 0])
+    wide = np.minimum(here[..., 3], there[..., 3]) - np.maximum(here[..., 2], there[..., 2])
+    return float((np.maximum(high, 0) * np.maximum(wide, 0)).sum() / one.area)
 
 
 def _without_reflections(blinking: Sequence[_Blinking]) -> list[Lamp]:

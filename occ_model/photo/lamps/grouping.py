@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from occ_model.photo.lamps.segments import Segment
 from occ_model.photo.lamps.edges import Edges, matches
+from occ_model.photo.lamps.segments import Segment
 
 _NEAR = 2
 """Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""

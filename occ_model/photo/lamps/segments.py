@@ -68,7 +68,9 @@ class Segment:
     chip: float
 
 
-def segments_of(edges: Edges, strip: int, tolerance: float = 1.0) -> list[Segment]:
+def segments_of(
+    edges: Edges, strip: int, tolerance: float = 1.0, codes: bool = True
+) -> list[Segment]:
     """Split the edges of a strip into those of single lamps.
 
     Parameters
@@ -79,20 +81,31 @@ def segments_of(edges: Edges, strip: int, tolerance: float = 1.0) -> list[Segmen
         The number of the strip.
     tolerance
         Factor of the distance by which edges may lie off their place.
+    codes
+        Whether some may be those of a code.
     """
     found: list[Segment] = []
-    _split(edges, strip, 0, len(edges), tolerance, found)
+    _split(_Rules(edges, strip, tolerance, codes), 0, len(edges), found)
     return sorted(found, key=lambda one: float(one.edges.place[0]))
 
 
-def _split(
-    edges: Edges, strip: int, first: int, last: int, tolerance: float, found: list[Segment]
-) -> None:
+@dataclass(frozen=True, eq=False, slots=True)
+class _Rules:
+    """The edges of a strip, and how they are judged."""
+
+    edges: Edges
+    strip: int
+    tolerance: float
+    codes: bool
+
+
+def _split(rules: _Rules, first: int, last: int, found: list[Segment]) -> None:
     """Take out the longest progression, or a code, and go on to both its sides."""
+    edges = rules.edges
     if last - first < _LEAST_EDGES:
         return
-    begin, end, period = _longest_progression(edges.place, first, last, tolerance)
-    coded = _code_around(edges, first, last)
+    begin, end, period = _longest_progression(edges.place, first, last, rules.tolerance)
+    coded = _code_around(edges, first, last) if rules.codes else None
     if coded is not None and coded[1] - coded[0] >= end - begin + _RIM_EDGES:
         begin, end, chip = coded
         period = None
@@ -100,9 +113,9 @@ def _split(
         chip = 0.5 * period
     else:
         return
-    found.append(Segment(strip, edges.part(begin, end), period, chip))
-    _split(edges, strip, first, begin, tolerance, found)
-    _split(edges, strip, end, last, tolerance, found)
+    found.append(Segment(rules.strip, edges.part(begin, end), period, chip))
+    _split(rules, first, begin, found)
+    _split(rules, end, last, found)
 
 
 def _longest_progression(

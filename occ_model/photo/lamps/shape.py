@@ -90,7 +90,7 @@ def _span(edges: Edges, timing: LampTiming) -> tuple[float, float] | None:
     shared = np.flatnonzero(
         matches(edges, timing.edges, 1.0 + _OFF * timing.chip) & (swing > least)
     )
-    if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():  # noqa: PLR2004 - both sides of a stripe
+    if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None
     begin, end = int(shared[0]), int(shared[-1])
     first, last = float(edges.place[begin]), float(edges.place[end])

@@ -16,6 +16,9 @@ _SAME, _AT_MOST = 0.004, 0.02
 """Shares of the spacing by which those of a lamp and of its reflection may differ."""
 
 
+_CODE_OFF = 0.045
+"""Share of a chip by which the edges of a code lie off its lattices at most, on average."""
+
 _TIGHTER = 0.5
 """Share of the tolerance of a single strip's edges with which those of many rows are judged."""
 
@@ -34,8 +37,10 @@ class LampTiming:
         Column of a rising and of a falling edge, less whole spacings.
     is_code
         Whether the spacing is that of a code's chips.
+    off
+        Root mean square of the edges' distances from their places, as a share of a chip.
     edges
-        The edges on the lattice.
+        The edges.
     """
 
     spacing: float
@@ -43,6 +48,7 @@ class LampTiming:
     rise: float
     fall: float
     is_code: bool
+    off: float
     edges: Edges
 
     @property
@@ -83,8 +89,17 @@ def timings_of(edges: Edges, weights: FloatArray) -> list[LampTiming]:
     weights : ndarray of float64, shape (edges,)
         How many rows show each.
     """
-    found = (_refined(segment, edges, weights) for segment in segments_of(edges, 0, _TIGHTER))
-    return [timing for timing in found if timing is not None]
+    found = []
+    for segment in segments_of(edges, 0, _TIGHTER):
+        timing = _refined(segment, edges, weights)
+        if timing is not None and (not timing.is_code or timing.off < _CODE_OFF):
+            found.append(timing)
+        else:
+            # Edges of two lamps side by side lie near some lattice too, but not on it.
+            parts = segments_of(segment.edges, 0, _TIGHTER, codes=False)
+            refined = (_refined(part, edges, weights) for part in parts)
+            found += [timing for timing in refined if timing is not None]
+    return found
 
 
 def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
@@ -111,7 +126,9 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     inverse = np.linalg.pinv((shapes * root[:, None]).T @ (shapes * root[:, None]))
     # Edges are found to a tenth of a column at best, whatever few of them happen to agree.
     variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * 0.01)
+    chip = spacing if is_code else 0.5 * spacing
+    off = float(np.sqrt(np.average(residual**2, weights=weights))) / chip
     return LampTiming(
         float(fitted[0]), float(np.sqrt(variance * inverse[0, 0])),
-        float(fitted[1]), float(fitted[2]), is_code, edges,
+        float(fitted[1]), float(fitted[2]), is_code, off, edges,
     )  # fmt: skip

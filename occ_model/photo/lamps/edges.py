@@ -94,21 +94,21 @@ def _turning_points(profile: FloatArray, least: float) -> IndexArray:
 
 def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     """Take out steps that are much smaller than those beside them."""
-    kept: list[int] = turns.tolist()
+    kept = turns
     while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
-        beside = np.maximum(np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0))
-        small = steps < _BESIDE * beside
-        if not small.any():
+        left, right = np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0)
+        small = steps < _BESIDE * np.maximum(left, right)
+        outer = np.zeros(len(kept), dtype=bool)
+        outer[[0, -1]] = small[[0, -1]]
+        # Both ends of a small step go; of small steps side by side the smallest goes first.
+        small[[0, -1]] = False
+        small &= (steps < np.where(left > 0.0, left, np.inf)) & (steps <= right)
+        gone = outer | np.append(small, False) | np.append(False, small)
+        if not gone.any():
             break
-        at = int(np.argmin(np.where(small, steps, np.inf)))
-        if at == 0:
-            del kept[0]
-        elif at == len(steps) - 1:
-            del kept[-1]
-        else:
-            del kept[at : at + 2]
-    return np.array(kept, dtype=np.int64)
+        kept = kept[~gone]
+    return kept
 
 
 def _crossing(profile: FloatArray, first: int, last: int, level: float) -> float:

@@ -25,6 +25,9 @@ _OFF = 0.06
 
 _LEAST_STRIPS = 2
 
+_SHARED = 0.2
+"""Share of a group's strips that must show an edge."""
+
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
     """Put together the segments of each lamp, in order of the strips.
@@ -80,7 +83,7 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
     low = np.concatenate([one.edges.low for one in group])
     high = np.concatenate([one.edges.high for one in group])
     rows: list[tuple[float, bool, float, float, int]] = []
-    least = max(_LEAST_STRIPS, 0.08 * len(group))
+    least = max(_LEAST_STRIPS, _SHARED * len(group))
     for kind in (True, False):
         order = np.flatnonzero(rises == kind)
         order = order[np.argsort(place[order], kind="stable")]

@@ -5,6 +5,7 @@ that of the falling ones. The edges of a lamp that sends a code lie on two latti
 of a chip. Where one lamp ends and another begins, the progressions or lattices break.
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,11 +25,17 @@ _LEAST_EDGES = 4
 _RIM_EDGES = 3
 """Edges by which a code must explain more than a progression does: a lamp's rim has two of them."""
 
+_MOST = 64
+"""Largest number of lamps beside each other in a strip: of more, those of the strongest stripes."""
+
 _WIDE = 5.0
 """Ratio to the median distance of edges from which a gap lies between two lamps."""
 
 _CODE_EDGES = 7
 """Fewest edges from which the length of a chip is told."""
+
+_MOST_EDGES = 400
+"""Most edges of a strip in which codes are searched; more are those of textures."""
 
 _ON_LATTICE = 0.9
 """Coherence of edges with a lattice of chips from which they are those of one code."""
@@ -85,69 +92,66 @@ def segments_of(
         Whether some may be those of a code.
     """
     found: list[Segment] = []
-    _split(_Rules(edges, strip, tolerance, codes), 0, len(edges), found)
-    return sorted(found, key=lambda one: float(one.edges.place[0]))
+    waiting = [(0, len(edges), _progressions(edges.place, tolerance))]
+    while waiting:
+        first, last, progressions = waiting.pop()
+        longest = max(progressions, key=lambda one: one[1] - one[0], default=(first, first, 0.0))
+        begin, end, period = longest
+        coded = _code_within(edges, first, last) if codes else None
+        if coded is not None and coded[1] - coded[0] >= end - begin + _RIM_EDGES:
+            begin, end, chip = coded
+            found.append(Segment(strip, edges.part(begin, end), None, chip))
+        elif period:
+            found.append(Segment(strip, edges.part(begin, end), period, 0.5 * period))
+        else:
+            continue
+        for left, right in ((first, begin), (end, last)):
+            if right - left >= _LEAST_EDGES:
+                waiting.append((left, right, _clipped(progressions, left, right)))
+    if len(found) > _MOST:
+        found.sort(key=lambda one: -float((one.edges.high - one.edges.low).sum()))
+    return found[:_MOST]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Rules:
-    """The edges of a strip, and how they are judged."""
-
-    edges: Edges
-    strip: int
-    tolerance: float
-    codes: bool
+def _clipped(
+    progressions: list[tuple[int, int, float]], first: int, last: int
+) -> list[tuple[int, int, float]]:
+    """Give the parts of progressions that lie within some edges."""
+    parts = [(max(a, first), min(b, last), period) for a, b, period in progressions]
+    return [part for part in parts if part[1] - part[0] >= _LEAST_EDGES]
 
 
-def _split(rules: _Rules, first: int, last: int, found: list[Segment]) -> None:
-    """Take out the longest progression, or a code, and go on to both its sides."""
-    edges = rules.edges
-    if last - first < _LEAST_EDGES:
-        return
-    begin, end, period = _longest_progression(edges.place, first, last, rules.tolerance)
-    coded = _code_around(edges, first, last) if rules.codes else None
-    if coded is not None and coded[1] - coded[0] >= end - begin + _RIM_EDGES:
-        begin, end, chip = coded
-        period = None
-    elif period is not None:
-        chip = 0.5 * period
-    else:
-        return
-    found.append(Segment(rules.strip, edges.part(begin, end), period, chip))
-    _split(rules, first, begin, found)
-    _split(rules, end, last, found)
-
-
-def _longest_progression(
-    place: FloatArray, first: int, last: int, tolerance: float
-) -> tuple[int, int, float | None]:
-    """Find the most neighbouring edges whose every second one is a period farther."""
-    apart = (place[first + 2 : last] - place[first : last - 2]).tolist()
-    best = (first, first, None)
+def _progressions(place: FloatArray, tolerance: float) -> list[tuple[int, int, float]]:
+    """Find neighbouring edges of which every second one is a period farther."""
+    apart = (place[2:] - place[:-2]).tolist()
+    found = []
     begin = 0
     while begin < len(apart) - 1:
-        period, end = apart[begin], begin + 1
-        while end < len(apart) and abs(apart[end] - period) <= tolerance * (
-            _TOLERANCE * period + _COLUMN
-        ):
+        total, end = apart[begin], begin + 1
+        while end < len(apart):
+            period = total / (end - begin)
+            if abs(apart[end] - period) > tolerance * (_TOLERANCE * period + _COLUMN):
+                break
+            total += apart[end]
             end += 1
-            period = sum(apart[begin:end]) / (end - begin)
-        if end - begin > 1 and end - begin + 2 > best[1] - best[0]:
-            best = (first + begin, first + end + 2, period)
+        if end - begin > 1:
+            found.append((begin, end + 2, total / (end - begin)))
         begin = max(begin + 1, end - 2)
-    return best
+    return found
 
 
-def _code_around(edges: Edges, first: int, last: int) -> tuple[int, int, float] | None:
-    """Find the longest stretch of edges without a wide gap that lie on a lattice of chips."""
+def _code_within(edges: Edges, first: int, last: int) -> tuple[int, int, float] | None:
+    """Find the longest stretch of edges that lie on a lattice, with the columns of a chip."""
+    if not _CODE_EDGES <= last - first <= _MOST_EDGES:
+        return None
     best: tuple[int, int, float] | None = None
-    for begin, end in _stretches(edges, first, last):
-        chip = chip_of(edges.part(begin, end))
-        if chip is None:
-            continue
-        begin, end = _without_strangers(edges, begin, end, chip)
-        if best is None or end - begin > best[1] - best[0]:
-            best = begin, end, chip
+    for begin, end in _stretches(edges.part(first, last)):
+        part = first + begin, first + end
+        chip = chip_of(edges.part(*part))
+        if chip is not None:
+            part = _without_strangers(edges, *part, chip)
+            if best is None or part[1] - part[0] > best[1] - best[0]:
+                best = (*part, chip)
     return best
 
 
@@ -171,14 +175,12 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
     return first + begin, first + end
 
 
-def _stretches(edges: Edges, first: int, last: int) -> list[tuple[int, int]]:
+def _stretches(edges: Edges) -> list[tuple[int, int]]:
     """Split edges at wide gaps, and where steps become much smaller or larger."""
-    gaps = np.diff(edges.place[first:last])
-    swings = (edges.high - edges.low)[first:last]
+    gaps, swings = np.diff(edges.place), edges.high - edges.low
     ratio = np.minimum(swings[1:], swings[:-1]) / np.maximum(swings[1:], swings[:-1])
     cuts = np.flatnonzero((gaps > _WIDE * np.median(gaps)) | (ratio < _UNLIKE)) + 1
-    ends = [0, *cuts.tolist(), last - first]
-    return [(first + a, first + b) for a, b in zip(ends, ends[1:], strict=False)]
+    return list(itertools.pairwise([0, *cuts.tolist(), len(edges)]))
 
 
 def chip_of(edges: Edges) -> float | None:

@@ -52,13 +52,15 @@ def spans_of(
     spans: dict[int, tuple[float, float]] = {}
     first, last = min(inner), max(inner)
     for strip in range(first, last + 1):
-        span = _span(strips[strip], timing)
+        span = _span(strips[strip], timing, columns)
         if span is not None:
             spans[strip] = span
     for outward, begin in ((-1, first - 1), (1, last + 1)):
         strip = begin
         # A round lamp's topmost strips show too few stripes to be found by themselves.
-        while 0 <= strip < len(strips) and (span := _span(strips[strip], timing)) is not None:
+        while (
+            0 <= strip < len(strips) and (span := _span(strips[strip], timing, columns)) is not None
+        ):
             spans[strip] = span
             strip += outward
     return _rectangles(spans, bounds, columns)
@@ -83,7 +85,7 @@ def _rectangles(
     return np.column_stack([bounds[shown], bounds[shown + 1], left, np.maximum(right, left + 1)])
 
 
-def _span(edges: Edges, timing: LampTiming) -> tuple[float, float] | None:
+def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float] | None:
     """Give the first and the last column of a lamp in one strip; None if it is not seen there."""
     swing = edges.high - edges.low
     least = _FAINT * float(np.median(timing.edges.high - timing.edges.low))
@@ -95,13 +97,22 @@ def _span(edges: Edges, timing: LampTiming) -> tuple[float, float] | None:
     begin, end = int(shared[0]), int(shared[-1])
     first, last = float(edges.place[begin]), float(edges.place[end])
     stripe = _WIDER * timing.longest_stripe
-    if begin > 0 and edges.rises[begin - 1] and first - edges.place[begin - 1] < stripe:
-        if swing[begin - 1] > _RIM * swing[begin]:
-            first = float(edges.place[begin - 1])
-    if end + 1 < len(edges) and not edges.rises[end + 1] and edges.place[end + 1] - last < stripe:
-        if swing[end + 1] > _RIM * swing[end]:
-            last = float(edges.place[end + 1])
+    if begin == 0 and not edges.rises[begin] and first < stripe:
+        first = 0.0  # the border of the picture cuts the stripe
+    elif begin > 0 and _is_rim(edges, begin - 1, begin, stripe):
+        first = float(edges.place[begin - 1])
+    if end + 1 == len(edges) and edges.rises[end] and columns - last < stripe:
+        last = columns - 1.0
+    elif end + 1 < len(edges) and _is_rim(edges, end + 1, end, stripe):
+        last = float(edges.place[end + 1])
     return first, last
+
+
+def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:
+    """Whether an edge beside a lamp's is that of a bright stripe which the lamp's rim cuts."""
+    swing = edges.high - edges.low
+    near = abs(edges.place[at] - edges.place[beside]) < stripe
+    return bool(near and edges.rises[at] == (at < beside) and swing[at] > _RIM * swing[beside])
 
 
 def around(spans: IndexArray) -> Region:

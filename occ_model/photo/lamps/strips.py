@@ -12,6 +12,13 @@ from occ_model.photo.reading.load import Photo
 _MOST_STRIPS = 160
 _LEAST_ROWS = 8
 
+_FINE, _CELL = 2000, 4
+"""Columns from which a photo is averaged over cells of so many columns.
+
+Sensors of many pixels have colour filters of 2 by 2 or 4 by 4 pixels in one colour; on the steep
+edges of a lamp what is interpolated from them leaves a pattern that repeats after 4 columns.
+"""
+
 
 def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, FloatArray]:
     """Average the rows of a photo in strips.
@@ -39,4 +46,6 @@ def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArr
         sums = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
         means[strip] = sums[0] * (WHITE / photo.white / len(part))
         report((strip + 1) / count)
+    if columns >= _FINE:
+        means = cv2.blur(means, (_CELL, 1), borderType=cv2.BORDER_REPLICATE)
     return means, bounds

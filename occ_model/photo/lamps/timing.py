@@ -12,15 +12,14 @@ _FAR = 0.12
 """Share of the spacing by which an edge may lie off a lattice and still count."""
 
 
-_SAME, _AT_MOST = 0.004, 0.02
-"""Shares of the spacing by which those of a lamp and of its reflection may differ."""
-
-
 _CODE_OFF = 0.045
 """Share of a chip by which the edges of a code lie off its lattices at most, on average."""
 
 _TIGHTER = 0.5
 """Share of the tolerance of a single strip's edges with which those of many rows are judged."""
+
+_SAME = 0.02
+"""Share of the spacing by which those of a lamp and of its reflection may differ."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,8 +66,7 @@ class LampTiming:
         """Whether another lamp blinks in time with this one: its edges lie on the same lattices."""
         if self.is_code != other.is_code:
             return False
-        off = min(_SAME + 3.0 * other.uncertainty / other.spacing, _AT_MOST)
-        if abs(self.spacing - other.spacing) > off * self.spacing:
+        if abs(self.spacing - other.spacing) > _SAME * self.spacing:
             return False
         offs = []
         for kind, start in ((True, self.rise), (False, self.fall)):

@@ -34,6 +34,9 @@ _LEAST_SPACING = 3.0
 
 _LEAST_STRIPS = 2
 
+_SEEN = 0.3
+"""Share of a lamp's strips that must show its period by themselves."""
+
 _WITHIN = 0.5
 """Share of a lamp within another one from which it is a part of that one."""
 
@@ -101,7 +104,7 @@ def _blinking(
         near = 1.0 + 0.06 * timing.chip
         inner = [one.strip for one in group if matches(one.edges, timing.edges, near).sum() > 2]
         spans = spans_of(strips, inner, timing, bounds, columns) if inner else np.zeros((0, 4))
-        if len(spans) >= _LEAST_STRIPS:
+        if len(spans) >= _LEAST_STRIPS and len(set(inner)) >= _SEEN * len(spans):
             found.append(_described(timing, spans))
     return found
 

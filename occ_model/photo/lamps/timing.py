@@ -18,8 +18,24 @@ _CODE_OFF = 0.045
 _TIGHTER = 0.5
 """Share of the tolerance of a single strip's edges with which those of many rows are judged."""
 
-_SAME = 0.02
-"""Share of the spacing by which those of a lamp and of its reflection may differ."""
+_OFF_END = 0.1
+"""Share of a chip by which an outermost edge must lie off a code's lattices to be the lamp's rim."""
+
+_RIM_EDGES = 3
+"""Most edges at both ends that can be those of a lamp's rim."""
+
+_CODE_EDGES = 6
+"""Fewest edges that are left of a code."""
+
+_FINEST = 0.1
+"""Columns to which the place of an edge is known at best."""
+
+_SAME, _SHADED = 0.003, 0.06
+"""Shares of the spacing by which those of a lamp and of its reflection may differ.
+
+The second is divided by the number of edges: a lamp that is darker towards its rim, seen on a lit
+wall, has its outer edges a little farther inside.
+"""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,7 +82,8 @@ class LampTiming:
         """Whether another lamp blinks in time with this one: its edges lie on the same lattices."""
         if self.is_code != other.is_code:
             return False
-        if abs(self.spacing - other.spacing) > _SAME * self.spacing:
+        same = _SAME + _SHADED / len(other.edges)
+        if abs(self.spacing - other.spacing) > same * self.spacing:
             return False
         offs = []
         for kind, start in ((True, self.rise), (False, self.fall)):
@@ -105,17 +122,47 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     is_code = segment.period is None
     spacing = segment.chip if segment.period is None else segment.period
     inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
-    edges = Edges(edges.place[inside], edges.rises[inside], edges.low[inside], edges.high[inside])
-    weights = weights[inside]
+    first, last = int(np.argmax(inside)), len(edges) - int(np.argmax(inside[::-1]))
+    fit = _fitted(edges.part(first, last), weights[first:last], spacing)
+    for _ in range(_RIM_EDGES):
+        if fit is None or not is_code or last - first <= _CODE_EDGES:
+            break
+        # The rim of a lamp is an edge too, which lies anywhere.
+        ends = np.abs(fit.residual[[0, -1]]) > _OFF_END * spacing
+        if not ends.any():
+            break
+        first, last = first + int(ends[0]), last - int(ends[1])
+        fit = _fitted(edges.part(first, last), weights[first:last], spacing)
+    if fit is None:
+        return None
+    chip = spacing if is_code else 0.5 * spacing
+    off = float(np.sqrt(np.average(fit.residual**2, weights=weights[first:last]))) / chip
+    return LampTiming(
+        fit.spacing, fit.uncertainty, fit.rise, fit.fall, is_code, off, edges.part(first, last)
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Lattices:
+    """Lattices fitted to rising and falling edges, and the distances of the edges from them."""
+
+    spacing: float
+    uncertainty: float
+    rise: float
+    fall: float
+    residual: FloatArray
+
+
+def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | None:
+    """Fit lattices of about a spacing; None where there are only rising or only falling edges."""
     steps = np.zeros(len(edges))
     for kind in (True, False):
         same = edges.rises == kind
         if not same.any():
             return None
         # From one edge to the next, so that an error of the spacing does not add up.
-        steps[same] = np.concatenate(
-            [[0.0], np.cumsum(np.rint(np.diff(edges.place[same]) / spacing))]
-        )
+        apart = np.rint(np.diff(edges.place[same]) / spacing)
+        steps[same] = np.concatenate([[0.0], np.cumsum(apart)])
     shapes = np.column_stack([steps, edges.rises, ~edges.rises]).astype(np.float64)
     root = np.sqrt(weights)
     fitted, *_ = np.linalg.lstsq(shapes * root[:, None], edges.place * root, rcond=None)
@@ -123,10 +170,6 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     freedom = max(len(edges) - 3, 1)
     inverse = np.linalg.pinv((shapes * root[:, None]).T @ (shapes * root[:, None]))
     # Edges are found to a tenth of a column at best, whatever few of them happen to agree.
-    variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * 0.01)
-    chip = spacing if is_code else 0.5 * spacing
-    off = float(np.sqrt(np.average(residual**2, weights=weights))) / chip
-    return LampTiming(
-        float(fitted[0]), float(np.sqrt(variance * inverse[0, 0])),
-        float(fitted[1]), float(fitted[2]), is_code, off, edges,
-    )  # fmt: skip
+    variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * _FINEST**2)
+    deviation = float(np.sqrt(variance * inverse[0, 0]))
+    return _Lattices(float(fitted[0]), deviation, float(fitted[1]), float(fitted[2]), residual)

@@ -22,7 +22,7 @@ _COLUMN = 0.8
 _LEAST_EDGES = 4
 """Fewest edges of a lamp: two rising and two falling ones."""
 
-_RIM_EDGES = 3
+_RIM_EDGES = 4
 """Edges by which a code must explain more than a progression does: a lamp's rim has two of them."""
 
 _MOST = 64

@@ -15,6 +15,9 @@ _OFF = 0.06
 _FAINT = 0.2
 """Share of a lamp's swing below which a strip shows light scattered from it, not the lamp."""
 
+_MOSTLY = 0.7
+"""Share of the edges between a lamp's outermost ones that must be its own."""
+
 _RIM = 0.4
 """Share of the swing beside it with which a rim cuts a bright stripe."""
 
@@ -95,6 +98,8 @@ def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float]
     if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None
     begin, end = int(shared[0]), int(shared[-1])
+    if len(shared) < _MOSTLY * np.count_nonzero(swing[begin : end + 1] > least):
+        return None
     first, last = float(edges.place[begin]), float(edges.place[end])
     stripe = _WIDER * timing.longest_stripe
     if begin == 0 and not edges.rises[begin] and first < stripe:

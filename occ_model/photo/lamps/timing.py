@@ -18,11 +18,8 @@ _CODE_OFF = 0.045
 _TIGHTER = 0.5
 """Share of the tolerance of a single strip's edges with which those of many rows are judged."""
 
-_OFF_END = 0.1
-"""Share of a chip by which an outermost edge must lie off a code's lattices to be the lamp's rim."""
-
-_RIM_EDGES = 3
-"""Most edges at both ends that can be those of a lamp's rim."""
+_MUCH_BETTER = 0.5
+"""Share of the distances from a code's lattices that is left where a rim is left out."""
 
 _CODE_EDGES = 6
 """Fewest edges that are left of a code."""
@@ -124,33 +121,31 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
     first, last = int(np.argmax(inside)), len(edges) - int(np.argmax(inside[::-1]))
     fit = _fitted(edges.part(first, last), weights[first:last], spacing)
-    for _ in range(_RIM_EDGES):
-        if fit is None or not is_code or last - first <= _CODE_EDGES:
+    # The rim of a lamp is an edge too, which lies anywhere.
+    for left, right in ((1, 0), (0, 1), (1, 1)) if is_code else ():
+        begin, end = first + left, last - right
+        if end - begin < _CODE_EDGES:
             break
-        # The rim of a lamp is an edge too, which lies anywhere.
-        ends = np.abs(fit.residual[[0, -1]]) > _OFF_END * spacing
-        if not ends.any():
-            break
-        first, last = first + int(ends[0]), last - int(ends[1])
-        fit = _fitted(edges.part(first, last), weights[first:last], spacing)
+        inner = _fitted(edges.part(begin, end), weights[begin:end], spacing)
+        if fit is not None and inner is not None and inner.off < _MUCH_BETTER * fit.off:
+            fit = inner
     if fit is None:
         return None
     chip = spacing if is_code else 0.5 * spacing
-    off = float(np.sqrt(np.average(fit.residual**2, weights=weights[first:last]))) / chip
-    return LampTiming(
-        fit.spacing, fit.uncertainty, fit.rise, fit.fall, is_code, off, edges.part(first, last)
-    )
+    off = fit.off / chip
+    return LampTiming(fit.spacing, fit.uncertainty, fit.rise, fit.fall, is_code, off, fit.edges)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Lattices:
-    """Lattices fitted to rising and falling edges, and the distances of the edges from them."""
+    """Lattices fitted to rising and falling edges, and how far these lie from them in columns."""
 
     spacing: float
     uncertainty: float
     rise: float
     fall: float
-    residual: FloatArray
+    off: float
+    edges: Edges
 
 
 def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | None:
@@ -172,4 +167,5 @@ def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | No
     # Edges are found to a tenth of a column at best, whatever few of them happen to agree.
     variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * _FINEST**2)
     deviation = float(np.sqrt(variance * inverse[0, 0]))
-    return _Lattices(float(fitted[0]), deviation, float(fitted[1]), float(fitted[2]), residual)
+    off = float(np.sqrt(np.average(residual**2, weights=weights)))
+    return _Lattices(*(float(value) for value in (fitted[0], deviation, *fitted[1:], off)), edges)

@@ -16,6 +16,10 @@ _BESIDE = 0.15
 """Share of a neighbouring step below which a step is ringing, scatter or texture beside it."""
 
 
+_ALIKE = 0.5
+"""Ratio to the swing around it from which an edge is one of the same lamp."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Edges:
     """Edges between bright and dark, from left to right, falling and rising in turn.
@@ -40,7 +44,10 @@ class Edges:
 
     def part(self, first: int, last: int) -> "Edges":
         """Give the edges from the first to before the last."""
-        chosen = slice(first, last)
+        return self.where(slice(first, last))
+
+    def where(self, chosen: slice | np.ndarray) -> "Edges":
+        """Give the edges that are chosen, in their order."""
         return Edges(self.place[chosen], self.rises[chosen], self.low[chosen], self.high[chosen])
 
 
@@ -59,12 +66,9 @@ def edges_of(profile: FloatArray) -> Edges:
     first, last = turns[:-1], turns[1:]
     levels = profile[turns]
     low, high = np.minimum(levels[:-1], levels[1:]), np.maximum(levels[:-1], levels[1:])
-    place = np.array(
-        [
-            _crossing(profile, int(a), int(b), 0.5 * float(low[i] + high[i]))
-            for i, (a, b) in enumerate(zip(first, last, strict=True))
-        ]
-    )
+    middle = _middle(low, high).tolist()
+    ends = zip(first.tolist(), last.tolist(), middle, strict=True)
+    place = np.array([_crossing(profile, a, b, level) for a, b, level in ends])
     return Edges(place.reshape(-1), levels[1:] > levels[:-1], low, high)
 
 
@@ -109,6 +113,24 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
             break
         kept = kept[~gone]
     return kept
+
+
+def _middle(low: FloatArray, high: FloatArray) -> FloatArray:
+    """Give the level at which each edge is placed: the middle between the levels around it.
+
+    A chip shorter than the exposure does not reach the levels of its neighbours, yet it is as long
+    as them at the middle of theirs.
+    """
+    if low.size == 0:
+        return low
+    lows = np.pad(low, 1, mode="edge")
+    highs = np.pad(high, 1, mode="edge")
+    lowest = np.minimum(np.minimum(lows[:-2], lows[2:]), low)
+    highest = np.maximum(np.maximum(highs[:-2], highs[2:]), high)
+    middle = 0.5 * (lowest + highest)
+    alike = high - low > _ALIKE * (highest - lowest)
+    inside = (middle > low) & (middle < high)
+    return np.where(alike & inside, middle, 0.5 * (low + high))
 
 
 def _crossing(profile: FloatArray, first: int, last: int, level: float) -> float:

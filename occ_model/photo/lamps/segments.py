@@ -40,8 +40,8 @@ _MOST_EDGES = 400
 _ON_LATTICE = 0.9
 """Coherence of edges with a lattice of chips from which they are those of one code."""
 
-_CHIPS = np.geomspace(0.72, 1.4, 160)
-"""Lengths of a chip that are tried, as a ratio to the shortest distance of two edges."""
+_SHORTEST, _LONGEST, _STEPS = 0.72, 1.4, 200
+"""Lengths of a chip that are tried: ratios to the distances of near edges, and their number."""
 
 _OFF_LATTICE = 0.2
 """Share of a chip by which a code's edge may lie off its lattice."""
@@ -191,7 +191,8 @@ def chip_of(edges: Edges) -> float | None:
     """
     if len(edges) < _CODE_EDGES:
         return None
-    chips = float(np.quantile(np.diff(edges.place[1:-1]), 0.25)) * _CHIPS
+    near, usual = np.quantile(np.diff(edges.place[1:-1]), [0.1, 0.25]).tolist()
+    chips = np.geomspace(_SHORTEST * near, _LONGEST * usual, _STEPS)
     coherence = coherence_of(edges.part(1, len(edges) - 1), chips)
     best = int(np.argmax(coherence))
     return float(chips[best]) if coherence[best] >= _ON_LATTICE else None

@@ -101,16 +101,30 @@ def timings_of(edges: Edges, weights: FloatArray) -> list[LampTiming]:
     weights : ndarray of float64, shape (edges,)
         How many rows show each.
     """
-    found = []
-    for segment in segments_of(edges, 0, _TIGHTER):
-        timing = _refined(segment, edges, weights)
-        if timing is not None and (not timing.is_code or timing.off < _CODE_OFF):
-            found.append(timing)
-        else:
+    found: list[LampTiming] = []
+    waiting = [(edges, weights)]
+    while waiting:
+        part, shown = waiting.pop()
+        for segment in segments_of(part, 0, _TIGHTER):
+            timing = _refined(segment, part, shown)
+            if timing is not None and (not timing.is_code or timing.off < _CODE_OFF):
+                found.append(timing)
+                continue
             # Edges of two lamps side by side lie near some lattice too, but not on it.
-            parts = segments_of(segment.edges, 0, _TIGHTER, codes=False)
-            refined = (_refined(part, edges, weights) for part in parts)
-            found += [timing for timing in refined if timing is not None]
+            pulses = segments_of(segment.edges, 0, _TIGHTER, codes=False)
+            if not pulses:
+                continue
+            longest = max(pulses, key=lambda one: len(one.edges))
+            timing = _refined(longest, part, shown)
+            found += [timing] if timing is not None else []
+            before = part.place < longest.edges.place[0]
+            after = part.place > longest.edges.place[-1]
+            within = (part.place >= segment.edges.place[0]) & (
+                part.place <= segment.edges.place[-1]
+            )
+            waiting += [
+                (part.where(side & within), shown[side & within]) for side in (before, after)
+            ]
     return found
 
 

@@ -26,7 +26,7 @@ from occ_model.photo.fitted_scene import (
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Alternative, Match, Stripes
+from occ_model.results import Alternative, Lamp, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
@@ -54,7 +54,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     sent: str = "auto",
     averaging: str = "auto",
     fit_gamma: bool = False,
-    region: Corners | None = None,
+    region: Corners | Lamp | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Match:
     """Find the settings whose stripes match those of a photo.
@@ -80,7 +80,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         Whether gamma is estimated too; light is then averaged.
     region
         First row, row after the last, first column and column after the last of the rectangle in
-        which stripes are searched; None for the whole photo.
+        which stripes are searched; or a lamp; None for the whole photo.
     progress
         Called with the share of the work that is done. What it raises ends the match.
 

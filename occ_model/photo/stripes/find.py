@@ -15,8 +15,9 @@ from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo, column_means
 from occ_model.photo.reading.part import Corners, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
+from occ_model.photo.stripes.lamp_profile import lamp_profile
 from occ_model.photo.stripes.period import repeat_period
-from occ_model.results import Region, Stripes
+from occ_model.results import Lamp, Region, Stripes
 
 _BANDS = 64
 """Number of bands of rows whose means are compared with each other."""
@@ -49,8 +50,8 @@ _MOST_FULL = 0.8
 """Largest share of white columns with which the other columns still show the stripes."""
 
 
-def find_stripes(photo: Photo, region: Corners | None = None) -> Stripes:
-    """Find the stripes in a photo, or in a rectangle of it.
+def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
+    """Find the stripes in a photo, in a rectangle of it, or in a lamp of whatever shape.
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ def find_stripes(photo: Photo, region: Corners | None = None) -> Stripes:
         The photo, columns being the scan axis.
     region
         First row, row after the last, first column and column after the last of the rectangle in
-        which stripes are searched; None for the whole photo.
+        which stripes are searched; or a lamp; None for the whole photo.
 
     Returns
     -------
@@ -73,16 +74,21 @@ def find_stripes(photo: Photo, region: Corners | None = None) -> Stripes:
     """
     if region is None:
         return _stripes_of(photo)
+    if isinstance(region, Lamp):
+        return _stripes_between(photo, region.region, lamp_profile(photo, region))
     within = region_within(photo, region)
     found = _stripes_of(part_of(photo, within))
-    here = found.region
-    moved = Region(
+    return replace(found, region=_moved(found.region, within))
+
+
+def _moved(here: Region, within: Region) -> Region:
+    """Count the rows and columns of a rectangle in those of the photo that it was cut from."""
+    return Region(
         here.first_row + within.first_row,
         here.last_row + within.first_row,
         here.first_column + within.first_column,
         here.last_column + within.first_column,
     )
-    return replace(found, region=moved)
 
 
 def _stripes_of(photo: Photo) -> Stripes:
@@ -92,7 +98,12 @@ def _stripes_of(photo: Photo) -> Stripes:
             f"No stripes: the photo has {columns} columns; at least {_LEAST_COLUMNS} are needed."
         )
     first_row, last_row = _striped_rows(photo)
-    profile = column_means(photo, first_row, last_row)
+    rows = Region(first_row, last_row, 0, columns)
+    return _stripes_between(photo, rows, column_means(photo, first_row, last_row))
+
+
+def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes:
+    """Find the stripes in a rectangle whose column means are given."""
     first, last, gap = _striped_columns(profile)
     profile = profile[first:last]
     low, high = envelope(profile, 2 * gap)
@@ -107,11 +118,12 @@ def _stripes_of(photo: Photo) -> Stripes:
             "No stripes: nearly all columns of the panel are white; expose less, or choose another "
             "channel."
         )
-    part = photo.samples[first_row:last_row, first:last]
+    region = _moved(Region(0, rows.rows, first, last), rows)
+    part = photo.samples[
+        region.first_row : region.last_row, region.first_column : region.last_column
+    ]
     full = np.count_nonzero(part >= _FULL * photo.white) / part.size
-    return Stripes(
-        Region(first_row, last_row, first, last), profile, low, high, period, uncertainty, full
-    )
+    return Stripes(region, profile, low, high, period, uncertainty, full)
 
 
 def _striped_rows(photo: Photo) -> tuple[int, int]:

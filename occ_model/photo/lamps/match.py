@@ -1,0 +1,75 @@
+"""Match every lamp in a photo with a scene."""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from occ_model.errors import MatchError
+from occ_model.photo.lamps.find import find_lamps
+from occ_model.photo.match import match_photo
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Lamp, Match
+from occ_model.scene.scene import Scene
+
+MatchedLamp: TypeAlias = tuple[Lamp, Match | MatchError]
+
+_SEARCH = 0.2
+"""Share of the work that finding the lamps is."""
+
+
+def match_lamps(
+    photo: Photo,
+    scene: Scene,
+    *,
+    estimate: str = "readout_time",
+    sent: str = "auto",
+    averaging: str = "auto",
+    fit_gamma: bool = False,
+    progress: Callable[[float], object] | None = None,
+) -> tuple[MatchedLamp, ...]:
+    """Match every lamp in a photo with a scene, each by itself.
+
+    Parameters
+    ----------
+    photo, scene, estimate, sent, averaging, fit_gamma
+        As in :func:`occ_model.match_photo`.
+    progress
+        Called with the share of the work that is done. What it raises ends the match.
+
+    Returns
+    -------
+    tuple of (Lamp, Match or MatchError)
+        The lamps in the order of :func:`occ_model.find_lamps`; each with its match, or with why
+        there is none.
+
+    Raises
+    ------
+    ParameterError
+        ``estimate``, ``sent`` or ``averaging`` is not one of its words.
+    """
+    report = progress or (lambda _share: None)
+    lamps = find_lamps(photo, lambda share: report(_SEARCH * share))
+    matched: list[MatchedLamp] = []
+    each = (1.0 - _SEARCH) / max(len(lamps), 1)
+
+    def match(lamp: Lamp, begin: float) -> Match:
+        return match_photo(
+            photo,
+            scene,
+            estimate=estimate,
+            sent=sent,
+            averaging=averaging,
+            fit_gamma=fit_gamma,
+            region=lamp,
+            progress=lambda share: report(begin + each * share),
+        )
+
+    for number, lamp in enumerate(lamps):
+        if not lamp.modulated:
+            matched.append((lamp, MatchError("No stripes: its light does not change.")))
+            continue
+        try:
+            matched.append((lamp, match(lamp, _SEARCH + each * number)))
+        except MatchError as error:
+            matched.append((lamp, error))
+    report(1.0)
+    return tuple(matched)

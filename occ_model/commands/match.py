@@ -4,12 +4,14 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.assumption import assumption
+from occ_model.commands.lamp_report import lamp_lines, region_from
 from occ_model.commands.match_many import add_many_options, run_many, written_by
 from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
-from occ_model.errors import one_line
+from occ_model.errors import MatchError, ParameterError, one_line
+from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
-from occ_model.photo.reading.load import CHANNELS, load_photo
+from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Alternative, Match
 from occ_model.scene.from_text import write_scene_file
@@ -51,6 +53,14 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--channel", choices=CHANNELS, default=CHANNELS[0], help="default: %(default)s"
     )
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--region",
+        metavar="R0:R1,C0:C1",
+        help="search rows R0 to before R1 and columns C0 to before C1 only; columns are the scan "
+        "axis",
+    )
+    where.add_argument("--lamps", action="store_true", help="find and match every lamp by itself")
     parser.add_argument(
         "--out",
         type=Path,
@@ -61,12 +71,19 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.lamps and options.out:
+        raise ParameterError("--out is given with --lamps; allowed: the scene of one match.")
+    if options.more and (options.lamps or options.region):
+        raise ParameterError("--lamps or --region is given with several photos; allowed: one photo.")
+    region = None if options.region is None else region_from(options.region)
     scene = scene_of(options)
     if options.led_frequency is not None:
         scene = _square_wave(scene, options.led_frequency)
     if options.more:
         return run_many(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
+    if options.lamps:
+        return _run_lamps(photo, scene, options)
     with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
         match = match_photo(
             photo,
@@ -74,15 +91,43 @@ def _run(options: argparse.Namespace) -> int:
             estimate=options.estimate,
             sent=options.sent,
             fit_gamma=options.fit_gamma,
+            region=region,
             progress=lambda share: bar.update(share - bar.n),
         )
-    (known,) = (name for name in ESTIMATES if name not in match.uncertainties)
-    for line in _report(match, assumption(known, getattr(match, known), options)):
+    for line in _report(match, _how_known(match, options)):
         print(line)
     if options.out:
         write_scene_file(options.out, match.scene)
         print(f"{one_line(str(options.out))}: the fitted scene")
     return 0
+
+
+def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
+    """Print each lamp of a photo, and its match."""
+    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
+        matched = match_lamps(
+            photo,
+            scene,
+            estimate=options.estimate,
+            sent=options.sent,
+            fit_gamma=options.fit_gamma,
+            progress=lambda share: bar.update(share - bar.n),
+        )
+    if not matched:
+        raise MatchError("No lamp: nothing in the photo is bright or has stripes.")
+    for number, (lamp, match) in enumerate(matched, 1):
+        lines = lamp_lines(number, lamp)
+        if isinstance(match, Match):
+            lines += _report(match, _how_known(match, options))
+        elif lamp.modulated:
+            lines.append(str(match))
+        print("\n  ".join(lines))
+    return 0
+
+
+def _how_known(match: Match, options: argparse.Namespace) -> str:
+    (known,) = (name for name in ESTIMATES if name not in match.uncertainties)
+    return assumption(known, getattr(match, known), options)
 
 
 def _square_wave(scene: Scene, text: str) -> Scene:

@@ -1,0 +1,49 @@
+"""The regions and lamps of ``occ-model match`` as text."""
+
+import re
+
+from occ_model.errors import ParameterError, shown
+from occ_model.results import Lamp, Region
+
+_REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
+
+
+def region_from(text: str) -> Region:
+    """Read the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1.
+
+    Raises
+    ------
+    ParameterError
+        The text is no such rectangle.
+    """
+    found = _REGION.fullmatch(text.strip())
+    if found is None:
+        raise ParameterError(
+            f"--region is {shown(text)}; allowed: R0:R1,C0:C1, such as 100:800,0:1920: the first "
+            "row, the row after the last, and the same of the columns."
+        )
+    return Region(*(int(number) for number in found.groups()))
+
+
+def lamp_lines(number: int, lamp: Lamp) -> list[str]:
+    """Describe a lamp in lines."""
+    region = lamp.region
+    lines = [
+        f"lamp {number}: columns {region.first_column} to {region.last_column - 1}, rows "
+        f"{region.first_row} to {region.last_row - 1}, grey level {lamp.level:.0f}"
+    ]
+    product, deviation = lamp.switching_frequency_times_readout, lamp.product_uncertainty
+    if product is None or deviation is None:
+        return [*lines, "no stripes: its light does not change while the picture is read out"]
+    lines.append(f"frequency times readout time {product:.5f} ± {deviation:.2g} chips a column")
+    if lamp.periods is not None:
+        doubt = ": doubtful, so few can be a coincidence" if lamp.is_doubtful else ""
+        lines.append(f"{lamp.periods:.1f} periods in view{doubt}")
+    if lamp.reflections:
+        places = ", ".join(
+            f"columns {one.first_column} to {one.last_column - 1}, rows {one.first_row} to "
+            f"{one.last_row - 1}"
+            for one in lamp.reflections
+        )
+        lines.append(f"reflected at {places}")
+    return lines

@@ -96,7 +96,11 @@ class Desktop(QObject):
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
         self.layout = DockLayout(window, window.docks, preferences)
-        self.autosave = Autosave(parts.store, parts.settings, self.document, lambda: self._photo)
+        lamps = parts.photo_wiring.lamps
+        self.autosave = Autosave(
+            parts.store, parts.settings, self.document, lambda: self._photo, lambda: lamps.by_hand
+        )
+        lamps.region_changed.connect(lambda _region: self.autosave.note_change())
         self.error_reports = ErrorReports()
         self.pointer = CursorReadout(parts.profile, parts.image)
         self._connect()

@@ -63,6 +63,8 @@ class Start:
         wins = self.scene_asked or self.fresh
         application.desktop.resume(self.session_file, self.session, wins, self.fresh)
         if with_photo and not wins and self.session.photo is not None:
+            if self.session.region is not None:
+                application.photo_wiring.lamps.keep(self.session.photo, self.session.region)
             application.open_photo(self.session.photo, front=False)
 
 

@@ -11,6 +11,7 @@ from occ_gui.files.session import Session, SessionFile
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
+from occ_model.results import Region
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.scene import Scene
 
@@ -29,6 +30,8 @@ class Autosave(QObject):
         Knows the file of the scene.
     photo
         Returns the path of the open photo, if any.
+    region
+        Returns the rectangle of the photo that was drawn by hand, if any.
     """
 
     status_message = Signal(str)
@@ -40,11 +43,12 @@ class Autosave(QObject):
         settings: SettingsStore,
         document: Document,
         photo: Callable[[], Path | None],
+        region: Callable[[], Region | None] = lambda: None,
     ) -> None:
         super().__init__()
         self._store, self._settings = store, settings
         self._document = document
-        self._photo = photo
+        self._photo, self._region = photo, region
         self._file: SessionFile | None = None
         self._has_failed = False
         # Started by the first change only: if each change restarted it, it would never run out
@@ -105,7 +109,11 @@ class Autosave(QObject):
         if self._file is None:
             return
         session = Session(
-            self._store.scene, self._settings.settings, self._document.path, self._photo()
+            self._store.scene,
+            self._settings.settings,
+            self._document.path,
+            self._photo(),
+            self._region(),
         )
         try:
             self._file.write(session, in_use)

@@ -15,6 +15,7 @@ from occ_gui.files.preferences import text_of
 from occ_model.errors import OccError, OutputError
 from occ_model.files.reading import read_text
 from occ_model.files.writing import make_folder, write_whole
+from occ_model.results import Region
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
@@ -58,12 +59,15 @@ class Session:
         The file that the scene is saved to.
     photo
         The photo that is open.
+    region
+        The rectangle of the photo that was drawn by hand.
     """
 
     scene: Scene | None = None
     settings: SimulationSettings | None = None
     scene_file: Path | None = None
     photo: Path | None = None
+    region: Region | None = None
 
 
 class SessionFile:
@@ -130,6 +134,7 @@ class SessionFile:
             settings=_settings(record.get("settings"), self._effects),
             scene_file=_file(record.get("scene_file")),
             photo=_file(record.get("photo")),
+            region=_region(record.get("region")),
         )
 
     def write(self, session: Session, in_use: bool) -> None:
@@ -157,6 +162,7 @@ class SessionFile:
             "settings": None if settings is None else asdict(settings),
             "scene_file": _text(session.scene_file),
             "photo": _text(session.photo),
+            "region": None if session.region is None else asdict(session.region),
         }
         write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))
 
@@ -209,6 +215,16 @@ def _settings(values: Any, effects: Collection[str]) -> SimulationSettings | Non
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None
     return settings if is_known else None
+
+
+def _region(values: Any) -> Region | None:
+    """Return a rectangle of whole numbers; whether it lies in the photo shows when that is read."""
+    try:
+        region = Region(**values)
+    except TypeError:
+        return None
+    sides = asdict(region).values()
+    return region if all(type(side) is int and side >= 0 for side in sides) else None
 
 
 def _file(text: object) -> Path | None:

@@ -13,7 +13,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.photo.match import ESTIMATES, match_photo
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
+from occ_model.results import Lamp, Match, Region
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
 from occ_model.scene.scene import Scene
@@ -53,9 +53,12 @@ class MatchRequest:
     estimate: str
     sent: str
     fit_gamma: bool
+    region: Lamp | Region | None = None
 
 
-def request_of(photo: Photo, scene: Scene, choice: MatchChoice) -> MatchRequest:
+def request_of(
+    photo: Photo, scene: Scene, choice: MatchChoice, region: Lamp | Region | None = None
+) -> MatchRequest:
     """Build the request for a match from the user's choices.
 
     Raises
@@ -64,7 +67,7 @@ def request_of(photo: Photo, scene: Scene, choice: MatchChoice) -> MatchRequest:
         The frequency of the square wave is out of range.
     """
     scene, sent = known_scene(scene, choice)
-    return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma)
+    return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma, region)
 
 
 def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
@@ -96,6 +99,7 @@ def match(request: MatchRequest, report: Report) -> Match:
         estimate=request.estimate,
         sent=request.sent,
         fit_gamma=request.fit_gamma,
+        region=request.region,
         progress=report,
     )
 
@@ -142,6 +146,7 @@ class MatchController(QObject):
         self._scenes = scenes
         self._pane = pane
         self._photo: Photo | None = None
+        self._region: Lamp | Region | None = None
         self._known = self._asked_known = ""
         self.match: Match | None = None
         self.runner: Cancellable[MatchRequest, Match] = Cancellable(match, "match of the photo")
@@ -161,12 +166,16 @@ class MatchController(QObject):
         self.match = None
         self._pane.show_match(None)
 
+    def set_region(self, region: Lamp | Region | None) -> None:
+        """Match this lamp or rectangle from now on, or the whole photo."""
+        self._region = region
+
     def start(self, choice: MatchChoice) -> None:
         """Match the photo with the current scene."""
         if self._photo is None:
             return
         try:
-            request = request_of(self._photo, self._scenes.scene, choice)
+            request = request_of(self._photo, self._scenes.scene, choice, self._region)
         except OccError as error:
             self._fail(str(error))
             return

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
@@ -38,6 +39,7 @@ class PhotoView(QWidget):
         super().__init__(parent)
         self.many = ManyPhotosView()
         self.facts, self.form = PhotoFacts(), MatchForm()
+        self.lamps = LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.failure = QLabel()
         self.failure.setWordWrap(True)
@@ -83,6 +85,8 @@ class PhotoView(QWidget):
         layout.setSpacing(5)
         layout.addWidget(self.many)
         layout.addWidget(self.facts)
+        layout.addWidget(_line())
+        layout.addWidget(self.lamps)
         layout.addWidget(_line())
         layout.addWidget(self.form)
         layout.addWidget(self.failure)

@@ -1,8 +1,11 @@
 """Controllers of the photo, connected with the panes: reading, placing, comparing, matching."""
 
+from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QObject
 
 from occ_gui.photo.comparison_controller import ComparisonController
+from occ_gui.photo.lamp_controller import LampController
+from occ_gui.photo.lamp_outlines import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.photo_controller import PhotoController, PhotoReading
@@ -12,7 +15,7 @@ from occ_gui.picture.photo_overlay import MODES
 from occ_gui.picture.placement import Placement, PlacementStore
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.results import Match
+from occ_model.results import Lamp, Match, Region
 
 
 class PhotoWiring(QObject):
@@ -36,7 +39,10 @@ class PhotoWiring(QObject):
         self.comparison = ComparisonController(self.placements, profile)
         self.matching = MatchController(scenes, pane)
         self.many = ManyPhotosController(scenes, pane.many)
-        self.photos = PhotoController([image, pane, self.comparison, self.matching])
+        self.outlines = LampOutlines(image.photo.box)
+        self.lamps = LampController((pane.lamps, self.outlines))
+        self.photos = PhotoController([image, pane, self.comparison, self.matching, self.lamps])
+        self._connect_lamps()
         self.placements.changed.connect(self._show_placement)
         image.overlay.placed.connect(self.placements.move)
         pane.placement.placed.connect(self.placements.move)
@@ -59,10 +65,39 @@ class PhotoWiring(QObject):
         pane.show_scene(scenes.scene)
         self._show_reading(self.photos.reading)
 
+    def _connect_lamps(self) -> None:
+        form, lamps = self._pane.lamps, self.lamps
+        form.find_asked.connect(lamps.find)
+        form.chosen.connect(lamps.choose)
+        form.by_hand_chosen.connect(lamps.set_by_hand)
+        form.whole_asked.connect(lamps.match_whole)
+        self.outlines.clicked.connect(lamps.choose)
+        self.outlines.drawn.connect(lamps.draw)
+        lamps.searching.connect(form.show_searching)
+        lamps.failed.connect(form.show_sentence)
+        lamps.region_changed.connect(self.matching.set_region)
+        lamps.region_changed.connect(self._show_region)
+        self._image.photo.graphics.scene().sigMouseClicked.connect(self._click)
+
+    def _click(self, event: MouseClickEvent) -> None:
+        self.outlines.click(self._image.photo.box.mapSceneToView(event.scenePos()))
+
+    def _show_region(self, region: Lamp | Region | None) -> None:
+        by_hand = self.lamps.by_hand
+        within = region.region if isinstance(region, Lamp) else region
+        self._pane.lamps.show_region(within, self.lamps.chosen)
+        self._pane.lamps.show_by_hand(by_hand is not None)
+        self.outlines.show_rectangle(by_hand)
+        if region is not None and self._image.mode.key() != MODES[0]:
+            # Lamps and regions are drawn on the photo beside the picture.
+            self._image.mode_chosen.emit(MODES[0])
+
     @property
     def is_idle(self) -> bool:
         """Whether no work is running in the background."""
-        runs = (self.photos.runner, self.matching.runner, self.many.runner)
+        runs = (
+            self.photos.runner, self.matching.runner, self.many.runner, self.lamps.runner
+        )  # fmt: skip
         return self.comparison.runner.is_idle and not any(run.is_running for run in runs)
 
     def match(self) -> None:
@@ -95,4 +130,5 @@ class PhotoWiring(QObject):
         self.many.stop()
         self.matching.stop()
         self.comparison.stop()
+        self.lamps.stop()
         self.photos.stop()

@@ -74,7 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.lamps and options.out:
         raise ParameterError("--out is given with --lamps; allowed: the scene of one match.")
     if options.more and (options.lamps or options.region):
-        raise ParameterError("--lamps or --region is given with several photos; allowed: one photo.")
+        raise ParameterError("--lamps or --region is given with several photos; use one.")
     region = None if options.region is None else region_from(options.region)
     scene = scene_of(options)
     if options.led_frequency is not None:

@@ -23,11 +23,11 @@ _FAINT = 0.6
 _GAMMA = 2.2
 """Exponent by which grey levels are compared as light."""
 
-_PANES = 0.7
-"""Share of a period that is lit from which few stripes are the panes of a window between bars."""
+_PANES = 0.65
+"""Share of a period that is lit from which two stripes are the panes of a window between bars."""
 
-_LEAST_EDGES, _FEW_EDGES = 4, 6
-"""Edges, from a rising to a falling one, that two and three bright things side by side have."""
+_FEW_EDGES = 4
+"""Edges, from a rising to a falling one, that two bright things side by side have."""
 
 _LEAST_SPACING = 3.0
 """Fewest columns of a period or a chip: what is shorter is noise."""
@@ -103,7 +103,9 @@ def _blinking(
             continue
         near = 1.0 + 0.06 * timing.chip
         inner = [one.strip for one in group if matches(one.edges, timing.edges, near).sum() > 2]
-        spans = spans_of(strips, inner, timing, bounds, columns) if inner else np.zeros((0, 4))
+        if not inner:
+            continue
+        spans = spans_of(strips, inner, timing, bounds, columns)
         if len(spans) >= _LEAST_STRIPS and len(set(inner)) >= _SEEN * len(spans):
             found.append(_described(timing, spans))
     return found
@@ -132,10 +134,10 @@ def _is_lamp(timing: LampTiming) -> bool:
     if timing.spacing < _LEAST_SPACING:
         return False
     edges = timing.edges
-    if timing.is_code or len(edges) > _FEW_EDGES or not edges.rises[0] or edges.rises[-1]:
+    if timing.is_code or len(edges) > _FEW_EDGES or not edges.rises[0]:
         return True
     lit = (timing.fall - timing.rise) / timing.spacing % 1.0
-    return len(edges) > _LEAST_EDGES and lit <= _PANES
+    return lit <= _PANES
 
 
 def _without_glow(blinking: Sequence[_Blinking]) -> list[_Blinking]:

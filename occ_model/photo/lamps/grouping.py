@@ -69,7 +69,7 @@ def _agree(one: Segment, other: Segment) -> bool:
     if min(counts) < _LEAST_ALIKE:
         return False
     near = np.count_nonzero(matches(one.edges, other.edges, off))
-    return near >= max(_LEAST_ALIKE, _ALIKE * max(counts))
+    return bool(near >= max(_LEAST_ALIKE, _ALIKE * max(counts)))
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:

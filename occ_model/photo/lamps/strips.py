@@ -5,7 +5,7 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.reading.load import Photo
 
@@ -20,7 +20,7 @@ edges of a lamp what is interpolated from them leaves a pattern that repeats aft
 """
 
 
-def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, FloatArray]:
+def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, IndexArray]:
     """Average the rows of a photo in strips.
 
     Parameters
@@ -47,5 +47,6 @@ def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArr
         means[strip] = sums[0] * (WHITE / photo.white / len(part))
         report((strip + 1) / count)
     if columns >= _FINE:
-        means = cv2.blur(means, (_CELL, 1), borderType=cv2.BORDER_REPLICATE)
+        smooth = cv2.blur(means, (_CELL, 1), borderType=cv2.BORDER_REPLICATE)
+        means = np.asarray(smooth, dtype=np.float64)
     return means, bounds

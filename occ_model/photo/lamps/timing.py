@@ -182,4 +182,5 @@ def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | No
     variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * _FINEST**2)
     deviation = float(np.sqrt(variance * inverse[0, 0]))
     off = float(np.sqrt(np.average(residual**2, weights=weights)))
-    return _Lattices(*(float(value) for value in (fitted[0], deviation, *fitted[1:], off)), edges)
+    spacing, rise, fall = fitted.tolist()
+    return _Lattices(spacing, deviation, rise, fall, off, edges)

@@ -1,0 +1,158 @@
+"""Form of the lamps in a photo: a button that finds them, their table, and a region by hand."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_model.results import Lamp, Region
+
+_MOST_ROWS = 6
+"""Rows of the table that are seen without scrolling."""
+
+_ROW_HEIGHT = 24
+
+
+class LampForm(QWidget):
+    """What of a photo is matched: all of it, one of its lamps, or a rectangle drawn by hand."""
+
+    find_asked = Signal()
+    chosen = Signal(int)
+    """The user chose the lamp of this index."""
+
+    by_hand_chosen = Signal(bool)
+    """Whether the user matches a rectangle drawn on the photo."""
+
+    whole_asked = Signal()
+    """The user matches the whole photo again."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.search = QPushButton(self.tr("Find &lamps"))
+        self.search.setToolTip(
+            self.tr(
+                "Find every lamp in the photo, and whether its light changes while the picture is "
+                "read out. Choose one to match it by itself."
+            )
+        )
+        self.search.clicked.connect(self.find_asked)
+        self.by_hand = QPushButton(self.tr("Re&gion by hand"))
+        self.by_hand.setCheckable(True)
+        self.by_hand.setToolTip(
+            self.tr("Match only a rectangle: drag it, and its corners, on the photo.")
+        )
+        self.by_hand.toggled.connect(self.by_hand_chosen)
+        self.whole = QPushButton(self.tr("&Whole photo"))
+        self.whole.setToolTip(self.tr("Search the whole photo for stripes again."))
+        self.whole.clicked.connect(self.whole_asked)
+        self.place = QLabel()
+        self.place.setWordWrap(True)
+        self.place.setAccessibleName(self.tr("What is matched"))
+        self._make_table()
+        buttons = QHBoxLayout()
+        for button in (self.search, self.by_hand, self.whole):
+            buttons.addWidget(button)
+        buttons.addStretch()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(buttons)
+        layout.addWidget(self.table)
+        layout.addWidget(self.place)
+        self.show_lamps((), None)
+        self.show_region(None)
+
+    def _make_table(self) -> None:
+        self.table = QTableWidget(0, 4)
+        self.table.setHorizontalHeaderLabels(
+            [self.tr("Lamp"), self.tr("Columns"), self.tr("Chip"), self.tr("Periods")]
+        )
+        self.table.setAccessibleName(self.tr("Lamps in the photo"))
+        self.table.setToolTip(
+            self.tr(
+                "The lamps, the brightest first: the columns that each covers, the columns of a "
+                "chip, and the periods in view. Fewer than 2.5 are doubtful."
+            )
+        )
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.verticalHeader().hide()
+        self.table.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
+        self.table.setTabKeyNavigation(False)  # so that the keyboard can leave it
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+        self.table.itemSelectionChanged.connect(self._choose)
+
+    def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
+        """Show these lamps, one of them chosen, in place of the previous ones."""
+        with QSignalBlocker(self.table):
+            self.table.setRowCount(len(lamps))
+            for row, lamp in enumerate(lamps):
+                for column, text in enumerate(self._texts(row, lamp)):
+                    self.table.setItem(row, column, QTableWidgetItem(text))
+            self.table.clearSelection()
+            if chosen is not None:
+                self.table.selectRow(chosen)
+        rows = min(len(lamps), _MOST_ROWS)
+        self.table.setFixedHeight(self.table.horizontalHeader().sizeHint().height()
+                                  + rows * _ROW_HEIGHT + 4)  # fmt: skip
+        self.table.setVisible(bool(lamps))
+
+    def _texts(self, row: int, lamp: Lamp) -> tuple[str, str, str, str]:
+        region = lamp.region
+        columns = f"{region.first_column} to {region.last_column - 1}"
+        product = lamp.switching_frequency_times_readout
+        if product is None:
+            return str(row + 1), columns, self.tr("no stripes"), ""
+        chip = self.tr("{columns:.2f} px").format(columns=1.0 / product)
+        if lamp.periods is None:
+            return str(row + 1), columns, chip, self.tr("code")
+        doubt = self.tr(", doubtful") if lamp.is_doubtful else ""
+        return str(row + 1), columns, chip, f"{lamp.periods:.1f}{doubt}"
+
+    def show_sentence(self, sentence: str) -> None:
+        """Show what became of the search for lamps."""
+        self.place.setText(sentence)
+
+    def show_region(self, region: Region | None, lamp: int | None = None) -> None:
+        """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
+        self.whole.setEnabled(region is not None)
+        if region is None:
+            self.place.setText(self.tr("The whole photo is matched."))
+            return
+        what = (
+            self.tr("A region by hand") if lamp is None
+            else self.tr("Lamp {number}").format(number=lamp + 1)
+        )  # fmt: skip
+        self.place.setText(
+            self.tr("{what} is matched: columns {left} to {right}, rows {top} to {bottom}.").format(
+                what=what, left=region.first_column, right=region.last_column - 1,
+                top=region.first_row, bottom=region.last_row - 1,
+            )
+        )  # fmt: skip
+
+    def show_by_hand(self, by_hand: bool) -> None:
+        """Show whether a rectangle is drawn by hand, without emitting a signal."""
+        with QSignalBlocker(self.by_hand):
+            self.by_hand.setChecked(by_hand)
+
+    def show_searching(self, searching: bool) -> None:
+        """Show whether lamps are being searched."""
+        self.search.setEnabled(not searching)
+        if searching:
+            self.place.setText(self.tr("Searching for lamps…"))
+
+    def _choose(self) -> None:
+        rows = {item.row() for item in self.table.selectedItems()}
+        if len(rows) == 1:
+            self.chosen.emit(rows.pop())

@@ -1,0 +1,99 @@
+"""Outlines of the lamps on the photo, each with its number, and a rectangle drawn by hand."""
+
+from collections.abc import Sequence
+
+import pyqtgraph as pg
+from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QPen, QPolygonF
+
+from occ_gui.widgets.plot import PHOTO, REGION
+from occ_model.results import Lamp, Region
+
+_THIN, _THICK = 2, 4
+_ABOVE = 20
+
+
+class LampOutlines(QObject):
+    """Draws on the view of a photo, whose first pixel's centre is at (0, 0).
+
+    Parameters
+    ----------
+    box
+        The view.
+    """
+
+    clicked = Signal(int)
+    """The user clicked the lamp of this index."""
+
+    drawn = Signal(object)
+    """The user drew another rectangle: a Region, which may leave the photo."""
+
+    def __init__(self, box: pg.ViewBox) -> None:
+        super().__init__()
+        self._box = box
+        self._lamps: Sequence[Lamp] = ()
+        self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
+        self._updating = False
+        self.rectangle = pg.RectROI((0, 0), (1, 1), pen=pg.mkPen(REGION, width=_THIN))
+        self.rectangle.addScaleHandle((0, 0), (1, 1))
+        self.rectangle.setZValue(_ABOVE + 1)
+        self.rectangle.hide()
+        self.rectangle.sigRegionChangeFinished.connect(self._follow)
+        box.addItem(self.rectangle, ignoreBounds=True)
+
+    def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
+        """Draw the outlines of these lamps, that of the chosen one thicker."""
+        for curve, number in self.items:
+            self._box.removeItem(curve)
+            self._box.removeItem(number)
+        self.items = []
+        self._lamps = lamps
+        for index, lamp in enumerate(lamps):
+            self.items.append(self._draw(index, lamp, index == chosen))
+
+    def _draw(
+        self, index: int, lamp: Lamp, is_chosen: bool
+    ) -> tuple[pg.PlotCurveItem, pg.TextItem]:
+        pen = QPen(REGION if is_chosen else PHOTO, _THICK if is_chosen else _THIN)
+        pen.setCosmetic(True)
+        if not lamp.modulated:
+            pen.setStyle(Qt.PenStyle.DotLine)
+        outline = lamp.outline
+        curve = pg.PlotCurveItem(outline[:, 0], outline[:, 1], pen=pen)
+        number = pg.TextItem(str(index + 1), color=pen.color(), anchor=(0, 1), fill=(0, 0, 0, 160))
+        number.setPos(lamp.region.first_column, lamp.region.first_row)
+        for item in (curve, number):
+            item.setZValue(_ABOVE)
+            self._box.addItem(item, ignoreBounds=True)
+        return curve, number
+
+    def click(self, position: QPointF) -> None:
+        """Choose the lamp at a place in the photo, if there is one."""
+        row, column = round(position.y()), round(position.x())
+        for index, lamp in enumerate(self._lamps):
+            outline = QPolygonF([QPointF(x, y) for x, y in lamp.outline.tolist()])
+            if lamp.covers(row, column) or outline.containsPoint(position, Qt.FillRule.OddEvenFill):
+                self.clicked.emit(index)
+                return
+
+    def show_rectangle(self, region: Region | None) -> None:
+        """Draw this rectangle for the mouse, or none."""
+        self.rectangle.setVisible(region is not None)
+        if region is None:
+            return
+        self._updating = True
+        self.rectangle.setPos((region.first_column - 0.5, region.first_row - 0.5), update=False)
+        self.rectangle.setSize((region.columns, region.rows))
+        self._updating = False
+
+    def _follow(self) -> None:
+        if self._updating:
+            return
+        corner, size = self.rectangle.pos(), self.rectangle.size()
+        rect = QRectF(corner.x(), corner.y(), size.x(), size.y()).normalized()
+        self.drawn.emit(
+            Region(
+                round(rect.top() + 0.5), round(rect.bottom() + 0.5),
+                round(rect.left() + 0.5), round(rect.right() + 0.5),
+            )
+        )  # fmt: skip

@@ -15,7 +15,7 @@ from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Comparison, Frame, Match, Stripes
+from occ_model.results import Comparison, Frame, Lamp, Match, Region, Stripes
 
 _FLAT = 0.5
 """Swing in grey levels below which the simulated columns show no stripes."""
@@ -33,16 +33,18 @@ class StripeSearch:
     """Result of searching a photo for stripes: the stripes, or a sentence why there are none."""
 
     photo: Photo
+    region: Lamp | Region | None
     stripes: Stripes | None
     sentence: str
 
 
-def search_stripes(photo: Photo) -> StripeSearch:
-    """Search a photo for stripes; the result says why if there are none."""
+def search_stripes(request: tuple[Photo, Lamp | Region | None]) -> StripeSearch:
+    """Search a photo, or a part of it, for stripes; the result says why if there are none."""
+    photo, region = request
     try:
-        return StripeSearch(photo, find_stripes(photo), "")
+        return StripeSearch(photo, region, find_stripes(photo, region), "")
     except MatchError as error:
-        return StripeSearch(photo, None, str(error))
+        return StripeSearch(photo, region, None, str(error))
 
 
 class ComparisonController(QObject):
@@ -63,11 +65,12 @@ class ComparisonController(QObject):
         self._placements = placements
         self._pane = pane
         self._photo: Photo | None = None
+        self._region: Lamp | Region | None = None
         self._snapshot: Snapshot | None = None
         self._stripes: Stripes | None = None
         self._sentence = ""
         self._enhanced = False
-        self.runner: LatestWins[Photo, StripeSearch] = LatestWins(
+        self.runner: LatestWins[tuple[Photo, Lamp | Region | None], StripeSearch] = LatestWins(
             search_stripes, "search for stripes"
         )
         self.runner.finished.connect(self._take)
@@ -82,13 +85,23 @@ class ComparisonController(QObject):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Compare this photo in place of the previous one, or none."""
-        self._photo = photo
-        self._stripes, self._sentence = None, ""
-        if photo is not None:
-            self.runner.submit(photo)
+        self._photo, self._region = photo, None
+        self._search()
         self._placements.reset()
         self._suggest_placement()
         self._compare()
+
+    def set_region(self, region: Lamp | Region | None) -> None:
+        """Compare the stripes of this lamp or rectangle from now on, or of the whole photo."""
+        if region is not self._region and region != self._region:
+            self._region = region
+            self._search()
+            self._compare()
+
+    def _search(self) -> None:
+        self._stripes, self._sentence = None, ""
+        if self._photo is not None:
+            self.runner.submit((self._photo, self._region))
 
     def show_match(self, match: Match) -> None:
         """Use the stripes of a match, whose levels are those of the fit."""
@@ -102,7 +115,8 @@ class ComparisonController(QObject):
 
     def _take(self, found: StripeSearch) -> None:
         # Ignore the stripes of a photo that was closed; those of a match take precedence.
-        if found.photo is self._photo and self._stripes is None:
+        wanted = found.photo is self._photo and found.region is self._region
+        if wanted and self._stripes is None:
             self._stripes, self._sentence = found.stripes, found.sentence
             self._compare()
 

@@ -90,7 +90,9 @@ class LampForm(QWidget):
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
         self.table.setTabKeyNavigation(False)  # so that the keyboard can leave it
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setStretchLastSection(True)
         self.table.itemSelectionChanged.connect(self._choose)
 
     def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:

@@ -76,6 +76,7 @@ class PhotoWiring(QObject):
         lamps.searching.connect(form.show_searching)
         lamps.failed.connect(form.show_sentence)
         lamps.region_changed.connect(self.matching.set_region)
+        lamps.region_changed.connect(self.comparison.set_region)
         lamps.region_changed.connect(self._show_region)
         self._image.photo.graphics.scene().sigMouseClicked.connect(self._click)
 

@@ -2,8 +2,8 @@
 
 Round and rectangular lamps, some of them touching, send square waves, pulses or codes of 2 to 5 kHz
 before a dark or a lit background. Beside them are lamps of constant light, window panes, and
-reflections. Light is scattered in the lens before the shutter samples it, and the camera adds a tone
-curve that nobody knows, noise, white that is clipped, and JPEG.
+reflections. Light is scattered in the lens before the shutter samples it, and the camera adds a
+tone curve that nobody knows, noise, white that is clipped, and JPEG.
 """
 
 from dataclasses import dataclass

@@ -34,6 +34,9 @@ _LEAST_SPACING = 3.0
 
 _LEAST_STRIPS = 2
 
+_LEAST_COLUMNS, _REPEATED = 16, 2.0
+"""Columns, and periods, that a lamp has at least."""
+
 _SEEN = 0.3
 """Share of a lamp's strips that must show its period by themselves."""
 
@@ -106,9 +109,20 @@ def _blinking(
         if not inner:
             continue
         spans = spans_of(strips, inner, timing, bounds, columns)
+        if _columns(spans) < _least_columns(timing):
+            continue
         if len(spans) >= _LEAST_STRIPS and len(set(inner)) >= _SEEN * len(spans):
             found.append(_described(timing, spans))
     return found
+
+
+def _columns(spans: IndexArray) -> int:
+    return int(spans[:, 3].max() - spans[:, 2].min()) if len(spans) else 0
+
+
+def _least_columns(timing: LampTiming) -> float:
+    """Give the columns that a lamp fills at least, if a period is to be seen repeating."""
+    return _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _REPEATED * timing.spacing)
 
 
 def _described(timing: LampTiming, spans: IndexArray) -> _Blinking:

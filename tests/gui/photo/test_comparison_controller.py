@@ -52,7 +52,7 @@ class Bench:
         self.controller = ComparisonController(self.placements, self)
         self._qtbot = qtbot
 
-    def _find(self, photo: Photo) -> Stripes:
+    def _find(self, photo: Photo, region: object = None) -> Stripes:
         assert self.go_on.wait(PATIENCE_S)
         self.searched.append(photo)
         return self.stripes(photo)

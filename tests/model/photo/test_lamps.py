@@ -1,0 +1,150 @@
+"""Several lamps in one photo: each is found, with its frequency, and matched by itself."""
+
+import numpy as np
+import pytest
+from photo_world.lamp_scores import score_of
+from simulated_photos import photo_of
+
+import occ_model as occ
+from occ_model.arrays import ByteArray
+from occ_model.files.writing import write_image
+
+ROWS, COLUMNS = 240, 720
+
+
+def stripes(period: float, phase: float = 0.0, duty: float = 0.5) -> np.ndarray:
+    """One row of stripes of an LED that is on for a share of each period, blurred a little."""
+    fine = (np.arange(8 * COLUMNS) / 8 + phase) / period % 1.0 < duty
+    return np.convolve(fine.reshape(-1, 8).mean(axis=1), np.ones(3) / 3, mode="same")
+
+
+def picture(*lamps: tuple[tuple[int, int, int, int], float, float, float]) -> ByteArray:
+    """Draw lamps (rows and columns, level, period, phase) on a dark, noisy wall."""
+    noise = np.random.default_rng(1).normal(0.0, 2.0, (ROWS, COLUMNS))
+    image = 12.0 + noise
+    for (top, bottom, left, right), level, period, phase in lamps:
+        row = stripes(period, phase) if period else np.ones(COLUMNS)
+        image[top:bottom, left:right] += level * row[left:right]
+    return np.clip(np.rint(image), 0, 255).astype(np.uint8)
+
+
+def products(image: ByteArray) -> list[float]:
+    found = [lamp.switching_frequency_times_readout for lamp in occ.find_lamps(photo_of(image))]
+    return [product for product in found if product is not None]
+
+
+def test_nearly_all_lamps_of_simulated_scenes_are_found() -> None:
+    score = score_of(range(2000, 2008))
+    assert score.found >= 0.9 * score.there
+    assert score.right >= 0.9 * score.there
+    assert score.invented <= 0.05 * score.reported + 1
+
+
+@pytest.mark.parametrize(
+    "second", [(120, 220, 100, 400), (20, 120, 400, 700)], ids=["below", "beside"]
+)
+def test_lamps_that_touch_are_two(second: tuple[int, int, int, int]) -> None:
+    image = picture(((20, 120, 100, 400), 200.0, 30.0, 3.0), (second, 150.0, 41.0, 11.0))
+    assert products(image) == pytest.approx([2 / 30.0, 2 / 41.0], rel=0.01)
+
+
+def test_the_brightest_lamp_is_first() -> None:
+    image = picture(((20, 80, 50, 350), 120.0, 30.0, 0.0), ((120, 200, 380, 690), 220.0, 37.0, 0.0))
+    assert products(image) == pytest.approx([2 / 37.0, 2 / 30.0], rel=0.01)
+
+
+def test_a_fainter_place_in_time_with_a_lamp_is_its_reflection() -> None:
+    lamp, faint = (20, 100, 50, 350), (130, 220, 380, 690)
+    image = picture((lamp, 220.0, 30.0, 5.0), (faint, 60.0, 30.0, 5.0))
+    (found,) = occ.find_lamps(photo_of(image))
+    (mirrored,) = found.reflections
+    assert mirrored.first_column == pytest.approx(faint[2], abs=16)
+    image = picture((lamp, 220.0, 30.0, 5.0), (faint, 60.0, 30.0, 15.0))
+    assert len(occ.find_lamps(photo_of(image))) == 2
+
+
+def test_a_lamp_of_constant_light_is_not_modulated() -> None:
+    image = picture(((20, 100, 50, 350), 220.0, 30.0, 5.0), ((140, 200, 420, 520), 230.0, 0.0, 0.0))
+    kinds = {lamp.modulated: lamp for lamp in occ.find_lamps(photo_of(image))}
+    assert kinds[False].region.first_column == pytest.approx(420, abs=4)
+    assert kinds[False].switching_frequency_times_readout is None
+
+
+def test_two_panes_side_by_side_are_no_stripes() -> None:
+    image = picture(((40, 200, 100, 250), 220.0, 0.0, 0.0), ((40, 200, 270, 420), 220.0, 0.0, 0.0))
+    assert products(image) == []
+
+
+@pytest.mark.parametrize(("periods", "doubtful"), [(2.3, True), (6.0, False)])
+def test_stripes_that_repeat_about_twice_are_doubtful(periods: float, doubtful: bool) -> None:
+    right = 100 + round(periods * 60)
+    (lamp,) = occ.find_lamps(photo_of(picture(((40, 200, 100, right), 200.0, 60.0, 35.0))))
+    assert lamp.is_doubtful == doubtful
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_has_no_lamps(seed: int) -> None:
+    noise = np.random.default_rng(seed).normal(60.0, 25.0, (400, 900))
+    assert occ.find_lamps(photo_of(np.clip(noise, 0, 255).astype(np.uint8))) == ()
+
+
+def test_a_round_lamps_columns_are_alike_bright() -> None:
+    rows, columns = np.mgrid[0:ROWS, 0:COLUMNS]
+    disc = (rows - 120) ** 2 + (columns - 300) ** 2 < 110**2
+    image = np.where(disc, 200 * stripes(24.0)[None, :], 0.0) + 12
+    photo = photo_of(image.astype(np.uint8))
+    (lamp,) = occ.find_lamps(photo)
+    assert lamp.area == pytest.approx(disc.sum(), rel=0.1)
+    profile = occ.find_stripes(photo, lamp).profile
+    assert profile[:40].max() == pytest.approx(profile.max(), rel=0.1)
+    assert lamp.covers(120, 300)
+    assert not lamp.covers(20, 200)
+
+
+def test_every_lamp_is_matched_by_itself() -> None:
+    image = picture(
+        ((20, 120, 100, 400), 200.0, 30.0, 3.0), ((120, 220, 100, 400), 150.0, 41.0, 11.0)
+    )
+    scene = occ.Scene().replace(pattern="10", switching_frequency=2e3)
+    times = [
+        match.readout_time
+        for _, match in occ.match_lamps(photo_of(image), scene)
+        if isinstance(match, occ.Match)
+    ]
+    assert times == pytest.approx([1 / (15.0 * 2e3), 1 / (20.5 * 2e3)], rel=0.01)
+
+
+def test_what_progress_raises_ends_the_search() -> None:
+    shares: list[float] = []
+
+    def stop(share: float) -> None:
+        shares.append(share)
+        if share > 0.3:
+            raise InterruptedError
+
+    image = picture(((20, 120, 100, 400), 200.0, 30.0, 3.0))
+    with pytest.raises(InterruptedError):
+        occ.find_lamps(photo_of(image), stop)
+    assert shares == sorted(shares)
+    assert shares[-1] < 0.5
+
+
+def test_the_shell_lists_the_lamps(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> None:
+    from pathlib import Path
+
+    from occ_model.cli import main
+
+    path = Path(str(tmp_path)) / "lamps.png"
+    write_image(
+        path,
+        picture(((20, 120, 100, 400), 200.0, 30.0, 3.0), ((150, 220, 60, 160), 230.0, 0.0, 0.0)),
+    )
+    assert main(["match", str(path), "--lamps", "--led-frequency", "1kHz"]) == 0
+    said = capsys.readouterr().out
+    assert "lamp 1: " in said
+    assert "lamp 2: " in said
+    assert "no stripes" in said
+    assert main(["match", str(path), "--region", "20:120", "--led-frequency", "1kHz"]) != 0
+    assert "R0:R1,C0:C1" in capsys.readouterr().err
+    assert main(["match", str(path), "--region", "20:120,100:400", "--led-frequency", "1kHz"]) == 0
+    assert "rows 20 to 119" in capsys.readouterr().out

@@ -1,0 +1,91 @@
+"""Compare the lamps found in simulated photographs with those that are there."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from simulated_photos import photo_of
+
+import occ_model as occ
+from photo_world.lamp_scenes import LampScene, Thing, lamp_scene
+
+OVERLAP = 0.4
+"""Least share of the rectangle around two places that both fill, for them to be the same."""
+
+FREQUENCY = 0.03
+
+
+@dataclass
+class Score:
+    """Counts of lamps: there, found, found with the right frequency, reported, invented."""
+
+    there: int = 0
+    found: int = 0
+    right: int = 0
+    reported: int = 0
+    invented: int = 0
+    steady: int = 0
+    steady_found: int = 0
+    wrong_scenes: list[int] = field(default_factory=list)
+
+    def add(self, seed: int, scene: LampScene, lamps: Iterable[occ.Lamp]) -> None:
+        """Count the lamps of a scene; each lamp found is that of one at most."""
+        lamps = list(lamps)
+        blinking = [lamp for lamp in lamps if lamp.modulated]
+        before = self.found, self.right, self.invented
+        left = list(blinking)
+        for thing in scene.lamps:
+            best = max(left, key=lambda lamp: overlap(thing, lamp.region), default=None)
+            if best is None or overlap(thing, best.region) < OVERLAP:
+                continue
+            left.remove(best)
+            self.found += 1
+            assert best.switching_frequency_times_readout is not None
+            ratio = best.switching_frequency_times_readout * counted_chip(thing)
+            self.right += abs(ratio - 1.0) < FREQUENCY
+        self.there += len(scene.lamps)
+        self.reported += len(blinking)
+        self.invented += len(left)
+        for thing in scene.constant:
+            self.steady += 1
+            self.steady_found += any(
+                overlap(thing, lamp.region) > OVERLAP for lamp in lamps if not lamp.modulated
+            )
+        wanted = before[0] + len(scene.lamps), before[1] + len(scene.lamps), before[2]
+        if (self.found, self.right, self.invented) != wanted:
+            self.wrong_scenes.append(seed)
+
+    def lines(self) -> list[str]:
+        """Write the score."""
+        return [
+            f"lamps found: {100 * self.found / self.there:.1f} % of {self.there}",
+            f"frequency within {100 * FREQUENCY:g} %: {100 * self.right / self.there:.1f} %",
+            f"invented: {100 * self.invented / max(self.reported, 1):.1f} % of {self.reported}",
+            f"lamps of constant light found: {self.steady_found} of {self.steady}",
+            f"scenes with a mistake: {self.wrong_scenes}",
+        ]
+
+
+def counted_chip(thing: Thing) -> float:
+    """Give the columns of a chip; a pulse that repeats counts as two chips a cycle."""
+    pulses = sum(
+        on > before for before, on in zip(thing.wave, thing.wave[1:] + thing.wave[:1], strict=True)
+    )
+    return thing.chip * len(thing.wave) / 2 if pulses == 1 else thing.chip
+
+
+def overlap(thing: Thing, region: occ.Region) -> float:
+    """Give the intersection of two rectangles over their union."""
+    top, bottom, left, right = thing.box
+    rows = min(bottom, region.last_row) - max(top, region.first_row)
+    columns = min(right, region.last_column) - max(left, region.first_column)
+    shared = max(rows, 0.0) * max(columns, 0.0)
+    return shared / ((bottom - top) * (right - left) + region.rows * region.columns - shared)
+
+
+def score_of(seeds: Iterable[int]) -> Score:
+    """Find the lamps of some scenes, and count."""
+    score = Score()
+    for seed in seeds:
+        scene = lamp_scene(seed)
+        score.add(seed, scene, occ.find_lamps(photo_of(scene.image)))
+    return score

@@ -31,6 +31,9 @@ _MOST = 64
 _WIDE = 5.0
 """Ratio to the median distance of edges from which a gap lies between two lamps."""
 
+_LONG_EDGES, _ALL = 6, 0.9
+"""Edges of a long progression, and share of a code's edges from which those are all of them."""
+
 _CODE_EDGES = 7
 """Fewest edges from which the length of a chip is told."""
 
@@ -98,7 +101,11 @@ def segments_of(
         longest = max(progressions, key=lambda one: one[1] - one[0], default=(first, first, 0.0))
         begin, end, period = longest
         coded = _code_within(edges, first, last) if codes else None
-        if coded is not None and coded[1] - coded[0] >= end - begin + _RIM_EDGES:
+        if (
+            coded is not None
+            and coded[1] - coded[0] >= end - begin + _RIM_EDGES
+            and not _are_pulses(progressions, *coded[:2])
+        ):
             begin, end, chip = coded
             found.append(Segment(strip, edges.part(begin, end), None, chip))
         elif period:
@@ -111,6 +118,13 @@ def segments_of(
     if len(found) > _MOST:
         found.sort(key=lambda one: -float((one.edges.high - one.edges.low).sum()))
     return found[:_MOST]
+
+
+def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
+    """Whether a few long progressions explain edges as well: lamps of about the same period."""
+    inside = _clipped(progressions, first, last)
+    long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_EDGES)
+    return long >= _ALL * (last - first)
 
 
 def _clipped(

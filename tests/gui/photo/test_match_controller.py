@@ -117,6 +117,7 @@ def test_the_model_is_asked_for_what_was_chosen(
             "estimate": "switching_frequency",
             "sent": "read",
             "fit_gamma": True,
+            "region": None,
         }
     ]
 

@@ -1,0 +1,141 @@
+"""What of a photo is matched: a lamp chosen by a click or a row, or a rectangle drawn by hand."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pyqtgraph as pg
+import pytest
+from PySide6.QtCore import QPointF
+from pytestqt.qtbot import QtBot
+
+from occ_gui.files.session import Session, SessionFile
+from occ_gui.photo.lamp_controller import LampController
+from occ_gui.photo.lamp_form import LampForm
+from occ_gui.photo.lamp_outlines import LampOutlines
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Lamp, Region
+
+
+def lamp_at(region: Region, modulated: bool = True, periods: float = 6.0) -> Lamp:
+    spans = np.array([[region.first_row, region.last_row, region.first_column, region.last_column]])
+    product = 0.1 if modulated else None
+    return Lamp(region, spans, 200.0, modulated, 20.0, 0.1, product, 0.001, periods)
+
+
+LAMPS = (
+    lamp_at(Region(5, 25, 10, 40)),
+    lamp_at(Region(30, 50, 50, 90), modulated=False),
+    lamp_at(Region(30, 50, 10, 45), periods=2.1),
+)
+
+
+class Bench:
+    """The controller with its form and its outlines."""
+
+    def __init__(self, qtbot: QtBot, photo: Photo) -> None:
+        self.form = LampForm()
+        qtbot.addWidget(self.form)
+        self.view = pg.GraphicsView()
+        qtbot.addWidget(self.view)
+        self.box = pg.ViewBox()
+        self.view.setCentralItem(self.box)
+        self.outlines = LampOutlines(self.box)
+        self.lamps = LampController((self.form, self.outlines))
+        self.regions: list[object] = []
+        self.lamps.region_changed.connect(self.regions.append)
+        self.form.chosen.connect(self.lamps.choose)
+        self.outlines.clicked.connect(self.lamps.choose)
+        self.outlines.drawn.connect(self.lamps.draw)
+        self.lamps.show_photo(photo)
+
+    def find(self, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot) -> None:
+        monkeypatch.setattr("occ_gui.photo.lamp_controller.find_lamps", lambda *_: LAMPS)
+        with qtbot.waitSignal(self.lamps.runner.finished):
+            self.lamps.find()
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, photo: Photo):  # type: ignore[no-untyped-def]
+    bench = Bench(qtbot, photo)
+    yield bench
+    bench.lamps.stop()
+
+
+def test_every_lamp_has_an_outline_and_a_row(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    bench.find(monkeypatch, qtbot)
+    assert len(bench.outlines.items) == bench.form.table.rowCount() == len(LAMPS)
+    texts = [[bench.form.table.item(row, column).text() for column in range(4)] for row in range(3)]
+    assert texts[0] == ["1", "10 to 39", "10.00 px", "6.0"]
+    assert texts[1][2] == "no stripes"
+    assert texts[2][3] == "2.1, doubtful"
+
+
+def test_a_click_within_a_lamp_chooses_it(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    bench.find(monkeypatch, qtbot)
+    bench.outlines.click(QPointF(70.0, 40.0))
+    assert bench.regions[-1] is LAMPS[1]
+    assert next(item.row() for item in bench.form.table.selectedItems()) == 1
+    bench.outlines.click(QPointF(95.0, 5.0))
+    assert bench.regions[-1] is LAMPS[1]
+    bench.form.table.selectRow(2)
+    assert bench.regions[-1] is LAMPS[2]
+    bench.lamps.match_whole()
+    assert bench.regions[-1] is None
+
+
+def test_a_rectangle_is_clipped_to_the_photo(bench: Bench, photo: Photo) -> None:
+    _rows, columns = photo.image.shape
+    bench.lamps.draw(Region(-20, 30, 40, columns + 500))
+    assert bench.lamps.region == Region(0, 30, 40, columns)
+    bench.lamps.set_by_hand(False)
+    assert bench.lamps.region is None
+
+
+def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
+    bench.lamps.set_by_hand(True)
+    bench.outlines.show_rectangle(bench.lamps.by_hand)
+    bench.outlines.rectangle.setPos((9.5, 4.5), finish=False)
+    bench.outlines.rectangle.setSize((30, 20))
+    assert bench.lamps.by_hand == Region(5, 25, 10, 40)
+
+
+def test_a_region_stays_when_the_channel_is_changed(bench: Bench, photo: Photo) -> None:
+    bench.lamps.draw(Region(5, 25, 10, 40))
+    bench.lamps.show_photo(replace(photo, channel="red"))
+    assert bench.lamps.by_hand == Region(5, 25, 10, 40)
+    bench.lamps.show_photo(replace(photo, path=Path("other.png")))
+    assert bench.lamps.by_hand is None
+
+
+@pytest.mark.parametrize("region", [None, Region(5, 25, 10, 40)])
+def test_the_session_keeps_the_region(
+    region: Region | None, tmp_path: Path, bench: Bench, photo: Photo
+) -> None:
+    file = SessionFile(tmp_path, ())
+    file.write(Session(photo=photo.path, region=region), in_use=False)
+    file.close()
+    again = SessionFile(tmp_path, ())
+    assert again.last.region == region
+    again.close()
+    if region is not None:
+        bench.lamps.keep(photo.path, region)
+        bench.lamps.show_photo(photo)
+        assert bench.lamps.by_hand == region
+
+
+@pytest.mark.parametrize("damaged", ['"x"', '{"first_row": 1}', "[1, 2, 3, 4]", "7"])
+def test_a_damaged_region_is_left_out(damaged: str, tmp_path: Path) -> None:
+    file = SessionFile(tmp_path, ())
+    file.write(Session(region=Region(1, 2, 3, 4)), in_use=False)
+    file.close()
+    (path,) = tmp_path.glob("session-*.json")
+    begin, _, _end = path.read_text().partition('"region": ')
+    path.write_text(begin + '"region": ' + damaged + "\n}")
+    again = SessionFile(tmp_path, ())
+    assert again.last.region is None
+    again.close()

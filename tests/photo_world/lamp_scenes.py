@@ -284,8 +284,8 @@ def _shutter(thing: Thing, columns: int, exposure: float) -> Floats:
         part = np.interp(rest, np.arange(len(whole)), whole)
         return np.asarray((rounds * whole[-1] + part) * thing.chip)
 
-    start = np.arange(columns) + thing.phase
-    return (until(start + exposure) - until(start)) / exposure
+    start = np.arange(columns, dtype=np.float64) + thing.phase
+    return np.asarray((until(start + exposure) - until(start)) / exposure, dtype=np.float64)
 
 
 def _photographed(random: np.random.Generator, light: Floats) -> NDArray[np.uint8]:

@@ -14,8 +14,12 @@ from occ_model.photo.lamps.segments import Segment
 _NEAR = 2
 """Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""
 
-_ALIKE = 0.7
-"""Share of the edges of two segments, where both are, that must agree."""
+_ALIKE = 0.65
+"""Share of the edges of two segments that must agree.
+
+Of the longer one: in a strip, noise or a rim can join the edges of two lamps side by side, and such
+a segment must not join the lamps.
+"""
 
 _LEAST_ALIKE = 3
 """Fewest edges that must agree."""
@@ -59,15 +63,9 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
 
 
 def _agree(one: Segment, other: Segment) -> bool:
-    """Whether the edges of two segments lie at the same columns where both have some."""
+    """Whether the edges of two segments lie at the same columns."""
     off = 1.0 + _OFF * min(one.chip, other.chip)
-    first = max(one.edges.place[0], other.edges.place[0]) - off
-    last = min(one.edges.place[-1], other.edges.place[-1]) + off
-    counts = [
-        np.count_nonzero((e.place >= first) & (e.place <= last)) for e in (one.edges, other.edges)
-    ]
-    if min(counts) < _LEAST_ALIKE:
-        return False
+    counts = len(one.edges), len(other.edges)
     near = np.count_nonzero(matches(one.edges, other.edges, off))
     return bool(near >= max(_LEAST_ALIKE, _ALIKE * max(counts)))
 

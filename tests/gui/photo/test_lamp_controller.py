@@ -67,7 +67,13 @@ def test_every_lamp_has_an_outline_and_a_row(
 ) -> None:
     bench.find(monkeypatch, qtbot)
     assert len(bench.outlines.items) == bench.form.table.rowCount() == len(LAMPS)
-    texts = [[bench.form.table.item(row, column).text() for column in range(4)] for row in range(3)]
+    texts = [
+        [
+            (item.text() if (item := bench.form.table.item(row, column)) else "")
+            for column in range(4)
+        ]
+        for row in range(3)
+    ]
     assert texts[0] == ["1", "10 to 39", "10.00 px", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"

@@ -11,10 +11,12 @@ from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import distorted
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results import Match, Region, Stripes
-from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Lens, Scene
 from occ_model.transmitter import line_code
@@ -22,6 +24,12 @@ from occ_model.transmitter.packet import HEADER, code_of, packet_length, sent_ch
 
 ESTIMATES = ("readout_time", "switching_frequency")
 """The parameters of which one is estimated and the other one is known."""
+
+_TOO_FAR = 3.0
+"""Standard deviations from which two exposure times contradict each other."""
+
+_NOMINAL = 0.012
+"""Relative standard deviation of a noted exposure time: 1/500 stands for 1/512 s."""
 
 _STRAIGHTENINGS = 40
 """Fixed-point steps of the inverse distortion: each leaves a few percent of the error."""
@@ -59,11 +67,14 @@ def described(
     MatchError
         A value found is outside its parameter's range.
     """
-    fit = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
     region = stripes.region
+    better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma)
+    explanation = replace(explanation, fits=better.fits)
+    fit = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
     scene = _with_timing(scene, fit, explanation, estimate, region)
     scene = with_levels(at_the_photo(scene, photo, region), fit)
     camera = scene.camera
+    uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
     return Match(
         scene=scene,
         stripes=replace(stripes, low=fit.low, high=fit.low + fit.swing),
@@ -72,7 +83,7 @@ def described(
         exposure_time=camera.exposure_time,
         start_time=scene.model.start_time,
         gamma=camera.gamma,
-        uncertainties=_uncertainties(fit, estimate, scene, region.first_column),
+        uncertainties=uncertainties,
         pattern="".join(map(str, sent_chips(scene.transmitter).tolist())),
         pattern_was_read=False,
         profile=fit.profile,
@@ -80,7 +91,34 @@ def described(
         other_exposures=tuple(
             exposure_time(other, scene, estimate) for other in explanation.fits if other is not fit
         ),
+        doubts=(
+            *better.doubts,
+            *_doubts_by_others(photo, explanation),
+            *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
+        ),
     )
+
+
+def _doubts_by_others(photo: Photo, explanation: Explanation) -> list[str]:
+    if len(explanation.fits) == 1 or photo.exposure_time is not None:
+        return []
+    return ["Other exposure times explain the stripes as well, and the photo notes none."]
+
+
+def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str]:
+    """Compare the fitted exposure time with the one that the camera noted."""
+    noted = photo.exposure_time
+    if noted is None:
+        return []
+    off = abs(exposure - noted)
+    if off <= _TOO_FAR * math.hypot(deviation, _NOMINAL * noted):
+        return []
+    unit = PARAMETERS["exposure_time"]
+    assert isinstance(unit, Quantity)  # noqa: S101 - it is one
+    return [
+        f"The exposure time found, {unit.format(exposure)}, and the one that the camera noted, "
+        f"{unit.format(noted)}, are {off / deviation:.1f} standard deviations apart."
+    ]
 
 
 def _with_timing(

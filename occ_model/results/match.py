@@ -130,6 +130,8 @@ class Match:
         Why the match is doubtful, each a sentence; none where it is sure.
     alternatives
         Other explanations of the stripes, the most likely first.
+    doubts
+        Those of the reasons for which a stated uncertainty may not hold.
     """
 
     scene: Scene
@@ -147,6 +149,7 @@ class Match:
     other_exposures: tuple[float, ...] = ()
     reasons: tuple[str, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
+    doubts: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> str:

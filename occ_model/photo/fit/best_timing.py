@@ -32,6 +32,12 @@ _VALLEY = 1e-3
 _AS_GOOD = 1.05
 """Factor by which a fit's residual may exceed the smallest one and still count as equally good."""
 
+_DECIDEDLY = 0.5
+"""Share of the other cameras' residual from which a picture counts as equalized: cameras do not."""
+
+_EXPLAINED = 0.98
+"""Correlation of another camera's fit above which a picture is not taken to be equalized."""
+
 _SAME_EXPOSURE = 0.04
 """Difference in chips below which two fits have the same exposure."""
 
@@ -48,11 +54,14 @@ class Explanation:
         The best fit, and those that are as good with another exposure, in order of the exposure.
     camera
         The camera's response.
+    starts
+        The timings of all possible fits, the best first.
     """
 
     chips: ByteArray
     fits: tuple[StripeFit, ...]
     camera: CameraTone
+    starts: tuple[Timing, ...] = ()
 
     @property
     def correlation(self) -> float:
@@ -121,7 +130,10 @@ def explain(
         return None
     model, fits, camera = best
     polished = _distinct([_polished(model, fit, with_gamma) for fit in _as_good(fits)])
-    return Explanation(chips, tuple(_as_good(polished)), camera) if polished else None
+    if not polished:
+        return None
+    timings = tuple(fit.timing for fit in fits)
+    return Explanation(chips, tuple(_as_good(polished)), camera, timings)
 
 
 def _best_of_cameras(
@@ -133,14 +145,26 @@ def _best_of_cameras(
 ) -> tuple[StripeModel, list[StripeFit], CameraTone] | None:
     """Fit each camera's response from several timings; give the one with the least residual."""
     best: tuple[StripeModel, list[StripeFit], CameraTone] | None = None
-    for camera in cameras:
+    for camera in sorted(cameras, key=lambda one: one.enhancement == "equalization"):
+        if best is not None and best[1][0].correlation > _most_before(camera):
+            continue
         model = StripeModel(
             stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.rank_resolution
         )
         fits = _distinct([model.fit(start, with_gamma) for start in starts])
-        if fits and (best is None or fits[0].residual < best[1][0].residual):
+        if fits and (best is None or fits[0].residual < _share(camera) * best[1][0].residual):
             best = model, fits, camera
     return best
+
+
+def _most_before(camera: CameraTone) -> float:
+    """Give the correlation by other cameras above which a camera need not be tried."""
+    return _EXPLAINED if camera.enhancement == "equalization" else 1.0
+
+
+def _share(camera: CameraTone) -> float:
+    """Give the share of other cameras' residual below which a camera's fit is preferred."""
+    return _DECIDEDLY if camera.enhancement == "equalization" else 1.0
 
 
 def _candidates(

@@ -207,9 +207,10 @@ class StripeModel:
         covariance[np.ix_(free, free)] = _covariance(found.jac, found.fun) * np.outer(scale, scale)
         timing = timing_of(found.x)
         covariance[1, 1] += spread**2 / 3.0 + _blur_deviation(timing) ** 2
-        return self._described(timing, covariance)
+        return self.described(timing, covariance)
 
-    def _described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
+    def described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
+        """Give the fit of a timing with a covariance, shape (4, 4), of its fields."""
         low, swing, profile = self.levels(timing)
         usual = float(np.median(swing))
         possible = usual > 0.0 and float(np.median(low)) > _DARKEST * usual

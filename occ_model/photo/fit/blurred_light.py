@@ -1,0 +1,75 @@
+"""The lit fraction of exposures by an LED that switches unevenly, blurred along the columns.
+
+What a camera and an LED add to the exposure integral: image processing blurs columns, and an LED
+that turns on faster than off (or a driver that does) is on a little longer than its chips say.
+"""
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.fit.timing import Timing
+
+_REACH = 8
+"""Columns to which blur spreads a column."""
+
+_LONGEST = 0.4
+"""Largest change, in chips, of the time that the LED is on."""
+
+
+class BlurredLight:
+    """The light of chips that are sent repeatedly, as blurred columns see it.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        One period, neither all on nor all off.
+    columns
+        Number of columns.
+    """
+
+    def __init__(self, chips: ByteArray, columns: int) -> None:
+        self._period = len(chips)
+        self._columns = columns
+        change = chips.astype(np.int64) - np.roll(chips, 1)
+        places = np.flatnonzero(change)
+        turns = np.concatenate([places - self._period, places, places + self._period])
+        self._edges = turns.astype(np.float64)
+        self._changes = np.tile(change[places], 3).astype(np.float64)
+        self._level_before = float(chips[int(turns[0] - 1) % self._period])
+
+    def lit_fraction(self, timing: Timing, blur: float, longer: float) -> FloatArray:
+        """Give the share of each column's exposure in which the LED is on, shape (columns,).
+
+        Parameters
+        ----------
+        timing
+            The exposures.
+        blur
+            Standard deviation of the blur in columns.
+        longer
+            Chips by which each time on is longer than the chips say.
+        """
+        longer = float(np.clip(longer, -_LONGEST, _LONGEST))
+        edges = self._edges - 0.5 * longer * self._changes
+        # The running integral has corners at the edges; it is 0 at the first of them.
+        levels = self._level_before + np.cumsum(self._changes)
+        integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])
+        ends = np.interp([0.0, float(self._period)], edges, integral)
+        a_period = float(ends[1] - ends[0])
+        column = np.arange(-_REACH, self._columns + _REACH)
+        place = np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
+
+        def until(where: FloatArray) -> FloatArray:
+            turns = np.floor(where / self._period)
+            within = np.interp(where - turns * self._period, edges, integral)
+            return np.asarray(turns * a_period + within)
+
+        lit = (until(place + timing.exposure) - until(place)) / timing.exposure
+        return np.asarray(np.convolve(lit, blur_kernel(blur), mode="valid"))
+
+
+def blur_kernel(blur: float) -> FloatArray:
+    """Give a Gaussian's weights around a column, for its standard deviation in columns."""
+    place = np.arange(-_REACH, _REACH + 1)
+    kernel = np.exp(-0.5 * (place / max(blur, 0.05)) ** 2)
+    return np.asarray(kernel / kernel.sum())

@@ -1,0 +1,67 @@
+"""Minimize a sum of squares of few parameters, each evaluation of which is expensive."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+
+_DIFFERENCE = 0.02
+"""Change of the scaled parameters for finite differences."""
+
+_NO_GAIN = 0.05
+"""Decrease of the sum of squares, in noise variances, that does not matter."""
+
+_TRIES = 6
+
+
+def minimized(
+    residual: Callable[[FloatArray], FloatArray], first: FloatArray, rounds: int
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Minimize a sum of squares (Levenberg and Marquardt).
+
+    It ends where a step gains next to nothing: after as many steps as are worth their time.
+
+    Parameters
+    ----------
+    residual
+        From parameters, scaled so that each changes the sum by about 1 over 1, to the residual in
+        standard deviations of the noise.
+    first : ndarray of float64, shape (parameters,)
+        The first guess.
+    rounds
+        Largest number of steps.
+
+    Returns
+    -------
+    parameters, residual, slopes
+    """
+    here, value = first, residual(first)
+    slopes = _slopes(residual, here, value)
+    damping = 1e-2
+    for _ in range(rounds):
+        products, gradient = slopes.T @ slopes, slopes.T @ value
+        gain = 0.0
+        for _ in range(_TRIES):
+            damped = products + np.diag(damping * np.diag(products) + 1e-9)
+            there = here - np.linalg.solve(damped, gradient)
+            new = residual(there)
+            gain = float(value @ value - new @ new)
+            if gain > 0.0:
+                damping = max(0.1 * damping, 1e-6)
+                here, value = there, new
+                break
+            damping *= 5.0
+        if gain <= 0.0:
+            break
+        slopes = _slopes(residual, here, value)
+        if gain < _NO_GAIN:
+            break
+    return here, value, slopes
+
+
+def _slopes(
+    residual: Callable[[FloatArray], FloatArray], here: FloatArray, value: FloatArray
+) -> FloatArray:
+    steps = _DIFFERENCE * np.eye(len(here))
+    return np.stack([(residual(here + step) - value) / _DIFFERENCE for step in steps], axis=1)

@@ -1,0 +1,265 @@
+"""Refine an explanation's timing, with uncertainties that hold what is not known of the camera.
+
+Which quantity the camera averages and blurs is not known either: each possibility is fitted, and
+the estimate is the mean over all of them, weighted by how likely they are.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.joint_fit import JointFit, JointModel
+from occ_model.photo.fit.least_squares import StripeFit, StripeModel
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.stripes.evenly_lit import Cells
+from occ_model.results import Stripes
+from occ_model.transmitter.waveform import Waveform
+
+_CHIPS_LIT = 8
+"""Chips within which an LED is surely on for once; a whole period where that is shorter."""
+
+_HOPELESS = 60.0
+"""Excess of the misfit from which an exposure is not refined."""
+
+_AS_LIKELY, _RATIO = 9.0, 1.3
+"""Excess of the misfit, three deviations, and its ratio, to which another exposure is as likely."""
+
+_APART_CHIPS = 0.04
+"""Difference in chips from which two exposures are different ones."""
+
+_TRUSTED = 6.0
+"""Differences of the misfit are divided by it: the residual is no mere noise."""
+
+_UNKNOWN_KERNEL = 0.2
+"""Standard deviation in columns of an exposure: the shape of the blur is not known."""
+
+_UNKNOWN_RAMP = 0.01
+"""Likewise its share: switching, and processing that follows edges, change a ramp's shape."""
+
+_LEAST_EDGES = 0.3
+"""Share of the edges' columns that must be seen without clipping."""
+
+_CONTRADICTED = 0.05
+"""Loss of correlation by which a refined fit contradicts the first one."""
+
+_CONTRADICTION = (
+    "The pixels that are lit alike tell another timing than the mean of all pixels: the stated "
+    "errors may not hold."
+)
+
+_MOST_STARTS = 3
+_LONGEST = 4.2
+
+_BLURRED = 12.0
+"""Columns up to which an exposure may be mistaken for blur."""
+
+_BLURS = (0.2, 0.7, 1.1, 1.5)
+"""Standard deviations of blur, in columns, that are tried then."""
+
+_FIXED_BLUR = (7,)
+_SHORTEST = 0.2
+"""Shortest exposure in columns to start from."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Refined:
+    """Refined fits, in order of the exposure, and why their uncertainties may not hold.
+
+    Parameters
+    ----------
+    fits
+        The best one, and those that are as likely with another exposure.
+    doubts
+        Sentences.
+    """
+
+    fits: tuple[StripeFit, ...]
+    doubts: tuple[str, ...]
+
+
+def refined(stripes: Stripes, cells: Cells, explanation: Explanation, gamma: float) -> Refined:
+    """Refine the fits of an explanation.
+
+    Parameters
+    ----------
+    stripes
+        The stripes.
+    cells
+        The pixels of their region.
+    explanation
+        The chips, and first fits.
+    gamma
+        The gamma that is usual; where the fits hold an estimate of it, it is estimated here too.
+    """
+    step = explanation.fits[0].timing.step
+    chips = explanation.chips
+    width = max(1, round(min(len(chips), _CHIPS_LIT) / step))
+    profiles = cells.profiles(width)
+    if explanation.camera.enhancement == "equalization" or not profiles:
+        return Refined(explanation.fits, ())
+    with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
+    models = [
+        JointModel(profiles, chips, step, gamma, values_blurred=False, wide=with_gamma),
+        JointModel(profiles, chips, step, gamma, values_blurred=True, wide=with_gamma),
+    ]
+    if not with_gamma and explanation.camera.averaging == "pixel-value":
+        models.append(JointModel(profiles, chips, step, 1.0))
+    model = StripeModel(
+        stripes.profile, Waveform(chips), explanation.camera.tone, step,
+        explanation.camera.rank_resolution,
+    )  # fmt: skip
+    found = _modes(models, explanation)
+    seen = models[0].edges_seen(found[0].values)
+    if seen < _LEAST_EDGES:
+        found = [_with_step_of(mode, explanation) for mode in found]
+    fits = [_stripe_fit(model, mode, gamma, with_gamma) for mode in found]
+    if fits[0].correlation < explanation.correlation - _CONTRADICTED:
+        return Refined(explanation.fits, (_CONTRADICTION,))
+    possible = [fit for fit in fits if fit.is_possible] or fits[:1]
+    possible.sort(key=lambda fit: fit.timing.exposure)
+    return Refined(tuple(possible), tuple(_doubts(seen)))
+
+
+def _modes(models: Sequence[JointModel], explanation: Explanation) -> list[JointFit]:
+    """Find the exposures that are about as likely as the most likely one, that one first."""
+    first = models[0]
+    best = min(explanation.fits, key=lambda fit: fit.residual).timing
+    first.estimate_noise(first.start(best))
+    usual = first.fit(first.start(best))
+    first.estimate_noise(usual.values)
+    for model in models[1:]:
+        model.take_noise(first)
+    groups = [_possible(models, usual.values)]
+    least = min(one.fit.misfit for one in groups[0])
+    for start in _other_starts(explanation, best):
+        other = first.fit(first.start(start))
+        exposures = [one.fit.exposure for group in groups for one in group]
+        if other.misfit < least + _HOPELESS and all(
+            abs(other.exposure - exposure) > _APART_CHIPS for exposure in exposures
+        ):
+            groups.append([_Possible(first, other, ())])
+    likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
+    likely.model.estimate_noise(likely.fit.values)
+    for model in models:
+        model.take_noise(likely.model)
+    means = []
+    for group in groups:
+        most = min(one.fit.misfit for one in group) + _HOPELESS
+        means.append(_averaged([one.again() for one in group if one.fit.misfit <= most]))
+    # Fits of other exposures choose their blur freely: to compare, this one's best does, too.
+    free = first.fit(usual.values, rounds=2).misfit
+    means[0] = replace(means[0], misfit=min(means[0].misfit, free))
+    least = min(fit.misfit for fit in means)
+    most = _RATIO * least + _AS_LIKELY * _TRUSTED
+    # The first one stays: its stripes are those of the others, to the last column.
+    kept = [fit for fit in means if fit.misfit < most or fit is means[0]]
+    return sorted(kept, key=lambda fit: fit.misfit)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Possible:
+    """A model's fit, some of its parameters having been held fixed."""
+
+    model: JointModel
+    fit: JointFit
+    fixed: tuple[int, ...]
+
+    def again(self) -> JointFit:
+        """Fit again, the noise having been estimated."""
+        return self.model.fit(self.fit.values, self.fixed, rounds=1)
+
+
+def _possible(models: Sequence[JointModel], values: FloatArray) -> list[_Possible]:
+    """Fit each model near an exposure; a short one with every blur, which it may be taken for."""
+    columns = float(values[1] / values[0])
+    if columns > _BLURRED:
+        return [_Possible(one, one.fit(one.adapted(values)), ()) for one in models]
+    found = []
+    for model in models:
+        here = model.adapted(values)
+        for blur in _BLURS:
+            fit = model.fit(_with_blur(here, blur), _FIXED_BLUR, rounds=3)
+            found.append(_Possible(model, fit, _FIXED_BLUR))
+            here = fit.values
+    return found
+
+
+def _with_blur(values: FloatArray, blur: float) -> FloatArray:
+    """Set the blur, and the exposure that leaves the edges' width as it is."""
+    values = values.copy()
+    step = float(values[0])
+    width = (values[1] / step) ** 2 + 12.0 * (values[7] ** 2 - blur**2)
+    values[1] = step * math.sqrt(max(float(width), _SHORTEST**2))
+    values[7] = blur
+    return values
+
+
+def _other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
+    """Give further exposures to start from: for a square wave, those that look the same."""
+    starts = [one for one in explanation.starts if one is not best]
+    if len(explanation.chips) == 2:
+        t = best.exposure
+        alike = [2.0 * turns + sign * t for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
+        # From one such exposure to the next the stripes are turned about.
+        return [
+            replace(best, exposure=other, middle=best.middle + _turned(t, other))
+            for other in alike
+            if 0.0 < other < _LONGEST and abs(other - t) > _APART_CHIPS
+        ]
+    return starts[:_MOST_STARTS]
+
+
+def _turned(one: float, other: float) -> float:
+    """Give the chips by which a square wave's stripes are shifted between two exposures."""
+    return float((math.floor(one / 2.0) + math.floor(other / 2.0)) % 2)
+
+
+def _averaged(fits: Sequence[JointFit]) -> JointFit:
+    """Average over models, each weighted by the density of its best fit."""
+    misfits = np.array([fit.misfit for fit in fits])
+    weights = np.exp(-0.5 * (misfits - misfits.min()) / _TRUSTED)
+    weights /= weights.sum()
+    mean = weights @ np.array([fit.values for fit in fits])
+    covariance = sum(
+        weight * (fit.covariance + np.outer(fit.values - mean, fit.values - mean))
+        for weight, fit in zip(weights, fits, strict=True)
+    )
+    return JointFit(mean, np.asarray(covariance), float(misfits.min()))
+
+
+def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:
+    """Take the step from the mean of all pixels: where white hides the edges, it tells more."""
+    best = min(explanation.fits, key=lambda fit: fit.residual)
+    values, covariance = mode.values.copy(), mode.covariance.copy()
+    values[0] = best.timing.step
+    covariance[0, :] = covariance[:, 0] = 0.0
+    covariance[0, 0] = best.covariance[0, 0]
+    return replace(mode, values=values, covariance=covariance)
+
+
+def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bool) -> StripeFit:
+    values = mode.values
+    covariance = np.zeros((4, 4))
+    covariance[:3, :3] = mode.covariance[:3, :3]
+    unknown = math.hypot(_UNKNOWN_KERNEL * values[0], _UNKNOWN_RAMP * values[1])
+    covariance[1, 1] += unknown**2
+    if with_gamma:
+        gamma *= math.exp(float(values[3]))
+        covariance[3, :3] = covariance[:3, 3] = gamma * mode.covariance[3, :3]
+        covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
+    timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
+    return model.described(timing, covariance)
+
+
+def _doubts(seen: float) -> list[str]:
+    if seen >= _LEAST_EDGES:
+        return []
+    return [
+        f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
+        f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed to tell the exposure "
+        "time. Expose less."
+    ]

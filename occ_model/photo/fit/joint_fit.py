@@ -1,0 +1,244 @@
+"""Fit the timing together with what else is unknown of the camera, and state its uncertainty.
+
+The light of a column is a(i) + b(i) x lit(i), with levels a and b that vary slowly; the camera's
+tone curve makes it a grey level. Tone curve, blur and the LED's switching are not known: they are
+fitted too, held by what is usual (a Gaussian prior each), so that the timing's uncertainty includes
+them. Clipped columns enter as "at least white": a residual where the model is darker (a censored
+normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.fit.blurred_light import BlurredLight, blur_kernel
+from occ_model.photo.fit.damped_least_squares import minimized
+from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.stripes.envelope import smooth_shapes
+from occ_model.photo.stripes.evenly_lit import EvenProfile
+from occ_model.photo.stripes.period import correlated_columns
+
+USUAL = {
+    "gamma": (0.0, 0.12),
+    "offset": (0.03, 0.04),
+    "shoulder": (0.0, 0.25),
+    "contrast": (0.0, 0.35),
+    "blur": (0.5, 0.5),
+    "longer": (0.0, 0.02),
+}
+"""Mean and standard deviation of what is usual: the logarithm of gamma over the scene's gamma, the
+tone curve's bends, the blur in columns, and the chips by which the LED is on longer."""
+
+_ANY_GAMMA = 0.5
+"""Standard deviation of gamma's logarithm where nothing is known of it."""
+
+_SHIFTED = 0.4
+"""Columns by which a stripe's two edges may be shifted: pixel values are blurred, not light."""
+
+_CHIPS_A_BLOCK = 2
+_LEAST_BLOCK = 16
+"""Lengths of a block of columns whose residuals may be correlated; JPEG has blocks of 8."""
+
+_CHIPS_A_FREEDOM = 6
+_MOST_FREEDOM = 8
+_EDGE = 0.05
+"""Share of the swing from which a column is on an edge."""
+
+_SHORTEST = 1e-3
+_LOW = np.array([0.5, _SHORTEST, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3])
+_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3])
+"""Bounds of the parameters; that of the step is a ratio."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class JointFit:
+    """A timing with its covariance.
+
+    Parameters
+    ----------
+    values : ndarray of float64, shape (9,)
+        Step, exposure and middle as of a timing, and the six unknowns in the order of ``USUAL``.
+    covariance : ndarray of float64, shape (9, 9)
+        Theirs; 0 for what is not fitted.
+    misfit
+        Twice the negative logarithm of the posterior density, less a constant.
+    """
+
+    values: FloatArray
+    covariance: FloatArray
+    misfit: float
+
+    @property
+    def exposure(self) -> float:
+        """The exposure in chips."""
+        return float(self.values[1])
+
+    @property
+    def deviation(self) -> float:
+        """The exposure's standard deviation in chips."""
+        return math.sqrt(float(self.covariance[1, 1]))
+
+
+class JointModel:
+    """The model of profiles of one lamp, by one sequence of chips.
+
+    Parameters
+    ----------
+    profiles
+        The profiles of pixels that are lit alike.
+    chips : ndarray of uint8, shape (chips,)
+        One period.
+    step
+        Chips per column, roughly.
+    gamma
+        The usual gamma; 1 where pixel values are averaged.
+    values_blurred
+        Whether pixel values are blurred (noise reduction, resizing), or light (demosaicing).
+    wide
+        Whether gamma may be any.
+    """
+
+    def __init__(
+        self,
+        profiles: Sequence[EvenProfile],
+        chips: ByteArray,
+        step: float,
+        gamma: float,
+        values_blurred: bool = False,
+        wide: bool = False,
+    ) -> None:
+        columns = len(profiles[0].values)
+        self._columns, self._step, self._gamma = columns, step, gamma
+        self._values_blurred = values_blurred
+        freedom = int(np.clip(step * columns / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
+        shapes = smooth_shapes(columns, freedom)
+        self._light = BlurredLight(chips, columns)
+        self._parts = [LitProfile.of(profile, shapes) for profile in profiles]
+        width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK / step))
+        self._block = np.concatenate(
+            [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
+        )
+        self._noise = [np.ones(part.data.size + part.clipped.size) for part in self._parts]
+        usual = np.array(list(USUAL.values()))
+        self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
+        self._deviation[5] = math.hypot(self._deviation[5], _SHIFTED * step)
+        if wide:
+            self._deviation[0] = _ANY_GAMMA
+        self._free = np.array(
+            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
+        )
+        self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
+
+    def start(self, timing: Timing) -> FloatArray:
+        """Give the parameters of a timing, and what is usual."""
+        values = np.array([timing.step, timing.exposure, timing.middle, *self._mean])
+        if self._gamma == 1.0:
+            values[4] = 0.0
+        return values
+
+    def adapted(self, values: FloatArray) -> FloatArray:
+        """Give another model's parameters, what this one does not fit being as usual."""
+        step, exposure, middle = values[:3].tolist()
+        usual = self.start(Timing(step, exposure, middle, self._gamma))
+        return np.where(self._free, values, usual)
+
+    def take_noise(self, other: "JointModel") -> None:
+        """Take the noise that another model of the same profiles found."""
+        self._noise = other._noise
+
+    def fit(self, first: FloatArray, fixed: Sequence[int] = (), rounds: int = 12) -> JointFit:
+        """Fit from a first guess, some parameters held fixed."""
+        free = self._free.copy()
+        free[list(fixed)] = False
+        index = np.flatnonzero(free)
+        scale = self._scale[index]
+        bounds = _LOW.copy(), _HIGH.copy()
+        bounds[0][0], bounds[1][0] = 0.5 * self._step, 2.0 * self._step
+        first = np.clip(first, *bounds)
+        # The exposure's logarithm: it is positive, and known by ratio.
+        scale = np.where(index == 1, 0.05, scale)
+
+        def values_of(scaled: FloatArray) -> FloatArray:
+            values = first.copy()
+            values[index] += scaled * scale
+            values[1] = first[1] * math.exp(min(values[1] - first[1], 5.0))
+            values[7] = abs(values[7])
+            return np.clip(values, *bounds)
+
+        found, residual, slopes = minimized(
+            lambda scaled: self._residual(values_of(scaled)), np.zeros(len(index)), rounds
+        )
+        values = values_of(found)
+        scale = np.where(index == 1, scale * values[1], scale)
+        covariance = np.zeros((9, 9))
+        covariance[np.ix_(index, index)] = self._covariance(slopes, residual) * np.outer(
+            scale, scale
+        )
+        return JointFit(values, covariance, float(residual @ residual))
+
+    def _covariance(self, slopes: FloatArray, residual: FloatArray) -> FloatArray:
+        """Give the parameters' covariance, the residual being correlated and no mere noise.
+
+        Of two estimates the larger one is taken: the inverse of the information, and the sandwich
+        with the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and
+        West, Econometrica 55:703, 1987). All profiles show the same stripes, compressed alike: a
+        block holds the columns of all of them.
+        """
+        information = slopes.T @ slopes
+        information[np.diag_indices_from(information)] += 1e-9
+        inverse = np.linalg.inv(information)
+        data = len(self._block)
+        blocks = int(self._block.max()) + 1
+        products = slopes[:data] * residual[:data, None]
+        scores = np.stack([np.bincount(self._block, part, blocks) for part in products.T], axis=1)
+        prior = slopes[data:].T @ slopes[data:]
+        sandwich = inverse @ (scores.T @ scores + prior) @ inverse
+        ratio = np.sqrt(np.maximum(np.diag(sandwich) / np.diag(inverse), 1.0))
+        return np.asarray(inverse * np.outer(ratio, ratio))
+
+    def estimate_noise(self, values: FloatArray) -> None:
+        """Take a fit's residual as the noise of each profile, neighbours being correlated."""
+        seen = self._seen(values)
+        for number, part in enumerate(self._parts):
+            residual = part.residual(seen)[: part.data.size]
+            deviation = deviation_of(residual, part.slope, part.shapes.shape[1])
+            whole = np.zeros(self._columns)
+            whole[part.kept] = residual / deviation
+            deviation *= math.sqrt(correlated_columns(whole))
+            white = np.full(part.clipped.size, float(np.median(deviation)))
+            self._noise[number] = np.concatenate([deviation, white])
+
+    def edges_seen(self, values: FloatArray) -> float:
+        """Give the largest share of the edges' columns that a profile shows without clipping."""
+        lit = self._seen(values).lit
+        low, high = float(lit.min()), float(lit.max())
+        edges = (lit > low + _EDGE * (high - low)) & (lit < high - _EDGE * (high - low))
+        count = max(1, int(edges.sum()))
+        return max(float(edges[part.kept].sum()) / count for part in self._parts)
+
+    def _seen(self, values: FloatArray) -> "Seen":
+        step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = values.tolist()
+        timing = Timing(step, exposure, middle, self._gamma)
+        sharp = None
+        if self._values_blurred:
+            sharp = self._light.lit_fraction(timing, 0.0, longer)
+        return Seen(
+            self._light.lit_fraction(timing, blur, longer),
+            ToneCurve(self._gamma * math.exp(gamma), offset, shoulder, contrast).table(),
+            sharp,
+            blur_kernel(blur),
+        )
+
+    def _residual(self, values: FloatArray) -> FloatArray:
+        seen = self._seen(values)
+        parts = [
+            part.residual(seen) / noise
+            for part, noise in zip(self._parts, self._noise, strict=True)
+        ]
+        unusual = (values[3:] - self._mean) / self._deviation
+        return np.concatenate([*parts, unusual])

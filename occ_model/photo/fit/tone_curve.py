@@ -1,0 +1,79 @@
+"""A camera's unknown tone curve: a gamma, bent by a shoulder and by contrast."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE
+
+_TOE = 0.03
+"""Pixel value, as a share of white, below which the curve goes on straight: noise lifts blacks."""
+
+_GRID = np.linspace(-0.1, 1.0, 441)
+_LEAST_SLOPE = 0.05
+
+
+@dataclass(frozen=True, slots=True)
+class ToneCurve:
+    """A monotonic tone curve, by its inverse.
+
+    A pixel value u, as a share of white, is bent into v = u + s u(1-u) + k u(1-u)(1-2u). Its light
+    is (v + o) / (1 + o) to the power of gamma. The offset o makes shadows straight, as in
+    IEC 61966-2-1 (o = 0.055 with a gamma of 2.4) and ITU-R BT.709 (0.099 with 1 / 0.45).
+
+    Parameters
+    ----------
+    gamma
+        The exponent.
+    offset, shoulder, contrast
+        The coefficients o, s and k.
+    """
+
+    gamma: float
+    offset: float = 0.0
+    shoulder: float = 0.0
+    contrast: float = 0.0
+
+    def table(self) -> "ToneTable":
+        """Tabulate the curve."""
+        u = _GRID
+        bent = u * (1.0 + (1.0 - u) * (self.shoulder + self.contrast * (1.0 - 2.0 * u)))
+        steps = np.maximum(np.diff(bent), _LEAST_SLOPE * (u[1] - u[0]))
+        bent = np.concatenate([[bent[0]], bent[0] + np.cumsum(steps)])
+        bent = (bent + 1.0 - bent[-1] + self.offset) / (1.0 + self.offset)
+        toe = _TOE**self.gamma * (1.0 + self.gamma * (bent / _TOE - 1.0))
+        light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
+        return ToneTable(light, np.diff(u)[0] / np.gradient(light))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ToneTable:
+    """A tabulated tone curve.
+
+    Parameters
+    ----------
+    light, slope : ndarray of float64
+        The light of each tabulated pixel value, and the pixel value's slope over light.
+    """
+
+    light: FloatArray
+    slope: FloatArray
+
+    def light_of(self, values: FloatArray) -> FloatArray:
+        """Give the light of grey levels; 1 makes white."""
+        return np.interp(values / WHITE, _GRID, self.light)
+
+    def slope_at(self, values: FloatArray) -> FloatArray:
+        """Give the slope of grey levels over light."""
+        return np.asarray(WHITE * np.interp(values / WHITE, _GRID, self.slope))
+
+    def slope_of(self, light: FloatArray) -> FloatArray:
+        """Give the slope of grey levels over light, at light."""
+        return np.asarray(WHITE * np.interp(light, self.light, self.slope))
+
+    def value_of(self, light: FloatArray) -> FloatArray:
+        """Give the grey levels of light; it goes on straight beyond both ends."""
+        over = np.maximum(light - self.light[-1], 0.0) * self.slope[-1]
+        under = np.minimum(light - self.light[0], 0.0) * self.slope[0]
+        return np.asarray(WHITE * (np.interp(light, self.light, _GRID) + over + under))

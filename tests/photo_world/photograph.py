@@ -147,20 +147,33 @@ def lit_fraction(world: World) -> np.ndarray:
     return np.asarray(lit / world.exposure_in_chips)
 
 
-def expected_light(world: World) -> np.ndarray:
-    """Give the light on each pixel without noise; 1 makes white. Shape (rows, columns)."""
+def falloff(world: World) -> np.ndarray:
+    """Give the share of the light that the lens passes on to each pixel."""
     rows, columns = world.rows, world.columns
     down = (np.arange(rows)[:, None] / rows - 0.5) * rows / columns
     across = np.arange(columns)[None, :] / columns - 0.5
-    falloff = 1.0 - world.vignetting * 2.0 * (down**2 + across**2)
-    brightness = world.lamp.brightness(rows, columns)
-    light = (brightness * lit_fraction(world)[None, :] + world.ambient) * falloff
-    seen = light[world.lamp.covers(rows, columns)]
+    return np.asarray(1.0 - world.vignetting * 2.0 * (down**2 + across**2))
+
+
+def expected_light(world: World) -> np.ndarray:
+    """Give the light on each pixel without noise; 1 makes white. Shape (rows, columns)."""
+    return np.asarray(_light(world) * scale(world))
+
+
+def scale(world: World) -> float:
+    """Give what makes a lamp of light 1 white, or as bright as the world's is."""
+    light = _light(world)
+    seen = light[world.lamp.covers(world.rows, world.columns)]
     if world.saturated == 0.0:
-        return np.asarray(light * (world.peak / seen.max()))
+        return float(world.peak / seen.max())
     # Where a lamp is mostly off, its dark pixels stay well below white.
     least = 3.0 * world.ambient + 0.05
-    return np.asarray(light / max(float(np.quantile(seen, 1.0 - world.saturated)), least))
+    return 1.0 / max(float(np.quantile(seen, 1.0 - world.saturated)), least)
+
+
+def _light(world: World) -> np.ndarray:
+    brightness = world.lamp.brightness(world.rows, world.columns)
+    return np.asarray((brightness * lit_fraction(world)[None, :] + world.ambient) * falloff(world))
 
 
 def photograph(world: World) -> np.ndarray:

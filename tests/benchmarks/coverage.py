@@ -1,0 +1,55 @@
+"""How well stated errors hold: ``python tests/benchmarks/coverage.py [photos] [first]``.
+
+600 photographs (or as many as named) of a world that is wider than the model are matched; the table
+tells which share of the true values lies within one and two of the stated standard deviations.
+"""
+
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from photo_world.trials import SATURATION_THIRDS, Trial, trials
+
+HEAD = (
+    "| saturated | photos | sure | what | within 1 | within 2 | largest | median error | stated "
+    "| bound |\n|---|---|---|---|---|---|---|---|---|---|"
+)
+
+
+def row(name: str, found: list[Trial], what: str) -> str:
+    """Write a line of the table."""
+    sure = [one for one in found if one.is_sure]
+    if not sure:
+        return f"| {name} | {len(found)} | 0 | {what} | | | | | | |"
+    error = np.abs([getattr(one, what) for one in sure])
+    stated = np.array([getattr(one, f"{what}_deviation") for one in sure])
+    # The median of an error is 0.674 of its standard deviation.
+    bound = 0.674 * np.median([getattr(one, f"{what}_bound") for one in sure])
+    off = error / stated
+    percent = (np.median(error), np.median(stated), bound)
+    return (
+        f"| {name} | {len(found)} | {len(sure)} | {what} | {100.0 * np.mean(off < 1.0):.0f} % | "
+        f"{100.0 * np.mean(off < 2.0):.0f} % | {off.max():.1f} | "
+        + " | ".join(f"{100.0 * value:.2g} %" for value in percent)
+        + " |"
+    )
+
+
+def table(found: list[Trial]) -> list[str]:
+    """Write the table: each third of the saturated share, and all."""
+    lines = [HEAD]
+    for low, high in pairwise(SATURATION_THIRDS):
+        part = [one for one in found if low <= one.saturated < high]
+        name = f"{100.0 * low:.0f} to {100.0 * high:.0f} %"
+        lines += [row(name, part, what) for what in ("readout", "exposure")]
+    return [*lines, *(row("all", found, what) for what in ("readout", "exposure"))]
+
+
+if __name__ == "__main__":
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 600
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    print("\n".join(table(trials(range(first, first + count)))))

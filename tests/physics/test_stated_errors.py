@@ -1,0 +1,141 @@
+"""Stated errors hold on photographs of a world that is wider than the model."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from photo_world.photograph import World, photograph, random_world
+from photo_world.tone_curves import power, srgb
+from photo_world.trials import Trial, bound, told, trial
+from simulated_photos import photo_of
+
+import occ_model as occ
+from occ_model.photo.fit.blurred_light import BlurredLight, blur_kernel
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.stripes.evenly_lit import Cells
+from occ_model.transmitter.waveform import Waveform
+
+CHIPS = np.array([1, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0], dtype=np.uint8)
+PULSES = 3
+
+
+def small_world(seed: int, **changes: object) -> World:
+    """Draw a photograph that is quickly matched: a rectangle of long chips."""
+    world = random_world(seed)
+    lamp = replace(
+        world.lamp, shape="rectangular", middle_row=50.0, middle_column=400.0, half_height=40.0,
+        half_width=370.0, halo=0.02, halo_size=4.0,
+    )  # fmt: skip
+    small = replace(
+        world, rows=100, columns=800, lamp=lamp, chips="1110010110", readout_time=10e-6,
+        switching_frequency=5e3, exposure_time=130e-6, saturated=0.0, peak=0.5, quality=90,
+    )  # fmt: skip
+    return replace(small, **changes)
+
+
+@pytest.fixture(scope="module")
+def sample() -> list[Trial]:
+    """Match a few photographs, of which every other one is saturated."""
+    return [
+        trial(small_world(seed, saturated=0.25 * (seed % 2), chips="10" if seed < 1 else "1110010"))
+        for seed in range(2)
+    ]
+
+
+def test_what_is_sure_lies_within_four_stated_deviations(sample: list[Trial]) -> None:
+    sure = [one for one in sample if one.is_sure]
+    assert len(sure) >= 1
+    for one in sure:
+        assert abs(one.readout) < 4.0 * one.readout_deviation
+        assert abs(one.exposure) < 4.0 * one.exposure_deviation
+
+
+def test_no_stated_deviation_is_below_the_bound(sample: list[Trial]) -> None:
+    for one in sample:
+        if not one.failure:
+            assert one.exposure_deviation > one.exposure_bound
+
+
+def test_the_bound_shrinks_with_the_root_of_the_light() -> None:
+    """Shot noise alone: four times the electrons, half the deviation."""
+    world = small_world(1, read_noise=0.0, full_well=500.0)
+    few, many = bound(world), bound(replace(world, full_well=2000.0))
+    assert few[0] == pytest.approx(2.0 * many[0], rel=1e-6)
+    assert few[1] == pytest.approx(2.0 * many[1], rel=1e-6)
+
+
+def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
+    world = small_world(3, curve=power(2.22))
+    photo = photo_of(photograph(world))
+    matches = [
+        occ.match_photo(
+            replace(photo, exposure_time=noted * world.exposure_time), told(world), sent="scene"
+        )
+        for noted in (1.0, 1.6)
+    ]
+    assert not any("noted" in why for why in matches[0].doubts)
+    assert any("noted" in why for why in matches[1].doubts)
+
+
+def test_edges_hidden_by_white_are_doubted() -> None:
+    """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
+    world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)
+    lamp = replace(world.lamp, darkening=0.0, halo=0.0, rim=1.0)
+    match = occ.match_photo(photo_of(photograph(replace(world, lamp=lamp))), told(world))
+    assert any("White hides" in why for why in match.doubts)
+
+
+def test_a_camera_is_not_taken_to_equalize() -> None:
+    match = occ.match_photo(photo_of(photograph(small_world(5))), told(small_world(5)))
+    assert match.scene.model.enhancement == "none"
+
+
+def test_columns_kept_for_the_fit_hold_no_clipped_pixel() -> None:
+    world = small_world(7, saturated=0.45)
+    image = photograph(replace(world, lamp=replace(world.lamp, darkening=0.0), vignetting=0.0))
+    cells = Cells.of(photo_of(image), occ.Region(18, 82, 40, 760))
+    profiles = cells.profiles(80)
+    assert profiles
+    assert all(profile.values[profile.kept].max() < 250.0 for profile in profiles)
+    assert any(profile.clipped.any() for profile in profiles)
+
+
+@settings(max_examples=40)
+@given(step=st.floats(0.02, 0.5), exposure=st.floats(0.05, 5.0), middle=st.floats(0.0, 11.0))
+def test_without_blur_the_light_is_the_exact_exposure_integral(
+    step: float, exposure: float, middle: float
+) -> None:
+    timing = Timing(step, exposure, middle, 2.22)
+    exact = timing.lit_fraction(Waveform(CHIPS), 300)
+    light = BlurredLight(CHIPS, 300).lit_fraction(timing, 0.0, 0.0)
+    np.testing.assert_allclose(light, exact, atol=1e-9)
+
+
+def test_an_led_that_is_on_longer_lights_more_by_that() -> None:
+    """On average over whole periods: a pulse's length times the number of pulses."""
+    timing = Timing(0.11, 0.7, 3.0, 2.22)
+    light = BlurredLight(CHIPS, 1000)
+    longer = (
+        light.lit_fraction(timing, 0.0, 0.1).mean() - light.lit_fraction(timing, 0.0, 0.0).mean()
+    )
+    assert longer == pytest.approx(0.1 * PULSES / len(CHIPS), rel=0.03)
+
+
+def test_blur_keeps_the_light_and_has_the_width_that_it_states() -> None:
+    place = np.arange(-8, 9)
+    for blur in (0.8, 1.1, 1.5):
+        kernel = blur_kernel(blur)
+        assert kernel.sum() == pytest.approx(1.0)
+        assert kernel @ place**2 == pytest.approx(blur**2, rel=0.02)
+
+
+def test_the_tone_curve_holds_the_standard_one_and_its_inverse() -> None:
+    table = ToneCurve(2.4, offset=0.055).table()
+    light = np.linspace(0.01, 0.99, 50)
+    values = 255.0 * srgb().apply(light)
+    np.testing.assert_allclose(table.light_of(values), light, atol=1e-3)
+    bent = ToneCurve(2.2, 0.03, 0.3, -0.3).table()
+    np.testing.assert_allclose(bent.value_of(bent.light_of(values)), values, atol=1e-6)

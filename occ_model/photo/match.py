@@ -125,7 +125,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     return replace(
         match,
         pattern_was_read=found.was_read,
-        reasons=verdict.reasons,
+        reasons=(*verdict.reasons, *match.doubts),
         alternatives=tuple(
             _alternative(one, evidence, scene, estimate) for one, evidence in verdict.others
         ),

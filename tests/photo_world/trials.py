@@ -88,32 +88,13 @@ def trial(world: World) -> Trial:
         match.uncertainties["readout_time"] / world.readout_time,
         match.uncertainties["exposure_time"] / world.exposure_time,
         *bounds,
-        # The other reasons for doubt are of the verdict.
-        doubts=(*match.doubts, *_limits(match)),
+        doubts=match.reasons,
     )
 
 
 def trials(seeds: Iterable[int]) -> list[Trial]:
     """Match the photographs of some seeds."""
     return [trial(random_world(seed)) for seed in seeds]
-
-
-def _limits(match: occ.Match) -> list[str]:
-    """Apply the limits that the verdict has, where it is not yet there to ask."""
-    if hasattr(match, "reasons"):
-        return list(match.reasons)
-    exposure = match.exposure_time * match.switching_frequency
-    periods = len(match.profile) * match.readout_time * match.switching_frequency
-    periods /= len(match.pattern)
-    return [
-        why
-        for why, holds in (
-            ("correlation below 0.9", match.correlation < 0.9),
-            ("exposure above 3.2 chips", exposure > 3.2),
-            ("fewer than 1.5 periods", periods < 1.5),
-        )
-        if holds
-    ]
 
 
 def bound(world: World) -> tuple[float, float]:

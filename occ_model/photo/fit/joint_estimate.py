@@ -37,6 +37,9 @@ _TRUSTED = 6.0
 _UNKNOWN_KERNEL = 0.2
 """Standard deviation in columns of an exposure: the shape of the blur is not known."""
 
+_UNKNOWN_BLUR = 0.4
+"""Standard deviation in columns of blur that the model's does not describe."""
+
 _UNKNOWN_RAMP = 0.01
 """Likewise its share: switching, and processing that follows edges, change a ramp's shape."""
 
@@ -245,7 +248,9 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
     values = mode.values
     covariance = np.zeros((4, 4))
     covariance[:3, :3] = mode.covariance[:3, :3]
-    unknown = math.hypot(_UNKNOWN_KERNEL * values[0], _UNKNOWN_RAMP * values[1])
+    unknown = math.hypot(
+        _UNKNOWN_KERNEL * values[0], _UNKNOWN_RAMP * values[1], _blur_deviation(values)
+    )
     covariance[1, 1] += unknown**2
     if with_gamma:
         gamma *= math.exp(float(values[3]))
@@ -253,6 +258,16 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
         covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
     timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
     return model.described(timing, covariance)
+
+
+def _blur_deviation(values: FloatArray) -> float:
+    """Give the chips by which blur of another shape than the model's lengthens an exposure.
+
+    An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur; to second
+    order a blur of sigma lengthens t by 6 sigma^2 / t, and never by more than its own width.
+    """
+    blur = _UNKNOWN_BLUR * float(values[0])
+    return min(6.0 * blur**2 / float(values[1]), math.sqrt(12.0) * blur)
 
 
 def _doubts(seen: float) -> list[str]:

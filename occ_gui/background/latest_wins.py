@@ -105,7 +105,8 @@ class _Worker(QObject):
 
     @Slot(object)
     def run(self, request: Any) -> None:
-        result, failure, parameters = None, "", ()
+        result, failure = None, ""
+        parameters: tuple[str, ...] = ()
         try:
             result = self._work(request)
         except Exception as error:  # noqa: BLE001 - the window must outlive any error

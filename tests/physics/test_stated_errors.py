@@ -1,6 +1,7 @@
 """Stated errors hold on photographs of a world that is wider than the model."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ CHIPS = np.array([1, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0], dtype=np.uint8)
 PULSES = 3
 
 
-def small_world(seed: int, **changes: object) -> World:
+def small_world(seed: int, **changes: Any) -> World:
     """Draw a photograph that is quickly matched: a rectangle of long chips."""
     world = random_world(seed)
     lamp = replace(

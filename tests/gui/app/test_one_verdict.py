@@ -94,7 +94,9 @@ def test_a_strip_shows_the_success_rate_of_each_position(preset: str) -> None:
     settings = rate_settings(SimulationSettings(), IMAGES, ("threshold",), True)
     values = lattice("switching_frequency", POSITIONS)
     places = [12, 18]
-    points = tuple((place, {"switching_frequency": values[place]}) for place in places)
+    points: list[tuple[int, dict[str, ParameterValue]]] = [
+        (place, {"switching_frequency": values[place]}) for place in places
+    ]
     found = measure_points(scene, settings, points, lambda: None).points
     for place, point in zip(places, found, strict=True):
         at = scene.replace(switching_frequency=values[place])

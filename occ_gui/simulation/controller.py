@@ -19,6 +19,7 @@ from occ_model.results import DecodeResult, Frame
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.band_model import enhanced_band_profile
 from occ_model.simulation.render import render_with
 from occ_model.transmitter.packet import bits_of
 
@@ -60,9 +61,10 @@ def _snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     decoded = occ.decode(frame.image, scene)
     reading_seconds = perf_counter() - start
     others = tuple(_decode_with_others(decoded, scene))
-    band, undefined = None, ""
+    band, enhanced_band, undefined = None, None, ""
     try:
         band = occ.band_profile(scene)
+        enhanced_band = enhanced_band_profile(scene, band)
     except occ.BandModelUndefined as reason:
         undefined = str(reason)
     transmitter = scene.transmitter
@@ -77,6 +79,7 @@ def _snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         packet_columns=chip_columns * len(occ.packet(scene)),
         panel_origin=(max(left, 0.0), max(top, 0.0)),
         band=band,
+        enhanced_band=enhanced_band,
         band_undefined=undefined,
         reading_seconds=reading_seconds,
         others=others,

@@ -2,10 +2,7 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import enhance
 from occ_model.results import DecodeResult, Frame
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
@@ -54,6 +51,8 @@ class Snapshot:
         the panel reaches beyond it.
     band : ndarray of float64, shape (columns,), or None
         The band model's profile, None where ``band_undefined`` says why there is none.
+    enhanced_band : ndarray of float64, shape (columns,), or None
+        The same as a receiver would enhance it.
     band_undefined
         A sentence, empty where there is a profile.
     reading_seconds
@@ -67,16 +66,10 @@ class Snapshot:
     packet_columns: float
     panel_origin: tuple[float, float]
     band: FloatArray | None
+    enhanced_band: FloatArray | None
     band_undefined: str
     reading_seconds: float
     others: tuple[DecodeResult, ...] = ()
-
-    @property
-    def enhanced_band(self) -> FloatArray | None:
-        """The band model's profile as a receiver would enhance it, None where there is none."""
-        if self.band is None:
-            return None
-        return enhance(self.band, self.frame.scene.model.enhancement).astype(np.float64)
 
     @property
     def simulation_seconds(self) -> float:

@@ -7,6 +7,7 @@ columns of transition. It is undefined when the exposure is longer than the swit
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.enhancement import enhance
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import level_values, saturate
 from occ_model.errors import BandModelUndefined
@@ -72,6 +73,24 @@ def band_profile(scene: Scene) -> FloatArray:
     dark, bright = level_values(scene)
     values = np.interp(np.mod(columns, positions[-1]), positions, lit)
     return saturate(dark + (bright - dark) * values)
+
+
+def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
+    """Return the band model's column profile as the scene's receiver would enhance it.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    profile : ndarray of float64, shape (columns,)
+        What :func:`band_profile` returns for it.
+
+    Returns
+    -------
+    ndarray of float64, shape (columns,)
+        Grey levels, 0 to 255, by the profile's own histogram.
+    """
+    return enhance(profile, scene.model.enhancement).astype(np.float64)
 
 
 def _knots(

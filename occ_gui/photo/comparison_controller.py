@@ -164,8 +164,7 @@ class ComparisonController(QObject):
         comparison = compare(stripes.flattened, frame.profile, first, placement.scale)
         if not self._enhanced:
             return comparison
-        enhanced = frame.enhanced.astype(np.float64)
-        return enhance_comparison(comparison, enhanced, frame.scene.model.enhancement)
+        return enhance_comparison(comparison, frame.signal, frame.scene.model.enhancement)
 
     def comparison(self) -> Comparison | None:
         """Return the comparison that is shown; None if there is none."""

@@ -107,8 +107,8 @@ class ProfileView(QWidget):
         self.enhanced = QCheckBox(self.tr("Enhanced"))
         self.enhanced.setToolTip(
             self.tr(
-                "Show every curve after the receiver's contrast enhancement, each by its own "
-                "histogram, as the receiver would enhance a picture with these columns."
+                "Show every curve after the receiver's contrast enhancement: the simulation's as "
+                "the decoders read it, the others each by its own histogram."
             )
         )
         self.enhanced.toggled.connect(self._draw_before)
@@ -291,7 +291,7 @@ class ProfileView(QWidget):
 def _levels(snapshot: Snapshot, enhanced: bool) -> FloatArray:
     """Return the column values, before or after the receiver's enhancement."""
     frame = snapshot.frame
-    return frame.enhanced.astype(np.float64) if enhanced else frame.profile
+    return frame.signal if enhanced else frame.profile
 
 
 def _draw(

@@ -42,7 +42,7 @@ def write_process_figure(folder: Path) -> None:
     mask = np.zeros((rows, columns), dtype=np.uint8)
     for row, (first, last) in enumerate(zip(*row_spans(frame.corners, rows, columns), strict=True)):
         mask[row, first:last] = 255
-    covered = np.broadcast_to(frame.enhanced, (rows, columns))
+    covered = np.broadcast_to(frame.signal, (rows, columns))
     for ax, picture in zip(axes, (None, mask, covered, frame.image), strict=True):
         _show_picture(ax, picture, rows, columns)
     axes[0].add_patch(Polygon(frame.corners, closed=True, fill=False, color=SIMULATION["color"]))
@@ -59,9 +59,8 @@ def write_process_figure(folder: Path) -> None:
     header = (
         "column", "calculated value (grey level)", "first row of the mask", "rows of the mask",
     )  # fmt: skip
-    table = np.stack(
-        [np.arange(columns), frame.enhanced, lit.argmax(axis=0), lit.sum(axis=0)], axis=1
-    )
+    calculated = frame.signal.astype(np.int64)  # whole numbers, without image effects
+    table = np.stack([np.arange(columns), calculated, lit.argmax(axis=0), lit.sum(axis=0)], axis=1)
     write_table(folder / "figure-2.csv", header, table.tolist(), provenance)
 
 
@@ -95,7 +94,7 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     shown: dict[str, FloatArray | None] = {
         "band model": None if band is None else band[first:last],
         "simulation": frame.profile[first:last],
-        "simulation, enhanced": frame.enhanced[first:last].astype(np.float64),
+        "simulation, enhanced": frame.signal[first:last],
         "photo": None if photo is None else _padded(photo.profile, last - first),
     }
     figure = Figure(figsize=(7.2, 2.8))

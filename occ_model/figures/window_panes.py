@@ -128,7 +128,7 @@ def profile_drawing(
         Whether the profiles are those after the receiver's enhancement; ``band`` and ``comparison``
         then are so already.
     """
-    simulated = frame.enhanced.astype(np.float64) if enhanced else frame.profile
+    simulated = frame.signal if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {
         "simulation": simulated,
         "band model": band,

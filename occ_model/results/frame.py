@@ -32,8 +32,10 @@ class Frame:
         Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding;
         of a picture that is kept in a file, as it is read back. With column effects only it is the
         column's value itself, PV_sim; also in columns that do not show the panel.
-    enhanced : ndarray of uint8, shape (columns,)
-        The column values after enhancement; those of the image where it has column effects only.
+    signal : ndarray of float64, shape (columns,)
+        Mean of the panel's pixels in each column of the receiver's picture, in grey levels: what a
+        decoder reads, over all rows of the panel. With column effects only it is the column's
+        enhanced value; also in columns that do not show the panel.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in the image, each as (column, row), in order round the panel.
     timings
@@ -46,7 +48,7 @@ class Frame:
     plan: Plan
     image: ByteArray
     profile: FloatArray
-    enhanced: ByteArray
+    signal: FloatArray
     corners: FloatArray
     timings: Mapping[str, float]
     make_camera_image: Callable[[], ByteArray] = field(repr=False)

@@ -43,6 +43,25 @@ class ExposedRows:
         cv2.convertScaleAbs(self.values, dst=out)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Pictures:
+    """The camera's picture and the receiver's, with their column means.
+
+    Parameters
+    ----------
+    camera_image, image : ndarray of uint8, shape (rows, columns)
+        As the camera gives it, and enhanced within the panel.
+    profile, signal : ndarray of float64, shape (columns,)
+        Mean of the panel's pixels in each column, before enhancement and after it; the column's
+        value where the picture does not show the panel.
+    """
+
+    camera_image: ByteArray
+    image: ByteArray
+    profile: FloatArray
+    signal: FloatArray
+
+
 class PixelExposure:
     """The pixels of a picture.
 
@@ -113,20 +132,11 @@ class PixelExposure:
 
     def pictures(
         self, enhancement: Enhancement, seed: int, source: NoiseSource | NoiseMaker
-    ) -> tuple[ByteArray, ByteArray, FloatArray]:
-        """Make the camera's picture and the receiver's.
-
-        Returns
-        -------
-        camera_image, image : ndarray of uint8, shape (exposed rows, columns)
-            As the camera gives it, and enhanced within the panel.
-        profile : ndarray of float64, shape (columns,)
-            Mean of the panel's pixels in each column before enhancement; the column's value where
-            the picture does not show the panel.
-        """
+    ) -> Pictures:
+        """Make the camera's picture and the receiver's, of the exposed rows."""
         camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
-        column_means = _ColumnMeans(self._shape[1])
+        before, after = _ColumnMeans(self._shape[1]), _ColumnMeans(self._shape[1])
         panels: list[tuple[slice, Panel]] = []
         for exposed in self.rows(seed, source):
             rows, panel = exposed.place, exposed.panel
@@ -134,16 +144,20 @@ class PixelExposure:
             if self._files:
                 panels.append((rows, panel))
             else:
-                column_means.add(panel, exposed.values)
+                before.add(panel, exposed.values)
                 _enhance(camera_image[rows], enhancement, panel, out=image[rows])
+                after.add(panel, image[rows])
             self._timer.stage_ended("image")
         if self._files:
             camera_image = self._through_files(camera_image)
             for rows, panel in panels:
-                column_means.add(panel, camera_image[rows].astype(np.float32))
+                before.add(panel, camera_image[rows])
                 _enhance(camera_image[rows], enhancement, panel, out=image[rows])
+                after.add(panel, image[rows])
             self._timer.stage_ended("image")
-        return camera_image, image, column_means.means(self._columns.profile)
+        profile = self._columns.profile
+        enhanced = enhancement(profile).astype(np.float64)
+        return Pictures(camera_image, image, before.means(profile), after.means(enhanced))
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
         """Return the observable: pixel values before enhancement and rounding.
@@ -189,10 +203,10 @@ class _ColumnMeans:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)
 
-    def add(self, panel: Panel, values: Pixels) -> None:
+    def add(self, panel: Panel, values: Pixels | ByteArray) -> None:
         """Add some rows."""
         if not isinstance(panel, slice):
-            self._sums += _column_sums(np.where(panel, values, np.float32(0.0)))
+            self._sums += _column_sums(np.where(panel, values, values.dtype.type(0)))
             self._counts += np.count_nonzero(panel, axis=0)
         elif panel.stop > panel.start:
             self._sums[panel] += _column_sums(values[:, panel])
@@ -204,6 +218,8 @@ class _ColumnMeans:
         return np.asarray(np.where(self._counts > 0, means, otherwise))
 
 
-def _column_sums(values: Pixels) -> FloatArray:
-    sums = cv2.reduce(values, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
+def _column_sums(values: Pixels | ByteArray) -> FloatArray:
+    # Bytes are summed as integers, many times faster; a picture has too few rows to exceed 32 bits.
+    exact = cv2.CV_32S if values.dtype == np.uint8 else cv2.CV_64F
+    sums = cv2.reduce(values, 0, cv2.REDUCE_SUM, dtype=exact)
     return np.asarray(sums[0], dtype=np.float64)

@@ -117,15 +117,16 @@ def render_plan(
     timer.stage_ended("enhancement")
     around, corners, rows = to_bytes(columns.around), view.corners, scene.camera.rows
     if chosen.kinds <= {"column"}:
-        profile = columns.profile
+        profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)
         timer.stage_ended("image")
         camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
         exposure = PixelExposure(view, chosen, columns, timer)
-        taken, image, profile = exposure.pictures(enhancement, seed, noise)
-        camera_image = partial(np.asarray, taken)
-    return Frame(scene, chosen, image, profile, enhanced, corners, timer.timings, camera_image)
+        made = exposure.pictures(enhancement, seed, noise)
+        image, profile, signal = made.image, made.profile, made.signal
+        camera_image = partial(np.asarray, made.camera_image)
+    return Frame(scene, chosen, image, profile, signal, corners, timer.timings, camera_image)
 
 
 def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "exact") -> Pixels:

@@ -102,7 +102,7 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     bands = [band for part in parts for band in part.bands]
     exposure = PixelExposure(view, plan, columns, timer, bands)
     enhancement = Enhancement(columns.profile, view.scene.model.enhancement)
-    _, image, _ = exposure.pictures(enhancement, seed, SystematicNoise)
+    image = exposure.pictures(enhancement, seed, SystematicNoise).image
     return SampledPicture(_repeated(image, parts), rows_each)
 
 

@@ -72,7 +72,7 @@ def test_other_code_lengths_are_read_beyond_the_period(covered: Scene, bits: int
     wrong = []
     for code in sorted(codes - vanished):
         scene = covered.replace(bits=bits, code=code, exposure_time=136e-6)
-        result = occ.decode(occ.render(scene).enhanced, scene)
+        result = occ.decode(occ.render(scene).signal, scene)
         if result.code != code:
             wrong.append((code, result.code, result.failure))
     assert wrong == []
@@ -83,7 +83,7 @@ def test_a_packet_without_single_zeros_is_read_from_any_start(covered: Scene, bi
     all_ones = covered.replace(bits=bits, code=2**bits - 1, exposure_time=136e-6)
     for start in np.linspace(0.0, 3e-3, 50):
         scene = all_ones.replace(start_time=float(start))
-        assert occ.decode(occ.render(scene).enhanced, scene).code == 2**bits - 1
+        assert occ.decode(occ.render(scene).signal, scene).code == 2**bits - 1
 
 
 def test_every_step_stands_on_the_result(covered: Scene) -> None:
@@ -110,7 +110,7 @@ def test_chips_read_are_the_chips_sent(covered: Scene) -> None:
 def test_profile_and_image_give_the_same_code(covered: Scene) -> None:
     frame = occ.render(covered)
     by_image = occ.decode(frame.image, covered)
-    by_profile = occ.decode(frame.enhanced, covered)
+    by_profile = occ.decode(frame.signal, covered)
     assert by_image.code == by_profile.code == covered.transmitter.code
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.camera.enhancement import enhance
 from occ_model.camera.photometry import ColumnLight, panel_values
 from occ_model.camera.projection import row_spans
 from occ_model.effects.flicker import Flicker
@@ -53,7 +54,7 @@ def test_without_a_limit_the_picture_is_the_papers(scene: Scene, enhancement: st
     column = np.arange(COLUMNS)
     inside = (column >= first[:, None]) & (column < last[:, None])
     dark = occ.column_profile(complete.replace(pattern="0"))[0]
-    expected = np.where(inside, frame.enhanced, np.rint(dark))
+    expected = np.where(inside, frame.signal, np.rint(dark))
     np.testing.assert_array_equal(frame.image, expected)
 
 
@@ -125,6 +126,36 @@ def test_the_profile_is_the_mean_of_the_panels_pixels(
     np.testing.assert_allclose(frame.profile[seen], means, rtol=0, atol=largest)
 
 
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+@pytest.mark.parametrize("quality", [0, 90])
+@pytest.mark.parametrize("roll", [0.0, 0.3])
+def test_the_signal_is_the_mean_of_the_panels_enhanced_pixels(
+    scene: Scene, roll: float, quality: int, enhancement: str
+) -> None:
+    complete = whole(scene).replace(
+        distance=1.2, roll=roll, jpeg_quality=quality, enhancement=enhancement
+    )
+    # A panel that is straight and sharp, so that its pixels are known.
+    frame = occ.render(complete.replace(radial_k1=0.0, point_spread=0.0), tolerance=0)
+    assert {"image", "noise"} <= frame.plan.kinds
+    first, last = row_spans(frame.corners, ROWS, COLUMNS)
+    column = np.arange(COLUMNS)
+    inside = (column >= first[:, None]) & (column < last[:, None])
+    seen = inside.any(axis=0)
+    assert 0.2 < seen.mean() < 1.0
+    means = frame.image.sum(axis=0, where=inside)[seen] / inside.sum(axis=0)[seen]
+    np.testing.assert_allclose(frame.signal[seen], means, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+def test_of_column_effects_the_signal_is_the_enhanced_profile(
+    scene: Scene, enhancement: str
+) -> None:
+    force = {name: name in COLUMN_EFFECTS for name in NAMES}
+    frame = occ.render(whole(scene).replace(roll=0.3, enhancement=enhancement), force=force)
+    np.testing.assert_array_equal(frame.signal, enhance(frame.profile, enhancement))
+
+
 @pytest.mark.parametrize(
     "changes",
     [{"illuminance": 0.0}, {"iso": 6400.0, "luminance": 370.0}],
@@ -150,7 +181,7 @@ def test_column_effects_alone_leave_the_profile_to_the_columns(scene: Scene, rol
     first, last = row_spans(frame.corners, ROWS, COLUMNS)
     for row in range(0, ROWS, 7):
         span = slice(first[row], last[row])
-        np.testing.assert_array_equal(frame.image[row, span], frame.enhanced[span])
+        np.testing.assert_array_equal(frame.image[row, span], frame.signal[span])
 
 
 @pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])

@@ -51,7 +51,7 @@ def test_all_codes_are_read_at_three_chips_an_exposure() -> None:
     wrong = [
         code
         for code in range(1024)
-        if occ.decode(occ.render(scene.replace(code=code)).enhanced, scene, "matched").code != code
+        if occ.decode(occ.render(scene.replace(code=code)).signal, scene, "matched").code != code
     ]
     assert wrong == []
 

@@ -110,7 +110,7 @@ def test_panel_rows_carry_the_profile_and_outside_is_dark(roll: float) -> None:
     surroundings = frame.image[0, 0]
     for row in range(300):
         a, b = first[row], last[row]
-        np.testing.assert_array_equal(frame.image[row, a:b], frame.enhanced[a:b])
+        np.testing.assert_array_equal(frame.image[row, a:b], frame.signal[a:b])
         assert (frame.image[row, :a] == surroundings).all()
         assert (frame.image[row, b:] == surroundings).all()
 

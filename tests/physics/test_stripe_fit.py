@@ -127,7 +127,8 @@ def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> No
 def test_the_windows_own_picture_is_explained(enhancement: str) -> None:
     """Equalized histograms too, which keep the order of the column values and nothing else."""
     scene = occ.load_preset("phone-136us").replace(enhancement=enhancement)
-    picture = np.repeat(occ.render(scene, tolerance=math.inf).enhanced[None], 40, 0)
+    columns = occ.render(scene, tolerance=math.inf).signal
+    picture = np.repeat(columns.astype(np.uint8)[None], 40, 0)
     match = occ.match_photo(photo_of(picture), scene.replace(readout_time=1e-6))
     assert match.readout_time == pytest.approx(8e-6, rel=0.002)
     assert match.exposure_time == pytest.approx(136e-6, rel=0.1)

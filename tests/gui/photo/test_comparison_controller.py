@@ -145,7 +145,7 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
     bench.controller.show_photo(photo)
     bench.controller.show_snapshot(snapshot)
     bench.residual()
-    for enhanced, profile in ((True, snapshot.frame.enhanced), (False, snapshot.frame.profile)):
+    for enhanced, profile in ((True, snapshot.frame.signal), (False, snapshot.frame.profile)):
         bench.controller.set_enhanced(enhanced)
         first = bench.comparison.first_column
         length = len(bench.comparison.simulated)

@@ -128,7 +128,7 @@ def test_the_profile_before_is_drawn_named_and_in_view(
     assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.profile)
     assert view.plot.getViewBox().viewRange()[1][1] >= brighter.frame.profile.max()
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
-    assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.enhanced)
+    assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.signal)
 
 
 @pytest.fixture

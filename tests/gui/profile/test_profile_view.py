@@ -14,10 +14,13 @@ from pytestqt.qtbot import QtBot
 from occ_gui.profile import profile_view
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
+from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, DecodeResult
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 SnapshotOf = Callable[..., Snapshot]
 
@@ -170,13 +173,32 @@ def test_after_enhancement_shows_picture_levels_and_threshold(
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
-    assert drawn(view.simulation)[1] == snapshot.frame.enhanced.tolist()
+    assert drawn(view.simulation)[1] == snapshot.frame.signal.tolist()
     assert view.threshold.isVisible()
     assert view.threshold.value() == snapshot.decoded.threshold
     assert "threshold" in legend_texts(view)
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
     assert drawn(view.simulation)[1] == snapshot.frame.profile.tolist()
     assert not view.threshold.isVisible()
+
+
+@pytest.mark.parametrize("tolerance", [0.0, math.inf])
+def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
+    view: ProfileView, small_scene: Scene, tolerance: float
+) -> None:
+    view.enhanced.setChecked(True)
+    blurred = small_scene.replace(point_spread=2.0, vignetting_exponent=4.0)
+    snapshot = simulate(blurred, SimulationSettings(tolerance=tolerance))
+    assert (snapshot.frame.plan.kinds <= {"column"}) == math.isinf(tolerance)
+    view.show_snapshot(snapshot)
+    region, read = snapshot.decoded.region, snapshot.decoded.signal
+    assert region is not None
+    assert read is not None
+    assert float(np.ptp(read)) > 100.0
+    columns = slice(region.first_column, region.last_column)
+    shown = np.array(drawn(view.simulation)[1])[columns]
+    # The rectangle that is read may have some rows more or less than the panel.
+    assert np.abs(shown - read)[1:-1].max() <= 1.0
 
 
 def test_without_a_threshold_none_is_shown(view: ProfileView, snapshot_of: SnapshotOf) -> None:

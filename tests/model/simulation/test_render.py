@@ -142,7 +142,7 @@ def test_the_same_seed_gives_the_same_picture(scene: Scene, noise: str) -> None:
         ({"seed": -1}, "seed is -1"),
         ({"seed": 1.5}, "seed is 1.5"),
         ({"noise": "white"}, "noise is 'white'; allowed: exact, reused"),
-        ({"observable": "pixel"}, "observable is 'pixel'; allowed: profile, image"),
+        ({"observable": "pixel"}, "observable is 'pixel'; allowed: signal, profile, image"),
     ],
 )
 def test_what_is_no_tolerance_or_seed_is_refused(

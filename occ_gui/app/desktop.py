@@ -98,8 +98,9 @@ class Desktop(QObject):
         self.layout = DockLayout(window, window.docks, preferences)
         lamps = parts.photo_wiring.lamps
         self.autosave = Autosave(
-            parts.store, parts.settings, self.document, lambda: self._photo, lambda: lamps.by_hand
-        )
+            parts.store, parts.settings, self.document, lambda: self._photo,
+            parts.learning.users_own, lambda: lamps.by_hand,
+        )  # fmt: skip
         lamps.region_changed.connect(lambda _region: self.autosave.note_change())
         self.error_reports = ErrorReports()
         self.pointer = CursorReadout(parts.profile, parts.image)

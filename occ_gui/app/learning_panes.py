@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QDockWidget, QWidget
 
+from occ_gui.files.session import UserState
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.image_view import ImageView
@@ -127,6 +128,10 @@ class LearningPanes(QObject):
         controller.status_message.connect(self.status_message)
         controller.pane_wanted.connect(self._window.bring_to_front)
         return controller
+
+    def users_own(self) -> UserState | None:
+        """Return what the user was working on, if an exploration is under way."""
+        return self.explorations.users_own() if "explorations" in vars(self) else None
 
     def end_exploration(self) -> None:
         """Restore what the user was working on, if an exploration is under way."""

@@ -1,13 +1,14 @@
 """Exploration controller: each step sets its scene, opens its photo and shows its pane."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.files.file_controller import sample_photos
+from occ_gui.files.session import UserState
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
@@ -16,8 +17,6 @@ from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results.teaching import Exploration, Step
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.teaching.explorations import explorations
 
 
@@ -31,23 +30,6 @@ class ExplorationPane(Protocol):
 
     def show_step(self, exploration: Exploration, place: int) -> None:
         """Show a step of an exploration."""
-
-
-@dataclass(frozen=True, slots=True)
-class UserState:
-    """What the user was working on before an exploration began.
-
-    Parameters
-    ----------
-    scene, settings
-        The scene, and the settings of its simulation with the forced effects.
-    photo
-        The photo that was open, if any.
-    """
-
-    scene: Scene
-    settings: SimulationSettings
-    photo: Path | None
 
 
 class ExplorationController(QObject):
@@ -127,6 +109,13 @@ class ExplorationController(QObject):
         self.restore_user()
         self._pane.list_explorations(self._all, self._places | self._done, "")
 
+    def users_own(self) -> UserState | None:
+        """Return what the end of the exploration restores; None where none is under way."""
+        is_users = self._open not in {None, *sample_photos()}
+        if self._user is None or not is_users:
+            return self._user
+        return replace(self._user, photo=self._open)  # opened meanwhile: it stays
+
     def _begin(self) -> None:
         if self._user is None:
             settings = self._scenes.settings.settings
@@ -135,14 +124,14 @@ class ExplorationController(QObject):
 
     def restore_user(self) -> None:
         """Restore what the user was working on; the scene in one step that can be undone."""
-        user, self._user = self._user, None
+        user, self._user = self.users_own(), None
         if user is None:
             return
         self._scenes.settings.restore(user.settings)
         title = self.tr("end of the exploration")
         self._scenes.put(user.scene, title, new_gesture(), force=user.settings.force)
-        if self._open == user.photo or self._open not in {None, *sample_photos()}:
-            return  # a photo that the user has opened meanwhile stays
+        if self._open == user.photo:
+            return
         if user.photo is None:
             self._photos.close()
         else:

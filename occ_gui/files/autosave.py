@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.files.document import Document
 from occ_gui.files.kept_file import is_readable
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files.session import Session, SessionFile, UserState
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
@@ -32,6 +32,8 @@ class Autosave(QObject):
         Returns the path of the open photo, if any.
     region
         Returns the rectangle of the photo that was drawn by hand, if any.
+    set_aside
+        Returns what the user was working on, while an exploration shows something else.
     """
 
     status_message = Signal(str)
@@ -43,12 +45,14 @@ class Autosave(QObject):
         settings: SettingsStore,
         document: Document,
         photo: Callable[[], Path | None],
+        set_aside: Callable[[], UserState | None],
         region: Callable[[], Region | None] = lambda: None,
     ) -> None:
         super().__init__()
         self._store, self._settings = store, settings
         self._document = document
         self._photo, self._region = photo, region
+        self._set_aside = set_aside
         self._file: SessionFile | None = None
         self._has_failed = False
         # Started by the first change only: if each change restarted it, it would never run out
@@ -108,13 +112,10 @@ class Autosave(QObject):
         self._timer.stop()
         if self._file is None:
             return
-        session = Session(
-            self._store.scene,
-            self._settings.settings,
-            self._document.path,
-            self._photo(),
-            self._region(),
-        )
+        aside = self._set_aside()
+        own = aside or UserState(self._store.scene, self._settings.settings, self._photo())
+        region = None if aside else self._region()
+        session = Session(own.scene, own.settings, self._document.path, own.photo, region)
         try:
             self._file.write(session, in_use)
         except OccError as error:

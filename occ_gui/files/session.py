@@ -46,6 +46,23 @@ def state_folder() -> Path:
 
 
 @dataclass(frozen=True, slots=True)
+class UserState:
+    """What the user is working on, or was before an exploration began.
+
+    Parameters
+    ----------
+    scene, settings
+        The scene, and the settings of its simulation with the forced effects.
+    photo
+        The photo that is open, if any.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
+    photo: Path | None
+
+
+@dataclass(frozen=True, slots=True)
 class Session:
     """What a window is working on, as far as it is known.
 

@@ -1,5 +1,8 @@
 """Explorations: a list, steps that set their scene, and questions answered on demand."""
 
+import json
+from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,7 +15,9 @@ from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
 from occ_gui.explorations import exploration_controller
 from occ_gui.explorations.exploration_view import ExplorationView
+from occ_gui.files.session import Session, SessionFile, UserState
 from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_model.effects.registry import NAMES
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explorations import explorations
@@ -262,6 +267,39 @@ def test_a_photo_opened_during_an_exploration_stays_open(
     guide.all.click()
     user.wait_until_idle()
     assert application.desktop._photo == photo_file
+
+
+def test_a_crash_during_an_exploration_leaves_the_users_own_state(
+    application: Application,
+    guide: ExplorationView,
+    user: User,
+    small_scene: Scene,
+    photo_file: Path,
+    tmp_path: Path,
+) -> None:
+    autosave = application.desktop.autosave
+    autosave.resume(SessionFile(tmp_path, NAMES), Session(), scene_wins=True)
+    application.settings.set_tolerance(7.0)
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    before = UserState(small_scene, application.settings.settings, photo_file)
+    guide.choices[4].click()
+    user.wait_until_idle()
+    assert application.store.scene != before.scene
+    assert application.desktop._photo != before.photo
+    autosave.write()
+    record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
+    assert record["in_use"]
+    assert Scene.from_toml(record["scene"]) == before.scene
+    assert record["settings"] == asdict(before.settings)
+    assert record["photo"] == str(before.photo)
+    guide.all.click()
+    user.wait_until_idle()
+    application.store.change(distance=2.0)
+    autosave.write()
+    record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
+    assert Scene.from_toml(record["scene"]).pose.distance == 2.0
+    autosave.end()
 
 
 def test_a_window_closed_during_an_exploration_keeps_the_users_scene(

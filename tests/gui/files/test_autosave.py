@@ -27,7 +27,11 @@ def begin(application: Application) -> Begin:
 
     def resume(folder: Path) -> Autosave:
         autosave = Autosave(
-            application.store, application.settings, application.desktop.document, lambda: None
+            application.store,
+            application.settings,
+            application.desktop.document,
+            lambda: None,
+            application.learning.users_own,
         )
         autosave.resume(SessionFile(folder, NAMES), Session(), scene_wins=True)
         return autosave

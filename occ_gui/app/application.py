@@ -29,6 +29,7 @@ from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
@@ -79,15 +80,17 @@ class Application(QObject):
         self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
         self.photos = self.photo_wiring.photos
         self.presets = PresetController(self.window, self.store, self.photo_wiring.matching)
-        self.files = FileController(self.window, self.store, self.photos, self.preferences)
+        self.present = PresentResults(self.simulation)
+        self.files = FileController(
+            self.window, self.store, self.photos, self.preferences, self.present.ask
+        )
         self.learning = LearningPanes(
             self.window, self.store, self.photos, self.image, self.profile
         )
         # The profile is last: it is drawn with the earlier results and the comparison.
         first = (self.image, self.learning, self.photo_wiring.comparison)
-        views = (*first, self.profile, self.decode, self.accuracy)
         self.simulation.picture_ready.connect(self.image.show_picture)
-        self.simulation.show_in([*views, self.files])
+        self.simulation.show_in([*first, self.profile, self.decode, self.accuracy])
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
@@ -123,14 +126,14 @@ class Application(QObject):
         self.editor.input_refused.connect(self.messages.show_refusal)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
-        self.presets.status_message.connect(self.window.say)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
         self.store.refused_for.connect(self.messages.show_refusal_for)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
         self.simulation.failed_for.connect(self.messages.show_failure)
         self.simulation.failed.connect(self.learning.pins.give_up)
-        self.files.status_message.connect(self.window.say)
+        for speaker in (self.presets, self.files, self.present):
+            speaker.status_message.connect(self.window.say)
         self.learning.status_message.connect(self.messages.show_refusal)
         self.window.closing.connect(self.stop)
 
@@ -248,8 +251,7 @@ class Application(QObject):
     def _show_settings(self, settings: SimulationSettings) -> None:
         self.messages.end_refusal()
         self.accuracy.show_settings(settings)
-        forced = forced_text(settings.force, self.settings.effect_labels)
-        self.controls.forced.show_list(forced)
+        self.controls.forced.show_list(forced_text(settings.force, self.settings.effect_labels))
 
     def _refuse_setting(self, sentence: str) -> None:
         self.accuracy.show_settings(self.settings.settings)

@@ -8,6 +8,7 @@ from PySide6.QtGui import QAction
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.app.error_reports import ErrorReports
+from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.export.export_controller import ExportController
@@ -27,6 +28,7 @@ from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.present_results import PresentResults
 from occ_gui.window.command_palette import CommandPalette, commands_of, shortcuts_of
 from occ_gui.window.current_pane import CurrentPane
 from occ_gui.window.cursor_readout import CursorReadout
@@ -55,7 +57,9 @@ class Parts(Protocol):
     files: FileController
     photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
+    learning: LearningPanes
     simulation: SimulationController
+    present: PresentResults
     controls: ControlPanel
     image: ImageView
     profile: ProfileView
@@ -88,7 +92,7 @@ class Desktop(QObject):
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)
         self.export = ExportController(
-            window, self.figures, preferences, pane, parts.decode.decoder
+            window, self.figures, parts.present, preferences, pane, parts.decode.decoder
         )
         self.export.connect_actions(window.menus.figures)
         self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name)
@@ -108,7 +112,6 @@ class Desktop(QObject):
 
     def _connect(self) -> None:
         parts, window = self._parts, self._parts.window
-        parts.simulation.snapshot_shown.connect(self.figures.show_snapshot)
         for taker in (parts.simulation.prepare_picture, parts.files.choose_picture):
             parts.image.picture_chosen.connect(taker)
         parts.image.picture_chosen.connect(self.figures.choose_picture)

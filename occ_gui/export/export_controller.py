@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -12,6 +13,8 @@ from occ_gui.background.latest_wins import LatestWins
 from occ_gui.export.figures import Figures, NothingToDraw
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Preferences
+from occ_gui.simulation.present_results import PresentResults
+from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.window.current_pane import PICTURE, CurrentPane
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
@@ -23,12 +26,16 @@ _FIGURE_OF_PANE = {"profile": "profile", "accuracy": "accuracy", "map": "map"}
 class ExportController(QObject):
     """Draws figures on a background thread, one job after another, and saves or copies them.
 
+    A figure is drawn of the scene that the controls show, once its results are there.
+
     Parameters
     ----------
     window
         The parent of the dialogs.
     figures
         The sources of the figures.
+    present
+        Gives the results of the present scene.
     preferences
         Stores the folder of the last export.
     current_pane
@@ -44,6 +51,7 @@ class ExportController(QObject):
         self,
         window: QWidget | None,
         figures: Figures,
+        present: PresentResults,
         preferences: Preferences,
         current_pane: CurrentPane,
         shown_decoder: Callable[[], str],
@@ -51,6 +59,7 @@ class ExportController(QObject):
         super().__init__(window)
         self._window = window
         self._figures = figures
+        self._present = present
         self._preferences = preferences
         self.current_pane = current_pane
         self._shown_decoder = shown_decoder
@@ -74,8 +83,8 @@ class ExportController(QObject):
 
     def ask(self, name: str) -> None:
         """Let the user choose the file that a figure is written to."""
-        request = self._request(name)
-        if request is None:
+        shown = self._present.latest
+        if shown is not None and self._request(name, shown) is None:
             return
         kinds = {
             ".png": self.tr("PNG picture (*.png)"),
@@ -94,13 +103,11 @@ class ExportController(QObject):
         if not path.suffix:
             ending = next((each for each, text in kinds.items() if text == kind), ENDINGS[0])
             path = path.with_suffix(ending)
-        self._put(ExportJob((request,), path=path))
+        self.export(name, path)
 
     def export(self, name: str, path: Path) -> None:
         """Write a figure in the format that the file's ending names."""
-        request = self._request(name)
-        if request is not None:
-            self._put(ExportJob((request,), path=path))
+        self._present.ask(partial(self._draw, name, path))
 
     def ask_for_folder(self) -> None:
         """Let the user choose the folder that all figures are written to."""
@@ -112,10 +119,13 @@ class ExportController(QObject):
 
     def export_all(self, folder: Path) -> None:
         """Write every available figure in every format into a folder."""
+        self._present.ask(partial(self._draw_all, folder))
+
+    def _draw_all(self, folder: Path, shown: Snapshot) -> None:
         requests, missing = [], []
         for name, source in self._figures.sources.items():
             try:
-                requests.append(source())
+                requests.append(source(shown))
             except NothingToDraw as reason:
                 missing.append(f"{self._figures.titles[name]}: {reason}")
         self._left_out = " ".join(missing)
@@ -126,9 +136,7 @@ class ExportController(QObject):
 
     def copy(self, name: str) -> None:
         """Put a figure on the clipboard, as a picture."""
-        request = self._request(name)
-        if request is not None:
-            self._put(ExportJob((request,)))
+        self._present.ask(partial(self._draw, name, None))
 
     def copy_current(self) -> None:
         """Copy the figure of the current pane."""
@@ -139,9 +147,14 @@ class ExportController(QObject):
         figure = _FIGURE_OF_PANE.get(pane, PICTURE)
         self.copy(figure if figure in self._figures.sources else PICTURE)
 
-    def _request(self, name: str) -> FigureRequest | None:
+    def _draw(self, name: str, path: Path | None, shown: Snapshot) -> None:
+        request = self._request(name, shown)
+        if request is not None:
+            self._put(ExportJob((request,), path=path))
+
+    def _request(self, name: str, shown: Snapshot) -> FigureRequest | None:
         try:
-            return self._figures.sources[name]()
+            return self._figures.sources[name](shown)
         except NothingToDraw as reason:
             self.status_message.emit(str(reason))
             return None

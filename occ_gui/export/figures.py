@@ -46,8 +46,8 @@ class AccuracyPane(Protocol):
         """All points of the current scene; empty while they are not complete."""
 
 
-Source = Callable[[], FigureRequest]
-"""Returns the request for a figure, or raises NothingToDraw."""
+Source = Callable[[Snapshot], FigureRequest]
+"""Returns the request for a figure of some results, or raises NothingToDraw."""
 
 
 class Figures(QObject):
@@ -77,7 +77,6 @@ class Figures(QObject):
         self._settings = settings
         self._comparison = comparison
         self._profile, self._accuracy = profile, accuracy
-        self._snapshot: Snapshot | None = None
         self._photo: Photo | None = None
         self._whose = PICTURES[0]
         self._sources: dict[str, Source] = {
@@ -95,7 +94,9 @@ class Figures(QObject):
         """Add the figure of the detection map, which is available once all its points are known."""
         self.add("map", self.tr("Detection map"), partial(self._of_map, full))
 
-    def _of_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> FigureRequest:
+    def _of_map(
+        self, full: Callable[[], "tuple[RateMap, MapRequest] | None"], shown: Snapshot
+    ) -> FigureRequest:
         there = full()
         if there is None:
             raise NothingToDraw(
@@ -108,7 +109,7 @@ class Figures(QObject):
 
             return sweep_drawing(table)
 
-        return self.request(self._shown().frame.scene, draw)
+        return self.request(shown.frame.scene, draw)
 
     def add(self, name: str, title: str, source: Source) -> None:
         """Add a figure."""
@@ -119,10 +120,6 @@ class Figures(QObject):
     def sources(self) -> Mapping[str, Source]:
         """The sources of the figures, by their names."""
         return self._sources
-
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Use these results from now on."""
-        self._snapshot = snapshot
 
     def choose_picture(self, whose: str) -> None:
         """Draw the picture of the camera or of the receiver from now on."""
@@ -137,13 +134,7 @@ class Figures(QObject):
         now = datetime.now().astimezone().isoformat(timespec="seconds")
         return FigureRequest(scene, self._settings.settings, now, draw)
 
-    def _shown(self) -> Snapshot:
-        if self._snapshot is None:
-            raise NothingToDraw(self.tr("There is no picture yet."))
-        return self._snapshot
-
-    def _of_picture(self) -> FigureRequest:
-        shown = self._shown()
+    def _of_picture(self, shown: Snapshot) -> FigureRequest:
         photo = None if self._photo is None else self._photo.image
         frame, region, whose = shown.frame, shown.decoded.region, self._whose
 
@@ -154,8 +145,8 @@ class Figures(QObject):
 
         return self.request(frame.scene, draw)
 
-    def _of_profile(self) -> FigureRequest:
-        shown, comparison = self._shown(), self._comparison()
+    def _of_profile(self, shown: Snapshot) -> FigureRequest:
+        comparison = self._comparison()
         first, last = self._profile.columns_in_view()
         enhanced = self._profile.is_enhanced
         band = shown.enhanced_band if enhanced else shown.band
@@ -169,8 +160,7 @@ class Figures(QObject):
 
         return self.request(shown.frame.scene, draw)
 
-    def _of_decoding(self, decoder: str) -> FigureRequest:
-        shown = self._shown()
+    def _of_decoding(self, decoder: str, shown: Snapshot) -> FigureRequest:
         result = _read_by(decoder, shown)
         if result is None:
             raise NothingToDraw(
@@ -184,7 +174,7 @@ class Figures(QObject):
 
         return self.request(shown.frame.scene, draw)
 
-    def _of_accuracy(self) -> FigureRequest:
+    def _of_accuracy(self, shown: Snapshot) -> FigureRequest:
         points = self._accuracy.measured
         if not points:
             raise NothingToDraw(
@@ -196,7 +186,7 @@ class Figures(QObject):
 
             return accuracy_drawing(points)
 
-        return self.request(self._shown().frame.scene, draw)
+        return self.request(shown.frame.scene, draw)
 
 
 def _read_by(decoder: str, shown: Snapshot) -> DecodeResult | None:

@@ -1,6 +1,7 @@
 """File controller: dialogs of the file menu; opens and saves scenes, photos and pictures."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -9,6 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
 from occ_model.files.resources import resource_path
@@ -61,6 +63,8 @@ class FileController(QObject):
         Opens photos.
     preferences
         Stores the recent files and the folder.
+    when_present
+        Calls a function with the results of the present scene, once they are there.
     """
 
     status_message = Signal(str)
@@ -76,20 +80,21 @@ class FileController(QObject):
     """The file that the scene has been saved to."""
 
     def __init__(
-        self, window: QWidget, store: SceneStore, photos: PhotoController, preferences: Preferences
+        self,
+        window: QWidget,
+        store: SceneStore,
+        photos: PhotoController,
+        preferences: Preferences,
+        when_present: Callable[[Use], None],
     ) -> None:
         super().__init__(window)
         self._window = window
         self._store = store
         self._photos = photos
         self._preferences = preferences
-        self._snapshot: Snapshot | None = None
+        self._when_present = when_present
         self._whose = PICTURES[0]
         photos.opened.connect(self._remember)
-
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Keep the results that are shown, whose picture can be saved."""
-        self._snapshot = snapshot
 
     def choose_picture(self, whose: str) -> None:
         """Save the picture of the camera or of the receiver from now on."""
@@ -220,11 +225,14 @@ class FileController(QObject):
             self.save_picture(Path(name))
 
     def save_picture(self, path: Path) -> None:
-        """Save the picture that is shown, the camera's or the receiver's, at its full size."""
-        if self._snapshot is None:
-            self.status_message.emit(self.tr("There is no picture yet."))
-            return
-        frame, whose = self._snapshot.frame, self._whose
+        """Save the camera's or the receiver's picture of the present scene, at its full size.
+
+        It is written as soon as it is there, as the one of the two that is shown now.
+        """
+        self._when_present(partial(self._write_picture, path, self._whose))
+
+    def _write_picture(self, path: Path, whose: str, shown: Snapshot) -> None:
+        frame = shown.frame
         image, title = frame.picture(whose), frame.picture_title(whose)
         said = f"{title[:1].lower()}{title[1:]}"
         self._save(path, lambda: write_image(path, image, title), said)

@@ -25,9 +25,23 @@ class Bench:
         self.store = SceneStore(scene)
         self.photos = PhotoController([])
         self.preferences = Preferences()
-        self.files = FileController(None, self.store, self.photos, self.preferences)  # type: ignore[arg-type]
+        self.shown: Snapshot | None = None
+        self.waiting: list[Callable[[Snapshot], None]] = []
+        self.files = FileController(
+            None,  # type: ignore[arg-type]
+            self.store,
+            self.photos,
+            self.preferences,
+            self._when_present,
+        )
         self.status_message: list[str] = []
         self.files.status_message.connect(self.status_message.append)
+
+    def _when_present(self, use: Callable[[Snapshot], None]) -> None:
+        if self.shown is None:
+            self.waiting.append(use)
+        else:
+            use(self.shown)
 
 
 @pytest.fixture
@@ -115,9 +129,7 @@ def test_an_opened_scene_file_is_saved_under_a_new_name(
 def test_a_saved_picture_is_exactly_the_one_shown(
     bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot], ending: str
 ) -> None:
-    bench.files.show_snapshot(snapshot_of(iso=50.0))
-    shown = snapshot_of(iso=400.0)
-    bench.files.show_snapshot(shown)
+    shown = bench.shown = snapshot_of(iso=400.0)
     path = tmp_path / f"picture.{ending}"
     bench.files.save_picture(path)
     assert bench.status_message == [f"Saved picture.{ending}: the camera's picture"]
@@ -129,7 +141,7 @@ def test_a_saved_picture_is_exactly_the_one_shown(
 def test_an_unwritable_picture_gives_a_sentence_and_no_file(
     bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
 ) -> None:
-    bench.files.show_snapshot(snapshot_of())
+    bench.shown = snapshot_of()
     for path in (tmp_path / "p", tmp_path / "p.toml", tmp_path / "nowhere" / "p.png"):
         bench.files.save_picture(path)
         assert path.name in bench.status_message[-1]
@@ -137,10 +149,22 @@ def test_an_unwritable_picture_gives_a_sentence_and_no_file(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_before_the_first_picture_there_is_none_to_save(bench: Bench, tmp_path: Path) -> None:
-    bench.files.save_picture(tmp_path / "picture.png")
-    assert bench.status_message == ["There is no picture yet."]
+def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
+    bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    path = tmp_path / "picture.png"
+    bench.files.choose_picture("receiver")
+    bench.files.save_picture(path)
+    bench.files.choose_picture("camera")
+    assert bench.status_message == []
     assert list(tmp_path.iterdir()) == []
+    shown = snapshot_of()
+    (write,) = bench.waiting
+    write(shown)
+    assert "the receiver's picture" in bench.status_message[-1]
+    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    assert written is not None
+    assert np.array_equal(written, shown.frame.image)
 
 
 def test_the_dialogs_answer_is_what_is_read_and_written(
@@ -155,7 +179,7 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     dialogs = iter([(str(path), "") for path in answers])
     for ask in ("getOpenFileName", "getSaveFileName"):
         monkeypatch.setattr(QFileDialog, ask, lambda *_: next(dialogs))
-    bench.files.show_snapshot(snapshot_of())
+    bench.shown = snapshot_of()
     bench.files.ask_to_save_scene()
     bench.files.ask_to_save_picture()
     bench.files.ask_for_scene()

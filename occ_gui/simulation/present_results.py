@@ -1,0 +1,76 @@
+"""Present results: what is written to a file shows the scene that the controls show."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.snapshot import Snapshot
+
+Use = Callable[[Snapshot], None]
+"""Uses the results of the present scene."""
+
+
+class PresentResults(QObject):
+    """Gives the results of the present scene to those who ask, as soon as the panes show them.
+
+    Results of an earlier scene are never given: whoever asks while a scene is computed waits for
+    it. Where a scene has no picture, they are told so, and what they asked for is not done.
+
+    Parameters
+    ----------
+    simulation
+        Computes the results.
+    """
+
+    status_message = Signal(str)
+    """Whether a request waits, or why it was given up."""
+
+    def __init__(self, simulation: SimulationController) -> None:
+        super().__init__()
+        self._ages = simulation.ages
+        self._runner = simulation.runner
+        self._waiting: list[Use] = []
+        self._is_refused = False
+        self.latest: Snapshot | None = None
+        """The results that the panes show, of the present scene or of an earlier one."""
+        simulation.submitted.connect(self._on_change)
+        simulation.snapshot_shown.connect(self._on_snapshot)
+        simulation.failed.connect(self._on_failure)
+
+    def ask(self, use: Use) -> None:
+        """Use the results of the present scene: at once, or when they are shown."""
+        self._waiting.append(use)
+        if self._is_refused:
+            self._give_up()
+        elif not self._serve():
+            self.status_message.emit(self.tr("Waiting for the picture of this scene…"))
+
+    def _serve(self) -> bool:
+        """Give the latest results to all who wait, if they are those of the present scene."""
+        snapshot = self.latest
+        if snapshot is None or snapshot.request != self._ages.present:
+            return False
+        waiting, self._waiting = self._waiting, []
+        for use in waiting:
+            use(snapshot)
+        return True
+
+    def _on_change(self) -> None:
+        self._is_refused = False
+
+    def _on_snapshot(self, snapshot: Snapshot) -> None:
+        self.latest, self._is_refused = snapshot, False
+        self._serve()
+
+    def _on_failure(self, _sentence: str) -> None:
+        # A failure of an earlier request says nothing about the present one.
+        self._is_refused = self._runner.is_idle
+        if self._is_refused and self._waiting:
+            self._give_up()
+
+    def _give_up(self) -> None:
+        self._waiting.clear()
+        self.status_message.emit(
+            self.tr("This scene has no picture: nothing has been written or copied.")
+        )

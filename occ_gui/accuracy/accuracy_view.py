@@ -51,9 +51,14 @@ class AccuracyView(QWidget):
         self.observable = _choice(
             self.tr("What the tolerance limits"),
             self.tr(
-                "What the tolerance limits: errors of the panel's pixels, or of its column means."
+                "What the tolerance limits: errors of the panel's pixels, of its column means, or "
+                "of the signal that a decoder reads, the column means after the enhancement."
             ),
-            {"image": self.tr("picture"), "profile": self.tr("profile")},
+            {
+                "image": self.tr("picture"),
+                "profile": self.tr("profile"),
+                "signal": self.tr("signal"),
+            },
         )
         self.noise = _choice(
             self.tr("Noise"),

@@ -39,19 +39,23 @@ class DecodeView(QWidget):
         self.reason.setWordWrap(True)
         self.reason.setTextFormat(Qt.TextFormat.PlainText)
         self.reason.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self.left_out = QLabel()
+        self.left_out.setWordWrap(True)
+        self.left_out.setTextFormat(Qt.TextFormat.PlainText)
+        self.left_out.setAccessibleName(self.tr("What the picture leaves out"))
         self._steps = {name: QLabel() for name in _STEPS}
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)
-        for widget in (self.decoders, self.verdict, self.strip, self.reason):
+        for widget in (self.decoders, self.verdict, self.strip, self.reason, self.left_out):
             layout.addWidget(widget)
         layout.addLayout(self._make_form())
         layout.addWidget(self.signal, 1)
         layout.addWidget(self.run_lengths, 1)
         layout.addStretch()
         # Before the first result these are empty.
-        for part in (self.strip, self.reason, self.signal, self.run_lengths):
+        for part in (self.strip, self.reason, self.left_out, self.signal, self.run_lengths):
             part.hide()
         for step in self._steps.values():
             self._form.setRowVisible(step, False)
@@ -84,6 +88,12 @@ class DecodeView(QWidget):
                 self.decoders.removeTab(self.decoders.count() - 1)
         self._mark_tabs(results)
         self.strip.setVisible(bool(snapshot.sent))
+        self.left_out.setVisible(bool(snapshot.called_for))
+        self.left_out.setText(
+            self.tr("This picture leaves out what map and strips take in: {effects}.").format(
+                effects=", ".join(snapshot.called_for)
+            )
+        )
         self._show_chosen()
 
     def show_outdated(self, outdated: bool) -> None:

@@ -14,6 +14,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
+from occ_model.effects.plan import called_for_by_signal
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results import DecodeResult, Frame
 from occ_model.results.frame import PICTURES
@@ -83,6 +84,7 @@ def _snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         band_undefined=undefined,
         reading_seconds=reading_seconds,
         others=others,
+        called_for=called_for_by_signal(frame.plan, scene),
     )
 
 

@@ -57,6 +57,8 @@ class Snapshot:
         A sentence, empty where there is a profile.
     reading_seconds
         Computing time of the paper's decoder.
+    called_for
+        Effects that the picture leaves out and the studies of the same scene take in, by label.
     """
 
     request: SimulationRequest
@@ -70,6 +72,7 @@ class Snapshot:
     band_undefined: str
     reading_seconds: float
     others: tuple[DecodeResult, ...] = ()
+    called_for: tuple[str, ...] = ()
 
     @property
     def simulation_seconds(self) -> float:

@@ -72,6 +72,32 @@ def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
     return plan_of(paper_view_of(scene), settings)
 
 
+def called_for_by_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
+    """Name the effects that a plan leaves out and one for the signal takes in.
+
+    A picture that is planned for its pixels, with a large tolerance, may so be decoded otherwise
+    than a study says, which plans for the signal. What is switched by hand is so in both.
+
+    Parameters
+    ----------
+    chosen
+        A plan, for any observable.
+    scene
+        Its scene.
+
+    Returns
+    -------
+    tuple of str
+        Their labels.
+    """
+    left_out = {d.effect for d in chosen.decisions if d.bound and not (d.included or d.forced)}
+    if not left_out or chosen.observable == "signal" or chosen.tolerance == math.inf:
+        return ()
+    force = {d.effect: d.included for d in chosen.decisions if d.forced}
+    own = plan_with(scene, SimulationSettings(chosen.tolerance, "signal", force))
+    return tuple(d.label for d in own.decisions if d.included and d.effect in left_out)
+
+
 def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     """Decide which effects are simulated, from the paper's view of a scene.
 

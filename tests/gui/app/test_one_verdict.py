@@ -87,6 +87,23 @@ def test_the_decoding_pane_says_what_the_decoder_does(application: Application, 
     assert verdicts == {True, False}
 
 
+def test_a_picture_that_the_studies_would_contradict_says_what_it_lacks(
+    application: Application, user: User
+) -> None:
+    scene = occ.load_preset("phone-136us").replace(rows=400, switching_frequency=14.6e3)
+    application.store.put(scene, "another scene")
+    user.wait_until_idle()
+    lacks = application.decode.left_out
+    assert lacks.isHidden()
+    application.settings.set_observable("profile")  # its means hide what the signal shows
+    user.wait_until_idle()
+    assert not lacks.isHidden()
+    assert "Shot and read noise" in lacks.text()
+    application.settings.set_observable("signal")
+    user.wait_until_idle()
+    assert lacks.isHidden()
+
+
 @pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
 def test_a_strip_shows_the_success_rate_of_each_position(preset: str) -> None:
     scene = occ.load_preset(preset)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.effects.plan import called_for_by_signal
 from occ_model.scene.scene import Scene
 
 LIGHTS_WAY = [
@@ -127,3 +128,16 @@ def test_what_cannot_be_is_refused_in_a_sentence(
 ) -> None:
     with pytest.raises(occ.ParameterError, match=words):
         occ.plan(scene, **arguments)  # type: ignore[arg-type]
+
+
+def test_what_only_the_signal_calls_for_is_named() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
+    of_profile = occ.plan(scene, observable="profile")
+    assert "sensor-noise" not in of_profile
+    assert "Shot and read noise" in called_for_by_signal(of_profile, scene)
+    assert called_for_by_signal(occ.plan(scene), scene) == ()
+    assert called_for_by_signal(occ.plan(scene, observable="signal"), scene) == ()
+    # By hand it is left out of both, and without a tolerance of everything.
+    off = dict.fromkeys(["sensor-noise", "fixed-pattern"], False)
+    assert called_for_by_signal(occ.plan(scene, observable="profile", force=off), scene) == ()
+    assert called_for_by_signal(occ.plan(scene, math.inf), scene) == ()

@@ -3,6 +3,7 @@
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QObject
 
+from occ_gui.photo.chip_controller import ChipController
 from occ_gui.photo.comparison_controller import ComparisonController
 from occ_gui.photo.lamp_controller import LampController
 from occ_gui.photo.lamp_outlines import LampOutlines
@@ -39,9 +40,11 @@ class PhotoWiring(QObject):
         self.comparison = ComparisonController(self.placements, profile)
         self.matching = MatchController(scenes, pane)
         self.many = ManyPhotosController(scenes, pane.many)
+        self.chips = ChipController(profile.chips)
         self.outlines = LampOutlines(image.photo.box)
         self.lamps = LampController((pane.lamps, self.outlines))
-        self.photos = PhotoController([image, pane, self.comparison, self.matching, self.lamps])
+        panes = [image, pane, self.comparison, self.matching, self.chips, self.lamps]
+        self.photos = PhotoController(panes)
         self._connect_lamps()
         self.placements.changed.connect(self._show_placement)
         image.overlay.placed.connect(self.placements.move)
@@ -77,6 +80,7 @@ class PhotoWiring(QObject):
         lamps.failed.connect(form.show_sentence)
         lamps.region_changed.connect(self.matching.set_region)
         lamps.region_changed.connect(self.comparison.set_region)
+        lamps.region_changed.connect(self.chips.set_region)
         lamps.region_changed.connect(self._show_region)
         self._image.photo.graphics.scene().sigMouseClicked.connect(self._click)
 
@@ -96,10 +100,9 @@ class PhotoWiring(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether no work is running in the background."""
-        runs = (
-            self.photos.runner, self.matching.runner, self.many.runner, self.lamps.runner
-        )  # fmt: skip
-        return self.comparison.runner.is_idle and not any(run.is_running for run in runs)
+        runs = (self.photos.runner, self.matching.runner, self.many.runner, self.lamps.runner)
+        newest = (self.comparison.runner, self.chips.runner)
+        return all(run.is_idle for run in newest) and not any(run.is_running for run in runs)
 
     def match(self) -> None:
         """Match the photo with the choices of the pane."""
@@ -130,6 +133,7 @@ class PhotoWiring(QObject):
         """Stop the work in the background."""
         self.many.stop()
         self.matching.stop()
+        self.chips.stop()
         self.comparison.stop()
         self.lamps.stop()
         self.photos.stop()

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.profile.chip_strip import ChipStrip
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.residual_plot import ResidualPlot
 from occ_gui.simulation.snapshot import Snapshot
@@ -142,6 +143,8 @@ class ProfileView(QWidget):
         layout.addLayout(row)
         layout.addWidget(self.reason)
         layout.addWidget(self.plot, 3)
+        self.chips = ChipStrip(self.plot, _AXIS_WIDTH)
+        layout.addWidget(self.chips)
 
     @cached_property
     def residual(self) -> ResidualPlot:
@@ -176,6 +179,8 @@ class ProfileView(QWidget):
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
         """Show this profile of a photo in place of the previous one, or none."""
         self._photo = profile
+        if profile is not None:
+            self.chips.place(profile.first_column, profile.scale)
         if profile is None:
             self._photo_levels = None
             _draw(self.photo, None)

@@ -9,7 +9,7 @@ from occ_model.photo.chips.lattice import certainty, chips_between, coarsest, wi
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import ChipReading
+from occ_model.results import ChipReading, Lamp
 
 _EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
 """Exposures in chips that are tried to explain the profile by the edges that were found."""
@@ -18,7 +18,7 @@ _MOST_UNEXPLAINED = 0.2
 """Share of the profile's variance from which the edges found explain nothing."""
 
 
-def read_chips(photo: Photo, region: Corners | None = None) -> ChipReading:
+def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReading:
     """Read the chips in view of a photo, without knowing what is sent or whether it repeats.
 
     The edges of the stripes lie on a lattice of chips, the coarsest that explains them. Chips whose
@@ -30,7 +30,7 @@ def read_chips(photo: Photo, region: Corners | None = None) -> ChipReading:
         The photo.
     region
         First row, row after the last, first column and column after the last of the rectangle in
-        which stripes are searched; None for the whole photo.
+        which stripes are searched; or a lamp; None for the whole photo.
 
     Returns
     -------

@@ -1,0 +1,124 @@
+"""Strip of chips under the profile: those read from a photo, each below its columns."""
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
+
+from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.plot import PHOTO, Plot
+from occ_model.results import ChipReading
+
+_LEAST_FOR_DIGITS = 9
+"""Pixels of a chip from which its digit is drawn."""
+
+_CERTAIN = 0.95
+"""Probability that all chips are right from which they are drawn in full."""
+
+_FADED = 0.45
+
+
+class ChipStrip(QWidget):
+    """Cells of the chips, lit ones filled, and a button that copies them as text.
+
+    Parameters
+    ----------
+    plot
+        The plot whose columns the cells lie under.
+    left
+        Pixels of the plot's axis, where the button has its place.
+    """
+
+    def __init__(self, plot: Plot, left: int) -> None:
+        super().__init__()
+        self.copy = QToolButton()
+        self.copy.setText(self.tr("Copy"))
+        self.copy.setToolTip(self.tr("Copy the chips read from the photo as text."))
+        self.copy.setFixedWidth(left)
+        self.copy.clicked.connect(self._copy)
+        self.cells = _Cells(plot)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.copy)
+        layout.addWidget(self.cells, 1)
+        self.hide()
+
+    def show_chips(self, reading: ChipReading | None) -> None:
+        """Show these chips in place of the previous ones, or none."""
+        self.cells.reading = reading
+        self.setVisible(reading is not None)
+        if reading is not None:
+            text = self.tr(
+                "{count} chips read from the photo, {columns:.2f} columns each; all of them are "
+                "right with a probability of {share:.0f} %"
+            ).format(
+                count=len(reading.chips),
+                columns=reading.columns_per_chip,
+                share=100.0 * reading.confidence,
+            )
+            self.cells.setToolTip(text)
+            self.cells.setAccessibleDescription(f"{text}: {reading.text}")
+        self.cells.update()
+
+    def place(self, first_column: float, scale: float) -> None:
+        """Put the photo's first column under a column of the simulation, and scale its columns."""
+        self.cells.placement = (first_column, scale)
+        self.cells.update()
+
+    def _copy(self) -> None:
+        if self.cells.reading is not None:
+            QGuiApplication.clipboard().setText(self.cells.reading.text)
+
+
+class _Cells(QWidget):
+    """The cells."""
+
+    def __init__(self, plot: Plot) -> None:
+        super().__init__()
+        self._plot = plot
+        self.reading: ChipReading | None = None
+        self.placement = (0.0, 1.0)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(self.tr("Chips read from the photo"))
+        plot.getViewBox().sigXRangeChanged.connect(lambda *_: self.update())
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of a line of text."""
+        return QSize(100, self.fontMetrics().height() + 6)
+
+    def rectangles(self) -> list[tuple[int, QRectF]]:
+        """Return the chips in view, each with its rectangle."""
+        if self.reading is None:
+            return []
+        first, scale = self.placement
+        start, step = first + self.reading.start * scale, self.reading.columns_per_chip * scale
+        found = []
+        for place, chip in enumerate(self.reading.chips.tolist()):
+            left, right = (self._pixel(start + (place + side) * step) for side in (0, 1))
+            if right > 0.0 and left < self.width():
+                found.append((chip, QRectF(left, 1.0, right - left, self.height() - 2.0)))
+        return found
+
+    def _pixel(self, column: float) -> float:
+        """Return where a column of the plot lies in this widget."""
+        at = self._plot.getViewBox().mapViewToScene(QPointF(column, 0.0))
+        in_plot = self._plot.mapFromScene(at)
+        return float(self.mapFromGlobal(self._plot.mapToGlobal(in_plot)).x())
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the cells in view."""
+        painter = QPainter(self)
+        if self.reading is not None and self.reading.confidence < _CERTAIN:
+            painter.setOpacity(_FADED)
+        palette = self.palette()
+        lit = seen_on(palette, QColor(PHOTO))
+        for chip, cell in self.rectangles():
+            painter.setPen(QPen(lit))
+            painter.setBrush(lit if chip else palette.color(QPalette.ColorRole.Base))
+            painter.drawRect(cell)
+            if cell.width() >= _LEAST_FOR_DIGITS:
+                role = QPalette.ColorRole.Base if chip else QPalette.ColorRole.Text
+                painter.setPen(palette.color(role))
+                painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, str(chip))

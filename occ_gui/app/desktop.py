@@ -103,7 +103,7 @@ class Desktop(QObject):
         lamps = parts.photo_wiring.lamps
         self.autosave = Autosave(
             parts.store, parts.settings, self.document, lambda: self._photo,
-            parts.learning.users_own, lambda: lamps.by_hand,
+            parts.learning.users_own, lambda: lamps.rectangle,
         )  # fmt: skip
         lamps.region_changed.connect(lambda _region: self.autosave.note_change())
         self.error_reports = ErrorReports()

@@ -61,6 +61,11 @@ class LampController(QObject):
         """What is matched: a lamp, a rectangle drawn by hand, or None for the whole photo."""
         return self.by_hand if self.chosen is None else self.lamps[self.chosen]
 
+    @property
+    def rectangle(self) -> Region | None:
+        """The rectangle of what is matched, which a session keeps; None for the whole photo."""
+        return self.by_hand if self.chosen is None else self.lamps[self.chosen].region
+
     def keep(self, path: Path, region: Region) -> None:
         """Match this rectangle of a photo when it is opened next, if the photo still has it."""
         self._kept = path, region
@@ -76,7 +81,7 @@ class LampController(QObject):
             and photo.path == before.path and photo.image.shape == before.image.shape
             and photo.turned == before.turned
         )  # fmt: skip
-        kept = self.by_hand if same else None
+        kept = self.rectangle if same else None
         if photo is not None and self._kept is not None:
             kept = self._kept[1] if self._kept[0] == photo.path else kept
             self._kept = None

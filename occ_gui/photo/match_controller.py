@@ -1,6 +1,6 @@
 """Controller of matching: fit the scene to the photo in the background, and use the result."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 from typing import Protocol
@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.background.cancellable import Cancellable, Report
 from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.errors import OccError
+from occ_model.errors import MatchError, OccError
 from occ_model.photo.match import ESTIMATES, match_photo
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
@@ -37,6 +37,12 @@ class MatchPane(Protocol):
     def show_match(self, match: Match | None) -> None:
         """Show this match in place of the previous one, or that there is none."""
 
+    def show_match_refused(self, reasons: Sequence[str]) -> None:
+        """Show the reasons why no match was found, or none; the previous match stays."""
+
+    def show_match_outdated(self, why: str) -> None:
+        """Show why the match is not the present one; empty if it is."""
+
     def show_match_failed(self, sentence: str) -> None:
         """Show why the match failed; the previous one stays."""
 
@@ -54,6 +60,13 @@ class MatchRequest:
     sent: str
     fit_gamma: bool
     region: Lamp | Region | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """No scene explains the photo's stripes: the reasons, each a sentence."""
+
+    reasons: tuple[str, ...]
 
 
 def request_of(
@@ -84,24 +97,21 @@ def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     return scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
 
 
-def match(request: MatchRequest, report: Report) -> Match:
-    """Match a photo.
-
-    Raises
-    ------
-    MatchError
-        No scene explains the photo's stripes.
-    """
+def match(request: MatchRequest, report: Report) -> Match | Refusal:
+    """Match a photo."""
     report(0.0)
-    return match_photo(
-        request.photo,
-        request.scene,
-        estimate=request.estimate,
-        sent=request.sent,
-        fit_gamma=request.fit_gamma,
-        region=request.region,
-        progress=report,
-    )
+    try:
+        return match_photo(
+            request.photo,
+            request.scene,
+            estimate=request.estimate,
+            sent=request.sent,
+            fit_gamma=request.fit_gamma,
+            region=request.region,
+            progress=report,
+        )
+    except MatchError as error:
+        return Refusal(error.reasons)
 
 
 def sources_of(found: Match, photo_name: str, known: str, day: date) -> dict[str, str]:
@@ -147,9 +157,13 @@ class MatchController(QObject):
         self._pane = pane
         self._photo: Photo | None = None
         self._region: Lamp | Region | None = None
+        self._matched_region: Lamp | Region | None = None
+        self._is_reading = self._was_refused = False
         self._known = self._asked_known = ""
         self.match: Match | None = None
-        self.runner: Cancellable[MatchRequest, Match] = Cancellable(match, "match of the photo")
+        self.runner: Cancellable[MatchRequest, Match | Refusal] = Cancellable(
+            match, "match of the photo"
+        )
         self.runner.reported.connect(pane.show_progress)
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(self._fail)
@@ -164,11 +178,37 @@ class MatchController(QObject):
         self.cancel()
         self._photo = photo
         self.match = None
+        self._was_refused = False
         self._pane.show_match(None)
 
     def set_region(self, region: Lamp | Region | None) -> None:
         """Match this lamp or rectangle from now on, or the whole photo."""
+        if region == self._region:
+            return
+        self.cancel()
         self._region = region
+        if self._was_refused:
+            self._was_refused = False
+            self._pane.show_match_refused(())
+        self._show_age()
+
+    def show_reading(self, reading: bool) -> None:
+        """Tell apart what was found from a photo that is being read."""
+        self._is_reading = reading
+        self._show_age()
+
+    def _show_age(self) -> None:
+        """Say of the match that is shown whether it answers the present question."""
+        if self.match is None:
+            return
+        why = ""
+        if self._is_reading:
+            why = self.tr("of the photo before: one is being read")
+        elif self._matched_region != self._region:
+            why = self.tr("of another part of the photo: match again")
+        elif self._was_refused:
+            why = self.tr("of the match before: the last one is refused")
+        self._pane.show_match_outdated(why)
 
     def start(self, choice: MatchChoice) -> None:
         """Match the photo with the current scene."""
@@ -224,9 +264,17 @@ class MatchController(QObject):
             return
         self.saved.emit(name)
 
-    def _take(self, found: Match) -> None:
+    def _take(self, found: Match | Refusal) -> None:
+        self._was_refused = isinstance(found, Refusal)
+        if isinstance(found, Refusal):
+            self._pane.show_match_refused(found.reasons)
+            self._show_age()
+            self.failed.emit(" ".join(found.reasons))
+            return
         self.match, self._known = found, self._asked_known
+        self._matched_region = self._region
         self._pane.show_match(found)
+        self._show_age()
         self.matched.emit(found)
 
     def _fail(self, sentence: str) -> None:

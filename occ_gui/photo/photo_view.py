@@ -1,5 +1,6 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, Signal
@@ -19,10 +20,12 @@ from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_facts import PhotoFacts
 from occ_gui.photo.placement_form import PlacementForm
+from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.picture.placement import Placement
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
+from occ_model.results.photo_table import REFUSED
 from occ_model.scene.scene import Scene
 
 _SCROLL_BAR = 20
@@ -41,6 +44,7 @@ class PhotoView(QWidget):
         self.facts, self.form = PhotoFacts(), MatchForm()
         self.lamps = LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
+        self.refusal = VerdictView()
         self.failure = QLabel()
         self.failure.setWordWrap(True)
         self.failure.setTextFormat(Qt.TextFormat.PlainText)
@@ -52,8 +56,9 @@ class PhotoView(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._pages)
-        self.failure.hide()
+        self._hide_failure()
         self.result.hide()
+        self._noted: float | None = None
         self._path: Path | None = None
         self.form.certain_changed.connect(self.result.show_certain)
         self.form.certain_changed.connect(self.many.show_certain)
@@ -89,6 +94,7 @@ class PhotoView(QWidget):
         layout.addWidget(self.lamps)
         layout.addWidget(_line())
         layout.addWidget(self.form)
+        layout.addWidget(self.refusal)
         layout.addWidget(self.failure)
         layout.addWidget(self.result)
         layout.addWidget(_line())
@@ -102,7 +108,8 @@ class PhotoView(QWidget):
         """Show this photo in place of the previous one, or none."""
         self._has_photo = photo is not None
         self._show_page()
-        self.failure.hide()
+        self._hide_failure()
+        self._noted = None if photo is None else photo.exposure_time
         path = None if photo is None else photo.path
         if path != self._path:  # else the same photo is read in another way
             self._path = path
@@ -128,7 +135,7 @@ class PhotoView(QWidget):
 
     def show_match_begun(self) -> None:
         """Show that a match is running."""
-        self.failure.hide()
+        self._hide_failure()
         self.form.show_running(True)
 
     def show_progress(self, share: float) -> None:
@@ -138,11 +145,27 @@ class PhotoView(QWidget):
     def show_match(self, match: Match | None) -> None:
         """Show this match in place of the previous one, or that there is none."""
         self.form.show_running(False)
-        self.failure.hide()
+        self._hide_failure()
         self.result.setVisible(match is not None)
         if match is not None:
-            self.result.show_match(match)
+            self.result.show_match(match, self._noted)
             self._bring_into_view(self.result)
+
+    def show_match_refused(self, reasons: Sequence[str]) -> None:
+        """Show the reasons why no match was found, or none; the previous match stays."""
+        self.form.show_running(False)
+        self.refusal.setVisible(bool(reasons))
+        if reasons:
+            self.refusal.show_verdict(REFUSED, reasons)
+            self._bring_into_view(self.refusal)
+
+    def show_match_outdated(self, why: str) -> None:
+        """Show why the match is not the present one; empty if it is."""
+        self.result.show_outdated(why)
+
+    def _hide_failure(self) -> None:
+        self.failure.hide()
+        self.refusal.hide()
 
     def show_match_failed(self, sentence: str) -> None:
         """Show why the match failed; the previous one stays."""

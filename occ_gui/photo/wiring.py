@@ -43,8 +43,9 @@ class PhotoWiring(QObject):
         self.chips = ChipController(profile.chips)
         self.outlines = LampOutlines(image.photo.box)
         self.lamps = LampController((pane.lamps, self.outlines))
-        panes = [image, pane, self.comparison, self.matching, self.chips, self.lamps]
-        self.photos = PhotoController(panes)
+        self.photos = PhotoController(
+            [image, pane, self.comparison, self.matching, self.chips, self.lamps]
+        )
         self._connect_lamps()
         self.placements.changed.connect(self._show_placement)
         image.overlay.placed.connect(self.placements.move)
@@ -64,6 +65,8 @@ class PhotoWiring(QObject):
         self.matching.matched.connect(self.comparison.show_match)
         self.matching.matched.connect(self._on_match)
         self.photos.reading_changed.connect(self._show_reading)
+        self.photos.begun.connect(lambda: self.matching.show_reading(True))
+        self.photos.ended.connect(lambda: self.matching.show_reading(False))
         scenes.changed.connect(pane.show_scene)
         pane.show_scene(scenes.scene)
         self._show_reading(self.photos.reading)

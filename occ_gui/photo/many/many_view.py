@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.photo.many.rows_model import PhotoRowsModel
-from occ_gui.photo.match_result import with_uncertainty
+from occ_gui.photo.match_values import with_uncertainty
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable

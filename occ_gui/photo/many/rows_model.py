@@ -6,7 +6,8 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 
-from occ_gui.photo.match_result import with_uncertainty
+from occ_gui.photo.match_values import with_uncertainty
+from occ_gui.photo.verdict_view import SIGNS
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_model.errors import one_line
 from occ_model.results import PhotoRow, PhotoTable
@@ -19,9 +20,6 @@ PHOTO, VERDICT, ESTIMATE, EXPOSURE, NOTED, CORRELATION, NOTE = range(7)
 """The columns of the table."""
 
 _NUMBERS = (ESTIMATE, EXPOSURE, NOTED, CORRELATION)
-
-_SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
-"""A sign for each verdict, so that none is told by a colour alone."""
 
 
 class PhotoRowsModel(QAbstractTableModel):
@@ -131,7 +129,7 @@ class PhotoRowsModel(QAbstractTableModel):
         name = names[row.verdict]
         if self._table is not None and self._table.is_outlier(place):
             name = self.tr("{verdict}, outlier").format(verdict=name)
-        return f"{_SIGNS[row.verdict]} {name}"
+        return f"{SIGNS[row.verdict]} {name}"
 
 
 def _estimate(row: PhotoRow, name: str) -> str:

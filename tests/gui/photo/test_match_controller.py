@@ -1,7 +1,7 @@
 """A match: asked for in the user's words, cancelled, applied as one step, kept as a preset."""
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -45,12 +45,13 @@ class Bench:
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, scene: Scene) -> None:
         self.events: list[object] = []
+        self.ages: list[str] = []
         self.used: list[Match] = []
         self.failures: list[str] = []
         self.asked: list[dict[str, Any]] = []
         self.begun, self.go_on = threading.Event(), threading.Event()
         self.go_on.set()
-        self.refusal = ""
+        self.refusal: tuple[str, ...] = ()
         monkeypatch.setattr(match_module, "match_photo", self._match)
         self.store = SceneStore(scene)
         self.controller = MatchController(self.store, self)
@@ -64,7 +65,7 @@ class Bench:
         assert self.go_on.wait(PATIENCE_S)
         progress(0.5)
         if self.refusal:
-            raise MatchError(self.refusal)
+            raise MatchError(*self.refusal)
         return match_of(scene.replace(readout_time=9e-6))
 
     def start(self, **choice: Any) -> None:
@@ -79,6 +80,12 @@ class Bench:
 
     def show_match(self, match: Match | None) -> None:
         self.events.append(match)
+
+    def show_match_refused(self, reasons: Sequence[str]) -> None:
+        self.events.append(reasons)
+
+    def show_match_outdated(self, why: str) -> None:
+        self.ages.append(why)
 
     def show_match_failed(self, sentence: str) -> None:
         self.events.append(sentence)
@@ -136,14 +143,53 @@ def test_a_square_wave_that_cannot_be_is_refused_with_a_sentence(bench: Bench) -
     assert bench.events == [sentence]
 
 
-def test_a_failure_is_a_sentence_and_the_last_match_stays(bench: Bench) -> None:
+def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> None:
     bench.start()
     found = bench.controller.match
-    bench.refusal = "No scene explains these stripes."
+    bench.refusal = ("No scene explains these stripes.", "They do not repeat.")
     bench.start()
-    assert bench.failures == [bench.refusal]
+    assert bench.failures == ["No scene explains these stripes. They do not repeat."]
     assert bench.events[-1] == bench.refusal
     assert bench.controller.match is found
+    assert "refused" in bench.ages[-1]
+    bench.refusal = ()
+    bench.start()
+    assert bench.ages[-1] == ""
+
+
+PARTS = (Region(0, 5, 0, 20), Region(0, 5, 20, 40))
+
+
+def test_a_match_of_another_region_is_marked_until_it_is_chosen_again(bench: Bench) -> None:
+    bench.controller.set_region(PARTS[0])
+    bench.start()
+    assert bench.ages[-1] == ""
+    bench.controller.set_region(PARTS[1])
+    assert "another part" in bench.ages[-1]
+    bench.controller.set_region(None)
+    assert "another part" in bench.ages[-1]
+    bench.controller.set_region(replace(PARTS[0]))
+    assert bench.ages[-1] == ""
+
+
+def test_a_match_is_marked_while_another_photo_is_read(bench: Bench) -> None:
+    bench.start()
+    bench.controller.show_reading(True)
+    assert "is being read" in bench.ages[-1]
+    bench.controller.show_reading(False)  # it could not be read
+    assert bench.ages[-1] == ""
+
+
+def test_another_region_ends_the_match_and_puts_a_refusal_away(bench: Bench) -> None:
+    bench.refusal = ("No scene explains these stripes.",)
+    bench.start()
+    assert bench.events[-1] == bench.refusal
+    bench.go_on.clear()
+    bench.controller.start(MatchChoice())
+    bench.controller.set_region(PARTS[0])
+    bench.go_on.set()
+    assert bench.events[-2:] == ["cancelled", ()]
+    assert not bench.controller.runner.is_running
 
 
 def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:
@@ -248,7 +294,7 @@ def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, o
 
 def test_a_saved_match_records_the_inputs_it_was_made_with(bench: Bench, own: Path) -> None:
     bench.start(estimate="readout_time")
-    bench.refusal = "No."
+    bench.refusal = ("No.",)
     bench.start(estimate="switching_frequency")
     bench.controller.save("mine", "", DAY)
     assert "switching frequency being 10 kHz" in preset_named("mine").sources["readout_time"]

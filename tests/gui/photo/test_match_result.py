@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.match_result import with_uncertainty
+from occ_gui.photo.match_values import with_uncertainty
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match

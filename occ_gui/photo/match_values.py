@@ -1,0 +1,174 @@
+"""Figures of a match: estimates with their uncertainties, quality of the fit, alternatives."""
+
+import math
+from collections.abc import Mapping
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFontDatabase
+from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
+
+from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_model.results import Alternative, Match
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import quantity
+from occ_model.scene.units import HERTZ
+
+_ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+
+_DIGITS = 4
+
+
+def known_of(match: Match) -> str:
+    """Return which of readout time and switching frequency was given."""
+    return next(name for name in KNOWN if name not in match.uncertainties)
+
+
+def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
+    """Format a value with its standard deviation, to the digits that are significant."""
+    if spread is None or not 0.0 < spread < math.inf:
+        return quantity.format(value)
+    symbol, factor = quantity.unit.display(value)
+    # Two digits of the uncertainty, and the value to the same decimal place.
+    decimals = min(max(0, 1 - math.floor(math.log10(spread / factor))), 12)
+    number = f"{value / factor:.{decimals}f} ± {spread / factor:.{decimals}f}"
+    return f"{number} {symbol}".rstrip()
+
+
+class MatchValues(QWidget):
+    """The figures as a table: a row that says nothing is hidden."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._form = QFormLayout(self)
+        self._form.setContentsMargins(0, 0, 0, 0)
+        self._form.setVerticalSpacing(2)
+        self._certain: Mapping[str, float] = {}
+        self._noted: float | None = None
+        self.labels: dict[str, QLabel] = {}
+        for name, title in self._titles().items():
+            # A pattern can be of any length.
+            label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setWordWrap(name != "pattern")
+            label.setAccessibleName(title)
+            self.labels[name] = label
+            self._form.addRow(title, label)
+        fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        self.labels["pattern"].setFont(fixed)
+
+    def _titles(self) -> dict[str, str]:
+        estimates = {name: quantity(name).label for name in _ESTIMATES}
+        return {
+            **estimates,
+            "others": self.tr("or exposed for"),
+            "chip": self.tr("Chip length"),
+            "periods": self.tr("Periods in view"),
+            "exposed": self.tr("Exposure in chips"),
+            "correlation": self.tr("Correlation of fit"),
+            "saturated": self.tr("Saturated"),
+            "duty": self.tr("Duty"),
+            "pattern": self.tr("Pattern"),
+            "alternatives": self.tr("Or instead"),
+        }
+
+    def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
+        """Show a match.
+
+        Parameters
+        ----------
+        match
+            The match.
+        certain
+            The known values, in SI units by name, that are confirmed and not only assumed.
+        noted
+            The exposure time in seconds that the camera noted in the photo, None if it did not.
+        """
+        self._certain, self._noted = certain, noted
+        texts = self._estimates(match) | self._quality(match)
+        texts["alternatives"] = self._alternatives(match)
+        for name, text in texts.items():
+            label = self.labels[name]
+            if isinstance(label, ElidedLabel):
+                label.set_full_text(text)
+            else:
+                label.setText(text)
+            self._form.setRowVisible(label, bool(text))
+
+    def _estimates(self, match: Match) -> dict[str, str]:
+        """Format the estimates and the given value; empty for a gamma that was not fitted."""
+        texts = {}
+        condition = self._condition(match)
+        given = {name: self.tr("{value} (given)") for name in _ESTIMATES if name != "gamma"}
+        if condition:
+            given[known_of(match)] = self.tr("{value} (assumed)")
+        for name in _ESTIMATES:
+            spread = match.uncertainties.get(name)
+            texts[name] = with_uncertainty(quantity(name), getattr(match, name), spread)
+            if spread is None:
+                texts[name] = given.get(name, "").format(value=texts[name])
+            elif name != "gamma":  # of the shape of the stripes, not of their timing
+                texts[name] = condition + texts[name]
+        if len(match.pattern) == CHIPS_OF_A_CYCLE:
+            # A blinking LED is specified by its cycles, not by its chips.
+            cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, _DIGITS)
+            texts["switching_frequency"] += self.tr(": blinks at {cycles}").format(cycles=cycles)
+        exposure = quantity("exposure_time")
+        if self._noted is not None:
+            texts["exposure_time"] += self.tr("; the camera noted {time}").format(
+                time=exposure.format(self._noted, _DIGITS)
+            )
+        others = (exposure.format(t, _DIGITS) for t in match.other_exposures)
+        other = self.tr(" or ").join(others)
+        return {**texts, "others": condition + other if other else ""}
+
+    def _condition(self, match: Match) -> str:
+        """Name the value that the estimates of time rest on, unless the user is certain of it."""
+        name = known_of(match)
+        value, confirmed = float(getattr(match, name)), self._certain.get(name, math.nan)
+        if math.isclose(value, confirmed, rel_tol=1e-9):
+            return ""
+        known = quantity(name)
+        return self.tr("if {symbol} = {value}: ").format(
+            symbol=known.symbol, value=known.format(value)
+        )
+
+    def _quality(self, match: Match) -> dict[str, str]:
+        how = self.tr("read") if match.pattern_was_read else self.tr("given")
+        return {
+            "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
+                columns=match.columns_per_chip, chips=len(match.pattern)
+            ),
+            "periods": f"{match.periods_in_view:.3g}",
+            "exposed": f"{match.exposure_in_chips:.3g}",
+            "correlation": self.tr("{correlation:.4f}, RMSE {rmse:.2f} grey levels").format(
+                correlation=match.correlation, rmse=match.rmse
+            ),
+            "saturated": self.tr("{share:.1f} % of the region's pixels").format(
+                share=100 * match.stripes.saturated
+            ),
+            "duty": self.tr("lit for {share:.3g} % of a period").format(share=100 * match.duty),
+            "pattern": self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how),
+        }
+
+    def _alternatives(self, match: Match) -> str:
+        estimated = next(name for name in KNOWN if name != known_of(match))
+        condition = self._condition(match)
+        return "\n".join(
+            self._alternative(other, estimated, condition) for other in match.alternatives
+        )
+
+    def _alternative(self, other: Alternative, estimated: str, condition: str) -> str:
+        text = self.tr("• {what}: correlation {correlation:.3f}, ln L {evidence:+.1f}").format(
+            what=other.sent, correlation=other.correlation, evidence=other.evidence
+        )
+        value = getattr(other, estimated)
+        if value is not None and other.exposure_time is not None:
+            text += self.tr("; {condition}{name} {value}, exposed for {exposure}").format(
+                condition=condition,
+                name=quantity(estimated).label.lower(),
+                value=quantity(estimated).format(value, _DIGITS),
+                exposure=quantity("exposure_time").format(other.exposure_time, _DIGITS),
+            )
+        return text

@@ -14,7 +14,7 @@ from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
 from occ_model.files.resources import resource_path
-from occ_model.files.writing import PICTURE_ENDINGS, write_image
+from occ_model.files.writing import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene_file
@@ -101,13 +101,15 @@ class FileController(QObject):
         self._whose = whose
 
     def ask_for_photo(self) -> None:
-        """Let the user choose a photo and open it."""
+        """Let the user choose a photo and open it, or several as a table."""
         kinds = self.tr("Photos ({patterns});;All files (*)").format(patterns=_PHOTOS)
-        name, _ = QFileDialog.getOpenFileName(
-            self._window, self.tr("Open photo"), self._preferences.folder, kinds
+        names, _ = QFileDialog.getOpenFileNames(
+            self._window, self.tr("Open photos"), self._preferences.folder, kinds
         )
-        if name:
-            self.open_file(Path(name))
+        if len(names) > 1:
+            self.open_dropped([Path(name) for name in names])
+        elif names:
+            self.open_file(Path(names[0]))
 
     def ask_for_scene(self) -> None:
         """Let the user choose a scene file and open it."""
@@ -223,6 +225,16 @@ class FileController(QObject):
         )  # fmt: skip
         if name:
             self.save_picture(Path(name))
+
+    def ask_to_save_table(self, text: str) -> None:
+        """Let the user choose where to save the table of several photos, written as CSV."""
+        name, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save the table of the photos"), self._in_folder("readout.csv"),
+            self.tr("Tables (*.csv)"),
+        )  # fmt: skip
+        if name:
+            path = Path(name) if Path(name).suffix else Path(name).with_suffix(".csv")
+            self._save(path, lambda: write_whole(path, text.encode("utf-8")))
 
     def save_picture(self, path: Path) -> None:
         """Save the camera's or the receiver's picture of the present scene, at its full size.

@@ -1,25 +1,21 @@
 """Controller of matching: fit the scene to the photo in the background, and use the result."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import date
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable, Report
-from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
+from occ_gui.background.cancellable import Cancellable
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.match_request import MatchRequest, Refusal, match, request_of
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.errors import MatchError, OccError
-from occ_model.photo.match import ESTIMATES, match_photo
+from occ_model.errors import OccError
+from occ_model.photo.match import ESTIMATES
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
-from occ_model.scene.scene import Scene
-
-SQUARE_WAVE = "10"
-"""Chips of a blinking LED: on for half a cycle, off for the other half."""
 
 _RECORDED = ("exposure_time", "f_number", "iso")
 """Parameters of the scene that cameras record in their photos."""
@@ -40,78 +36,14 @@ class MatchPane(Protocol):
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         """Show the reasons why no match was found, or none; the previous match stays."""
 
-    def show_match_outdated(self, why: str) -> None:
-        """Show why the match is not the present one; empty if it is."""
+    def show_match_outdated(self, why: str, usable: bool) -> None:
+        """Show why the match is not the present one, empty if it is, and whether it can be used."""
 
     def show_match_failed(self, sentence: str) -> None:
         """Show why the match failed; the previous one stays."""
 
     def show_match_cancelled(self) -> None:
         """Show that the match was cancelled; the previous one stays."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class MatchRequest:
-    """The arguments of a match in the background."""
-
-    photo: Photo
-    scene: Scene
-    estimate: str
-    sent: str
-    fit_gamma: bool
-    region: Lamp | Region | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """No scene explains the photo's stripes: the reasons, each a sentence."""
-
-    reasons: tuple[str, ...]
-
-
-def request_of(
-    photo: Photo, scene: Scene, choice: MatchChoice, region: Lamp | Region | None = None
-) -> MatchRequest:
-    """Build the request for a match from the user's choices.
-
-    Raises
-    ------
-    ParameterError
-        The frequency of the square wave is out of range.
-    """
-    scene, sent = known_scene(scene, choice)
-    return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma, region)
-
-
-def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
-    """Give the scene with what the user knows, and where the sent pattern is taken from.
-
-    Raises
-    ------
-    ParameterError
-        The frequency of the square wave is out of range.
-    """
-    if choice.sent != "square":
-        return scene, choice.sent
-    chips = CHIPS_OF_A_CYCLE * choice.square_frequency
-    return scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
-
-
-def match(request: MatchRequest, report: Report) -> Match | Refusal:
-    """Match a photo."""
-    report(0.0)
-    try:
-        return match_photo(
-            request.photo,
-            request.scene,
-            estimate=request.estimate,
-            sent=request.sent,
-            fit_gamma=request.fit_gamma,
-            region=request.region,
-            progress=report,
-        )
-    except MatchError as error:
-        return Refusal(error.reasons)
 
 
 def sources_of(found: Match, photo_name: str, known: str, day: date) -> dict[str, str]:
@@ -159,6 +91,7 @@ class MatchController(QObject):
         self._region: Lamp | Region | None = None
         self._matched_region: Lamp | Region | None = None
         self._is_reading = self._was_refused = False
+        self._why_unusable = ""
         self._known = self._asked_known = ""
         self.match: Match | None = None
         self.runner: Cancellable[MatchRequest, Match | Refusal] = Cancellable(
@@ -201,14 +134,15 @@ class MatchController(QObject):
         """Say of the match that is shown whether it answers the present question."""
         if self.match is None:
             return
-        why = ""
+        elsewhere, why = "", ""
         if self._is_reading:
-            why = self.tr("of the photo before: one is being read")
+            elsewhere = self.tr("of the photo before: one is being read")
         elif self._matched_region != self._region:
-            why = self.tr("of another part of the photo: match again")
+            elsewhere = self.tr("of another part of the photo: match again")
         elif self._was_refused:
             why = self.tr("of the match before: the last one is refused")
-        self._pane.show_match_outdated(why)
+        self._why_unusable = elsewhere
+        self._pane.show_match_outdated(elsewhere or why, usable=not elsewhere)
 
     def start(self, choice: MatchChoice) -> None:
         """Match the photo with the current scene."""
@@ -243,13 +177,14 @@ class MatchController(QObject):
 
     def apply(self) -> None:
         """Replace the scene by the matched one, as one step."""
-        if self.match is not None and self._photo is not None:
-            title = self.tr("match with {name}").format(name=self._photo.path.name)
-            self._scenes.put(self.match.scene, title)
+        if self.match is None or self._photo is None or self._refuses_outdated():
+            return
+        title = self.tr("match with {name}").format(name=self._photo.path.name)
+        self._scenes.put(self.match.scene, title)
 
     def save(self, name: str, title: str, day: date | None = None) -> None:
         """Save the matched scene as one of the user's presets."""
-        if self.match is None or self._photo is None:
+        if self.match is None or self._photo is None or self._refuses_outdated():
             return
         sources: Mapping[str, str] = sources_of(
             self.match,
@@ -263,6 +198,14 @@ class MatchController(QObject):
             self.failed.emit(str(error))
             return
         self.saved.emit(name)
+
+    def _refuses_outdated(self) -> bool:
+        """Say why a match that is not the present one is not used; return whether it is not."""
+        if self._why_unusable:
+            self.failed.emit(
+                self.tr("This match is {why}; it is not used.").format(why=self._why_unusable)
+            )
+        return bool(self._why_unusable)
 
     def _take(self, found: Match | Refusal) -> None:
         self._was_refused = isinstance(found, Refusal)

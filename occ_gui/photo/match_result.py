@@ -80,7 +80,7 @@ class MatchResult(QWidget):
         self._show_stale()
         self.verdict.show_verdict(match.verdict, match.reasons)
         self.figures.show_match(match, self._certain, noted)
-        self.show_outdated("")
+        self.show_outdated("", usable=True)
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""
@@ -88,14 +88,14 @@ class MatchResult(QWidget):
         if self._match is not None:
             self.figures.show_match(self._match, certain, self._noted)
 
-    def show_outdated(self, why: str) -> None:
-        """Show why the match is not the present one, and let nobody use it; empty if it is."""
+    def show_outdated(self, why: str, usable: bool) -> None:
+        """Show why the match is not the present one, empty if it is, and whether it can be used."""
         if self._match is None:
             return
         self.verdict.show_outdated(bool(why))
         self.mark.show_age(DELAY if why else 0.0, why)  # at once
         for button in (self.apply, self.save):
-            button.setEnabled(not why)
+            button.setEnabled(usable)
 
     def show_scene(self, scene: Scene) -> None:
         """Show whether the match was made with the known value of this scene."""

@@ -160,8 +160,11 @@ class MatchValues(QWidget):
         )
 
     def _alternative(self, other: Alternative, estimated: str, condition: str) -> str:
-        text = self.tr("• {what}: correlation {correlation:.3f}, ln L {evidence:+.1f}").format(
-            what=other.sent, correlation=other.correlation, evidence=other.evidence
+        side = self.tr("lower") if other.evidence <= 0.0 else self.tr("higher")
+        text = self.tr(
+            "• {what}: correlation {correlation:.3f}, log-likelihood {side} by {step:.1f}"
+        ).format(
+            what=other.sent, correlation=other.correlation, side=side, step=abs(other.evidence)
         )
         value = getattr(other, estimated)
         if value is not None and other.exposure_time is not None:

@@ -159,9 +159,9 @@ class PhotoView(QWidget):
             self.refusal.show_verdict(REFUSED, reasons)
             self._bring_into_view(self.refusal)
 
-    def show_match_outdated(self, why: str) -> None:
-        """Show why the match is not the present one; empty if it is."""
-        self.result.show_outdated(why)
+    def show_match_outdated(self, why: str, usable: bool) -> None:
+        """Show why the match is not the present one, empty if it is, and whether it can be used."""
+        self.result.show_outdated(why, usable)
 
     def _hide_failure(self) -> None:
         self.failure.hide()

@@ -61,6 +61,7 @@ class FileDialogs:
         self.path = Path()
         for name in ("getOpenFileName", "getSaveFileName"):
             monkeypatch.setattr(QFileDialog, name, lambda *_: (str(self.path), ""))
+        monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([str(self.path)], ""))
         monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(self.path))
 
 

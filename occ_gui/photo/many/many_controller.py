@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.background.cancellable import Cancellable, Report
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.match_controller import known_scene
+from occ_gui.photo.match_request import known_scene
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError

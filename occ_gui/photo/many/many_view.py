@@ -7,18 +7,16 @@ from pathlib import Path
 from PySide6.QtCore import QModelIndex, Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
-    QFormLayout,
     QFrame,
     QHBoxLayout,
     QLabel,
-    QLineEdit,
     QPushButton,
     QTableView,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
+from occ_gui.photo.many.paste_lines import PasteLines
 from occ_gui.photo.many.rows_model import PhotoRowsModel
 from occ_gui.photo.match_values import with_uncertainty
 from occ_gui.widgets.work_bar import WorkBar
@@ -37,6 +35,9 @@ class ManyPhotosView(QWidget):
 
     match_asked = Signal()
     """The user matches all photos."""
+
+    save_asked = Signal(str)
+    """The user saves the table: its text as CSV."""
 
     cancelled = Signal()
     closed = Signal()
@@ -65,25 +66,22 @@ class ManyPhotosView(QWidget):
                 self.tr("Notes on the photos together"),
             )
         )
-        self.lines: dict[str, QLineEdit] = {}
+        self.paste = PasteLines()
         self.stale = _text(self.tr("Whether the table still belongs to the known value"))
         self._found: PhotoTable | None = None
         self._scene: Scene | None = None
         self._given = math.nan
         self._certain: Mapping[str, float] = {}
-        self._form = QFormLayout()
-        self._form.setVerticalSpacing(2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         buttons = QHBoxLayout()
-        for button in (self.start, self.copy, self.close_table):
+        for button in (self.start, self.copy, self.save, self.close_table):
             buttons.addWidget(button)
         buttons.addStretch()
         parts = (self.title, self.table, self.work, self.mean, self.exposure, self.frame)
-        for part in (*parts, self.notes, self.stale):
+        for part in (*parts, self.notes, self.stale, self.paste):
             layout.addWidget(part)
-        layout.addLayout(self._form)
         layout.addLayout(buttons)
         line = QFrame()
         line.setFrameShape(QFrame.Shape.HLine)
@@ -99,7 +97,12 @@ class ManyPhotosView(QWidget):
         self.start.clicked.connect(self.match_asked)
         self.copy = QPushButton(self.tr("&Copy table"))
         self.copy.setToolTip(self.tr("Copy the table as CSV, with the scene that it belongs to."))
-        self.copy.clicked.connect(self._copy_table)
+        self.copy.clicked.connect(lambda: _to_clipboard(self.csv()))
+        self.save = QPushButton(self.tr("&Save table…"))
+        self.save.setToolTip(
+            self.tr("Save the table as a CSV file, with the scene that it belongs to.")
+        )
+        self.save.clicked.connect(lambda: self.save_asked.emit(self.csv()))
         self.close_table = QPushButton(self.tr("Close table"))
         self.close_table.setToolTip(self.tr("Put the table away; the open photo stays."))
         self.close_table.clicked.connect(self.closed)
@@ -215,7 +218,8 @@ class ManyPhotosView(QWidget):
             self._given = float(self._scene.value(table.known))
         self._found = table
         self._show_stale()
-        self.copy.setEnabled(table is not None)
+        for button in (self.copy, self.save):
+            button.setEnabled(table is not None)
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
         if table is not None:
             condition = self._condition(table)
@@ -231,7 +235,7 @@ class ManyPhotosView(QWidget):
         for label, text in texts.items():
             label.setText(text)
             label.setVisible(bool(text))
-        self._show_lines({} if table is None else lines_to_paste(table))
+        self.paste.show_lines({} if table is None else lines_to_paste(table))
 
     def _mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
         if found is None:
@@ -250,29 +254,14 @@ class ManyPhotosView(QWidget):
             text += self.tr("; {count} left out").format(count=len(found.outliers))
         return text
 
-    def _show_lines(self, lines: dict[str, str]) -> None:
-        while self._form.rowCount():
-            self._form.removeRow(0)
-        self.lines = {}
-        for program, line in lines.items():
-            field = QLineEdit(line)
-            field.setReadOnly(True)
-            field.setCursorPosition(0)
-            field.setAccessibleName(self.tr("Line for {program}").format(program=program))
-            field.setToolTip(line)
-            copy = QToolButton()
-            copy.setText(self.tr("Copy"))
-            copy.setToolTip(self.tr("Copy the line for {program}.").format(program=program))
-            copy.clicked.connect(lambda _checked=False, text=line: _to_clipboard(text))
-            both = QHBoxLayout()
-            both.addWidget(field)
-            both.addWidget(copy)
-            self._form.addRow(program, both)
-            self.lines[program] = field
-
-    def _copy_table(self) -> None:
-        if self._found is not None:
-            _to_clipboard(csv_text(self._found))
+    def csv(self) -> str:
+        """Return the table as CSV, with the lines to paste; empty before the photos are matched."""
+        table = self._found
+        if table is None:
+            return ""
+        condition = self._condition(table)
+        lines = lines_to_paste(table).items()
+        return csv_text(table, [f"{program}: {condition}{line}" for program, line in lines])
 
 
 def _text(name: str) -> QLabel:

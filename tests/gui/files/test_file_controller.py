@@ -180,6 +180,7 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     for ask in ("getOpenFileName", "getSaveFileName"):
         monkeypatch.setattr(QFileDialog, ask, lambda *_: next(dialogs))
     bench.shown = snapshot_of()
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([next(dialogs)[0]], ""))
     bench.files.ask_to_save_scene()
     bench.files.ask_to_save_picture()
     bench.files.ask_for_scene()
@@ -197,8 +198,8 @@ def test_the_dialogs_offer_the_formats_that_can_be_used(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     offered: list[str] = []
-    for ask in ("getOpenFileName", "getSaveFileName"):
-        monkeypatch.setattr(QFileDialog, ask, lambda *asked: (offered.append(asked[-1]), ""))
+    for ask in ("getOpenFileNames", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, ask, lambda *asked: (offered.append(asked[-1]) or "", ""))
     bench.files.ask_to_save_picture()
     bench.files.ask_for_photo()
     written = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
@@ -214,6 +215,7 @@ def test_a_cancelled_dialog_does_nothing(
 ) -> None:
     for ask in ("getOpenFileName", "getSaveFileName"):
         monkeypatch.setattr(QFileDialog, ask, lambda *_: ("", ""))
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([], ""))
     for ask_user in (
         bench.files.ask_for_photo,
         bench.files.ask_for_scene,
@@ -226,12 +228,35 @@ def test_a_cancelled_dialog_does_nothing(
     assert bench.store.scene == small_scene
 
 
+def test_several_photos_of_the_dialog_become_a_table(
+    bench: Bench, photo_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    copy = tmp_path / "copy.png"
+    copy.write_bytes(photo_file.read_bytes())
+    names = [str(photo_file), str(copy)]
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: (names, ""))
+    photos, files = bench.photos, bench.files
+    with qtbot.waitSignal(photos.opened) as opened, qtbot.waitSignal(files.several_opened) as some:
+        files.ask_for_photo()
+    assert some.args == [[photo_file, copy]]
+    assert opened.args[0].path == photo_file
+
+
+def test_the_table_of_several_photos_is_saved_by_a_dialog(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "own"), ""))
+    bench.files.ask_to_save_table("readout, µs\n")
+    assert (tmp_path / "own.csv").read_bytes() == "readout, µs\n".encode()
+    assert bench.status_message == ["Saved own.csv"]
+
+
 def test_dialogs_begin_in_the_folder_of_the_last_file(
     bench: Bench, tmp_path: Path, photo_file: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     asked: list[str] = []
-    for ask in ("getOpenFileName", "getSaveFileName"):
-        monkeypatch.setattr(QFileDialog, ask, lambda *words: (asked.append(words[2]), ""))
+    for ask in ("getOpenFileName", "getOpenFileNames", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, ask, lambda *words: (asked.append(words[2]) or "", ""))
     dialogs = (
         bench.files.ask_for_photo,
         bench.files.ask_for_scene,

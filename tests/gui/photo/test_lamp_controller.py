@@ -102,6 +102,19 @@ def test_a_rectangle_is_clipped_to_the_photo(bench: Bench, photo: Photo) -> None
     assert bench.lamps.region is None
 
 
+def test_a_chosen_lamp_is_kept_as_its_rectangle(
+    bench: Bench, photo: Photo, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    assert bench.lamps.rectangle is None
+    bench.find(monkeypatch, qtbot)
+    bench.lamps.choose(2)
+    assert bench.lamps.rectangle == LAMPS[2].region
+    bench.lamps.show_photo(replace(photo, channel="red"))
+    assert bench.lamps.by_hand == LAMPS[2].region
+    bench.lamps.match_whole()
+    assert bench.lamps.rectangle is None
+
+
 def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
     bench.lamps.set_by_hand(True)
     bench.outlines.show_rectangle(bench.lamps.by_hand)

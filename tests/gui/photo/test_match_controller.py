@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo import match_controller as match_module
+from occ_gui.photo import match_request as match_module
 from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.match_controller import SQUARE_WAVE, MatchController
+from occ_gui.photo.match_controller import MatchController
+from occ_gui.photo.match_request import SQUARE_WAVE
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import MatchError
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
@@ -84,7 +85,8 @@ class Bench:
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         self.events.append(reasons)
 
-    def show_match_outdated(self, why: str) -> None:
+    def show_match_outdated(self, why: str, usable: bool) -> None:
+        assert usable or why
         self.ages.append(why)
 
     def show_match_failed(self, sentence: str) -> None:
@@ -166,6 +168,10 @@ def test_a_match_of_another_region_is_marked_until_it_is_chosen_again(bench: Ben
     assert bench.ages[-1] == ""
     bench.controller.set_region(PARTS[1])
     assert "another part" in bench.ages[-1]
+    before = bench.store.scene
+    bench.controller.apply()
+    assert bench.store.scene == before
+    assert "another part" in bench.failures[-1]
     bench.controller.set_region(None)
     assert "another part" in bench.ages[-1]
     bench.controller.set_region(replace(PARTS[0]))

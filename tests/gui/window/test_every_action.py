@@ -164,6 +164,7 @@ class Dialogs:
         self.photos: list[object] = []
         for kind, name, answer in (
             (QFileDialog, "getOpenFileName", ("", "")),
+            (QFileDialog, "getOpenFileNames", ([], "")),
             (QFileDialog, "getSaveFileName", ("", "")),
             (QFileDialog, "getExistingDirectory", ""),
             (QInputDialog, "getText", ("", False)),

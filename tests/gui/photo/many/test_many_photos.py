@@ -22,6 +22,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results import PhotoRow, PhotoTable
+from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
@@ -118,22 +119,30 @@ def test_another_known_value_asks_to_match_again(view: ManyPhotosView) -> None:
 
 def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:
     view.show_table(table())
-    assert list(view.lines) == ["OpenDroneMap", "Gyroflow"]
+    assert list(view.paste.lines) == ["OpenDroneMap", "Gyroflow"]
     for button in view.findChildren(QToolButton):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-        assert QGuiApplication.clipboard().text() in {f.text() for f in view.lines.values()}
+        assert QGuiApplication.clipboard().text() in {f.text() for f in view.paste.lines.values()}
     view.show_begun("readout_time")
-    assert view.lines == {}
+    assert view.paste.lines == {}
     assert view.mean.isHidden()
 
 
-def test_the_table_is_copied_as_the_shell_writes_it(view: ManyPhotosView, qtbot: QtBot) -> None:
-    from occ_model.results.photo_table_csv import csv_text
-
-    assert not view.copy.isEnabled()
+def test_the_table_is_copied_and_saved_as_the_shell_writes_it(
+    view: ManyPhotosView, qtbot: QtBot
+) -> None:
+    for button in (view.copy, view.save):
+        assert not button.isEnabled()
     view.show_table(table())
+    paste = [f"{program}: if f = 10 kHz: {f.text()}" for program, f in view.paste.lines.items()]
+    assert len(paste) == 2
     qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)
-    assert QGuiApplication.clipboard().text() == csv_text(table())
+    assert QGuiApplication.clipboard().text() == csv_text(table(), paste)
+    with qtbot.waitSignal(view.save_asked) as saved:
+        qtbot.mouseClick(view.save, Qt.MouseButton.LeftButton)
+    assert saved.args == [csv_text(table(), paste)]
+    view.show_certain({"switching_frequency": 1e4})
+    assert "if f = " not in view.csv()
 
 
 def test_a_click_on_a_row_opens_its_photo(view: ManyPhotosView, qtbot: QtBot) -> None:

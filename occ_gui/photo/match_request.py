@@ -1,0 +1,78 @@
+"""Request for a match of a photo, built from the user's choices, and the work that answers it."""
+
+from dataclasses import dataclass
+
+from occ_gui.background.cancellable import Report
+from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
+from occ_model.errors import MatchError
+from occ_model.photo.match import match_photo
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Lamp, Match, Region
+from occ_model.scene.scene import Scene
+
+SQUARE_WAVE = "10"
+"""Chips of a blinking LED: on for half a cycle, off for the other half."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MatchRequest:
+    """The arguments of a match in the background."""
+
+    photo: Photo
+    scene: Scene
+    estimate: str
+    sent: str
+    fit_gamma: bool
+    region: Lamp | Region | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """No scene explains the photo's stripes: the reasons, each a sentence."""
+
+    reasons: tuple[str, ...]
+
+
+def request_of(
+    photo: Photo, scene: Scene, choice: MatchChoice, region: Lamp | Region | None = None
+) -> MatchRequest:
+    """Build the request for a match from the user's choices.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
+    scene, sent = known_scene(scene, choice)
+    return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma, region)
+
+
+def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
+    """Give the scene with what the user knows, and where the sent pattern is taken from.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
+    if choice.sent != "square":
+        return scene, choice.sent
+    chips = CHIPS_OF_A_CYCLE * choice.square_frequency
+    return scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
+
+
+def match(request: MatchRequest, report: Report) -> Match | Refusal:
+    """Match a photo."""
+    report(0.0)
+    try:
+        return match_photo(
+            request.photo,
+            request.scene,
+            estimate=request.estimate,
+            sent=request.sent,
+            fit_gamma=request.fit_gamma,
+            region=request.region,
+            progress=report,
+        )
+    except MatchError as error:
+        return Refusal(error.reasons)

@@ -4,19 +4,20 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.assumption import assumption
+from occ_model.commands.chip_report import chip_lines
 from occ_model.commands.lamp_report import lamp_lines, region_from
 from occ_model.commands.match_many import add_many_options, run_many, written_by
 from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import MatchError, ParameterError, one_line
+from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Alternative, Match
 from occ_model.scene.from_text import write_scene_file
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS, parameter_named
+from occ_model.scene.parameters import parameter_named, quantity
 from occ_model.scene.scene import Scene
 
 _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
@@ -62,6 +63,11 @@ def add_to(commands: Commands) -> None:
     )
     where.add_argument("--lamps", action="store_true", help="find and match every lamp by itself")
     parser.add_argument(
+        "--chips",
+        action="store_true",
+        help="only read the chips in view, which need not repeat; nothing need be known of them",
+    )
+    parser.add_argument(
         "--out",
         type=Path,
         metavar="FILE",
@@ -71,10 +77,7 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    if options.lamps and options.out:
-        raise ParameterError("--out is given with --lamps; allowed: the scene of one match.")
-    if options.more and (options.lamps or options.region):
-        raise ParameterError("--lamps or --region is given with several photos; use one.")
+    _check(options)
     region = None if options.region is None else region_from(options.region)
     scene = scene_of(options)
     if options.led_frequency is not None:
@@ -82,6 +85,9 @@ def _run(options: argparse.Namespace) -> int:
     if options.more:
         return run_many(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
+    if options.chips:
+        print("\n".join(chip_lines(read_chips(photo, region))))
+        return 0
     if options.lamps:
         return _run_lamps(photo, scene, options)
     with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
@@ -94,12 +100,23 @@ def _run(options: argparse.Namespace) -> int:
             region=region,
             progress=lambda share: bar.update(share - bar.n),
         )
-    for line in _report(match, _how_known(match, options)):
+    for line in _report(match, _how_known(match, options), photo.exposure_time):
         print(line)
     if options.out:
         write_scene_file(options.out, match.scene)
         print(f"{one_line(str(options.out))}: the fitted scene")
     return 0
+
+
+def _check(options: argparse.Namespace) -> None:
+    """Refuse options that do not go together."""
+    if options.out and (options.lamps or options.chips):
+        what = "--lamps" if options.lamps else "--chips"
+        raise ParameterError(f"--out is given with {what}; allowed: the scene of one match.")
+    if options.lamps and options.chips:
+        raise ParameterError("--chips is given with --lamps; read each lamp by its --region.")
+    if options.more and (options.lamps or options.region or options.chips):
+        raise ParameterError("--lamps, --region or --chips is given with several photos; use one.")
 
 
 def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
@@ -118,7 +135,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
     for number, (lamp, match) in enumerate(matched, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):
-            lines += _report(match, _how_known(match, options))
+            lines += _report(match, _how_known(match, options), photo.exposure_time)
         elif lamp.modulated:
             lines.append(str(match))
         print("\n  ".join(lines))
@@ -136,15 +153,22 @@ def _square_wave(scene: Scene, text: str) -> Scene:
     return scene.replace(pattern="10", switching_frequency=2.0 * float(frequency))
 
 
-def _report(match: Match, assumption: str) -> list[str]:
+def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
+    """Write a match in lines, with the exposure time in seconds that the camera noted."""
     lines = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.reasons)]
-    lines += [f"{name:22}{_with_uncertainty(match, name, assumption)}" for name in _ESTIMATED]
+    for name in _ESTIMATED:
+        lines.append(f"{name:22}{_with_uncertainty(match, name, assumption)}")
+        if name == "exposure_time" and noted is not None:
+            lines.append(f"{'noted by the camera':22}{quantity(name).format(noted, 4)}")
     how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
     chip = 1.0 / (match.switching_frequency * match.readout_time)
     region, stripes = match.region, match.stripes
     lines += [
         f"{'chips':22}{match.pattern} ({how})",
         f"{'chip length':22}{chip:.3f} columns",
+        f"{'periods in view':22}{match.periods_in_view:.3g}",
+        f"{'exposure in chips':22}{match.exposure_in_chips:.3g}",
+        f"{'duty':22}lit for {100.0 * match.duty:.3g} % of a period",
         f"{'averaging':22}{match.scene.model.averaging}",
         f"{'region':22}columns {region.first_column} to {region.last_column - 1}, "
         f"rows {region.first_row} to {region.last_row - 1}",
@@ -158,8 +182,8 @@ def _report(match: Match, assumption: str) -> list[str]:
             "columns"
         )
     if match.other_exposures:
-        unit = PARAMETERS["exposure_time"]
-        others = ", ".join(unit.format(t) for t in match.other_exposures)  # type: ignore[arg-type]
+        unit = quantity("exposure_time")
+        others = ", ".join(unit.format(t) for t in match.other_exposures)
         lines.append(f"{'or as well exposed':22}{assumption}{others}")
     lines += [_alternative(other, assumption) for other in match.alternatives]
     return lines
@@ -172,22 +196,20 @@ def _alternative(other: Alternative, assumption: str) -> str:
         times = (other.readout_time, other.exposure_time)
         names = ("readout_time", "exposure_time")
         what += f", {assumption}" + ", ".join(
-            f"{name} {PARAMETERS[name].format(time)}"  # type: ignore[arg-type]
-            for name, time in zip(names, times, strict=True)
+            f"{name} {quantity(name).format(time)}" for name, time in zip(names, times, strict=True)
         )
     return f"{'or instead':22}{what}"
 
 
 def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
     """Write an estimate with its standard deviation in its own unit, and what it rests on."""
-    quantity = PARAMETERS[name]
-    assert isinstance(quantity, Quantity)  # noqa: S101 - all that is estimated is one
+    declared = quantity(name)
     value = getattr(match, name)
     deviation = match.uncertainties.get(name)
     if deviation is None:
         how = "assumed" if assumption and name in ESTIMATES else "known"
-        return f"{quantity.format(value)} ({how})"
-    symbol, factor = quantity.unit.display(value)
+        return f"{declared.format(value)} ({how})"
+    symbol, factor = declared.unit.display(value)
     text = f"{value / factor:.6g} ± {deviation / factor:.2g} {symbol}".rstrip()
     # Gamma is found from the shape of the stripes, not from their timing.
     return text if name == "gamma" else assumption + text

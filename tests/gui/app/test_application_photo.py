@@ -155,8 +155,9 @@ def test_a_photo_without_stripes_gives_a_sentence_everywhere(
     sentence = application.profile.residual.numbers.toolTip()
     assert sentence.endswith(".")
     user.choose("&Match photo")
-    assert application.photo.failure.isVisible()
-    assert user.message == application.photo.failure.text()
+    refusal = application.photo.refusal
+    assert refusal.isVisible()
+    assert user.message == refusal.reasons.text().removeprefix("• ")
     application.photos.close()
     assert user.message == ""
 

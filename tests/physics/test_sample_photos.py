@@ -51,7 +51,11 @@ def test_a_sample_is_matched_by_its_scene(name: str) -> None:
         occ.load_photo(FOLDER / f"{name}.jpg"), SCENES[name].replace(readout_time=1e-6)
     )
     assert match.readout_time == pytest.approx(camera.readout_time, rel=1e-3)
-    assert match.exposure_time == pytest.approx(camera.exposure_time, rel=0.02)
+    # Not nearer: exposures of 5 and 15 columns are partly alike to the blur of a lens, which the
+    # match does not know. What it states holds that, and it must stay within it.
+    off = abs(match.exposure_time - camera.exposure_time)
+    assert off < 3.0 * match.uncertainties["exposure_time"]
+    assert off < 0.05 * camera.exposure_time
     assert match.correlation > 0.98
 
 

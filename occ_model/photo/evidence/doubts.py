@@ -1,6 +1,7 @@
 """Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
 
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, runs_of
+from occ_model.photo.evidence.repetition import strongest_line
 from occ_model.photo.stripes.period import unrepeated_share
 from occ_model.results import Stripes
 
@@ -43,6 +44,13 @@ _MOST_FOR_DUTY = 0.02
 _MOST_SATURATED = 0.5
 """Share of white pixels above which the shape of the stripes is mostly unknown."""
 
+_MOST_REPEATED = 0.02
+"""Amplitude, as a share of the swing, above which a residual that repeats is something else's."""
+
+_ABOVE_NOISE = 50.0
+"""Power over that of the noise from which a line of the residual's spectrum is no chance: in a
+thousand bins of noise the strongest one is stronger than this once in 10^18 times."""
+
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
     """Say why a hypothesis is doubtful, in sentences.
@@ -59,6 +67,7 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
     return [
         *_doubts_by_extent(found),
         *_doubts_by_quality(found, stripes.saturated, rows_alike),
+        *_doubts_by_residual(found, stripes),
         *(_doubts_by_reading(found, stripes) if found.was_read else ()),
     ]
 
@@ -119,6 +128,23 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"at most {100.0 * _MOST_SATURATED:.0f} % are allowed."
         )
     return reasons
+
+
+def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
+    """Name the period of what repeats in the residual: another light, or the lamp's own."""
+    line = strongest_line(
+        found.residual(stripes.profile),
+        found.fit.swing,
+        len(found.chips) / found.fit.timing.step,
+        len(found.chips),
+    )
+    if line is None or line.amplitude < _MOST_REPEATED or line.above_noise < _ABOVE_NOISE:
+        return []
+    return [
+        f"What is left of the stripes repeats after {line.period:.3g} columns, by "
+        f"{100.0 * line.amplitude:.2g} % of their height: the stripes explained may be another "
+        "light's, or the mains'."
+    ]
 
 
 def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:

@@ -1,0 +1,112 @@
+"""Whether what an explanation leaves of the stripes still repeats."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+
+_HARMONICS = 2
+"""Multiples of the number of chips up to which a harmonic is the explained pattern's own: the
+model's error of a pattern repeats with it, too."""
+
+_NEAR = 2
+"""Bins of the spectrum on either side that belong to a line: a Hann window spreads it so."""
+
+_BESIDE = (-4, -3, 3, 4)
+"""Harmonics of the pattern near one of them: an error at its edges is in all of them alike. The
+nearest ones may be sidebands of a light that the pattern modulates."""
+
+_ALIKE = 4.0
+"""Ratio of powers up to which harmonics count as alike."""
+
+_LEAST_COLUMNS = 64
+"""Columns below which a spectrum tells nothing."""
+
+_LEAST_CYCLES = 6
+"""Periods in view from which something repeats; slower changes are uneven light."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repetition:
+    """The strongest line in the spectrum of a residual.
+
+    Parameters
+    ----------
+    period
+        In columns.
+    amplitude
+        Half the difference of its crests and troughs, as a share of the stripes' swing.
+    above_noise
+        Its power over that of the noise around it.
+    """
+
+    period: float
+    amplitude: float
+    above_noise: float
+
+
+def strongest_line(
+    residual: FloatArray, swing: FloatArray, pattern_period: float, chips: int
+) -> Repetition | None:
+    """Find the strongest line of a residual beside the explained pattern's own harmonics.
+
+    Parameters
+    ----------
+    residual : ndarray of float64, shape (columns,)
+        Grey levels.
+    swing : ndarray of float64, shape (columns,)
+        Height of the stripes, in grey levels.
+    pattern_period
+        Columns of a period of the explained pattern.
+    chips
+        Its number of chips.
+
+    Returns
+    -------
+    Repetition or None
+        None where there are too few columns.
+
+    Notes
+    -----
+    The periodogram of white noise has an exponential distribution (Schuster, Terrestrial Magnetism
+    3:13, 1898), whose median is ln 2 times its mean: from it the noise around a line is known. A
+    sine of the amplitude A has the peak (A sum(w) / 2)^2 under the window w.
+    """
+    columns = len(residual)
+    if columns < _LEAST_COLUMNS:
+        return None
+    window = np.hanning(columns)
+    relative = residual / np.maximum(swing, 1.0)
+    power = np.abs(np.fft.rfft(window * (relative - relative.mean()))) ** 2
+    possible = np.arange(len(power)) >= _LEAST_CYCLES
+    for place, beside in _harmonics(power, columns / pattern_period, _HARMONICS * chips):
+        around = slice(max(0, place - _NEAR), place + _NEAR + 1)
+        possible[around] &= power[around] > beside
+    if not possible.any():
+        return None
+    line = int(np.where(possible, power, 0.0).argmax())
+    around = slice(max(1, line // 2), 2 * line + 2 * _LEAST_CYCLES)
+    noise = max(float(np.median(power[around])) / math.log(2.0), 1e-12)
+    amplitude = 2.0 * float(np.sqrt(power[line])) / float(window.sum())
+    return Repetition(columns / line, amplitude, float(power[line] / noise))
+
+
+def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, float]]:
+    """Give the bin of each harmonic of the pattern, and the power that it may have by itself."""
+    places = [round(number * first) for number in range(1, int((len(power) - 1) / first) + 1)]
+    strongest = [float(power[max(0, place - _NEAR) : place + _NEAR + 1].max()) for place in places]
+    return [
+        (
+            place,
+            np.inf
+            if index < own
+            else _ALIKE
+            * max(
+                (strongest[index + step] for step in _BESIDE if index + step < len(places)),
+                default=0.0,
+            ),
+        )
+        for index, place in enumerate(places)
+    ]

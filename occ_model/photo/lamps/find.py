@@ -40,6 +40,12 @@ _LEAST_COLUMNS, _REPEATED = 16, 2.0
 _SEEN = 0.3
 """Share of a lamp's strips that must show its period by themselves."""
 
+_OWN = 0.65
+"""Share of a segment's edges that are a lamp's where the segment is of that lamp."""
+
+_ALIKE = 0.02
+"""Share by which the chips of one lamp's segments may differ."""
+
 _WITHIN = 0.5
 """Share of a lamp within another one from which it is a part of that one."""
 
@@ -85,7 +91,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     report(0.8)
     blinking = []
     for group in groups_of(segments):
-        blinking += _blinking(group, strips, bounds, means.shape[1])
+        blinking += _blinking(group, segments, strips, bounds, means.shape[1])
         report(0.85)
     blinking = _without_parts(_without_glow(blinking))
     lamps = _without_reflections(blinking)
@@ -96,24 +102,60 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
 
 
 def _blinking(
-    group: Sequence[Segment], strips: Sequence[Edges], bounds: IndexArray, columns: int
+    group: Sequence[Segment],
+    segments: Sequence[Segment],
+    strips: Sequence[Edges],
+    bounds: IndexArray,
+    columns: int,
 ) -> list[_Blinking]:
-    """Describe the lamps of a group of segments."""
+    """Describe the lamps of a group of segments, among the segments of all groups."""
     edges, weights = common_edges(group)
     found = []
     for timing in timings_of(edges, weights):
         if not _is_lamp(timing):
             continue
-        near = 1.0 + 0.06 * timing.chip
+        near = _near(timing)
         inner = [one.strip for one in group if matches(one.edges, timing.edges, near).sum() > 2]
         if not inner:
             continue
         spans = spans_of(strips, inner, timing, bounds, columns)
         if _columns(spans) < _least_columns(timing):
             continue
-        if len(spans) >= _LEAST_STRIPS and len(set(inner)) >= _SEEN * len(spans):
+        if len(spans) >= _LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
             found.append(_described(timing, spans))
     return found
+
+
+def _is_seen(
+    timing: LampTiming, spans: IndexArray, segments: Sequence[Segment], bounds: IndexArray
+) -> bool:
+    """Whether enough strips of a lamp show its edges by themselves.
+
+    A wide lamp's segments differ in the number of edges, and so may form several groups.
+    """
+    first, last = np.searchsorted(bounds, [spans[0, 0], spans[-1, 0]]).tolist()
+    shown = {
+        one.strip for one in segments
+        if first <= one.strip <= last and _is_of(one, timing)
+    }  # fmt: skip
+    return len(shown) >= _SEEN * len(spans)
+
+
+def _is_of(segment: Segment, timing: LampTiming) -> bool:
+    """Whether a segment is one of a lamp: most edges, the kind and the length of a chip agree.
+
+    Two lamps in line may together resemble a code, but each segment of theirs is a repeated pulse.
+    """
+    if (segment.period is None) != timing.is_code:
+        return False
+    if abs(segment.chip - timing.chip) > _ALIKE * timing.chip:
+        return False
+    near = np.count_nonzero(matches(segment.edges, timing.edges, _near(timing)))
+    return bool(near > 2 and near >= _OWN * len(segment.edges))
+
+
+def _near(timing: LampTiming) -> float:
+    return 1.0 + 0.06 * timing.chip
 
 
 def _columns(spans: IndexArray) -> int:

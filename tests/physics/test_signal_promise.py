@@ -80,7 +80,7 @@ def test_the_signal_changes_by_no_more_than_the_tolerance(tolerance: float) -> N
 
 
 def test_an_effect_by_itself_keeps_its_bound_in_the_signal() -> None:
-    for number, scene in enumerate(scenes()[:120]):
+    for number, scene in enumerate(scenes()[:60]):
         everything, whole = complete(number)
         for effect in everything.included:
             without = occ.plan(scene, 0.0, "signal", {effect: False})

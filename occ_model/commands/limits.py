@@ -3,7 +3,7 @@
 import argparse
 import math
 
-from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.options import Commands, add_scene_options, number, scene_of, whole_number
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
@@ -28,14 +28,14 @@ def add_to(commands: Commands) -> None:
     add_scene_options(parser)
     parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPER_DECODER)
     parser.add_argument(
-        "--rate", type=float, default=99.0, metavar="PERCENT",
+        "--rate", type=number, default=99.0, metavar="PERCENT",
         help="of the bits from which a scene counts as read; default: %(default)s",
     )  # fmt: skip
     parser.add_argument(
-        "--images", type=int, default=20,
+        "--images", type=whole_number, default=20,
         help="at each value tried; more of them make the answer surer; default: %(default)s",
     )  # fmt: skip
-    parser.add_argument("--seed", type=int, default=1, help="default: %(default)s")
+    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.set_defaults(command=_run)
 
 

@@ -17,6 +17,7 @@ from occ_model.scene.simulation_settings import (
     TOLERANCE,
     SimulationSettings,
 )
+from occ_model.scene.units import NONE
 
 if TYPE_CHECKING:  # argparse's own class cannot be subscripted when it runs
     Commands: TypeAlias = argparse._SubParsersAction[argparse.ArgumentParser]
@@ -38,6 +39,41 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Exit with the usage and a message, of bounded length whatever the command line."""
         super().error(one_line(message, _LONGEST_MESSAGE))
+
+
+def number(text: str) -> float:
+    """Read the number of an option, with a decimal point or comma, or ``inf``.
+
+    Raises
+    ------
+    ArgumentTypeError
+        It is no number, or its comma can separate thousands as well.
+    """
+    readings = NONE.readings(text)
+    if len(readings) > 1:
+        comma, thousands = (NONE.format(value) for value in readings)
+        raise argparse.ArgumentTypeError(
+            f"{shown(text)} means {comma} with a decimal comma and {thousands} with a comma "
+            "between thousands; write it without that comma"
+        )
+    try:
+        return readings[0] if readings else float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a number") from None
+
+
+def whole_number(text: str) -> int:
+    """Read the whole number of an option.
+
+    Raises
+    ------
+    ArgumentTypeError
+        It is none.
+    """
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a whole number") from None
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
@@ -72,7 +108,7 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
     own = SimulationSettings()
     parser.add_argument(
         "--tolerance",
-        type=float,
+        type=number,
         default=own.tolerance,
         metavar="LEVELS",
         help="what effects left out may change, in levels of the stretched profile; "
@@ -103,7 +139,7 @@ def add_noise_options(parser: argparse.ArgumentParser) -> None:
         default=own.noise,
         help="exact: drawn for each pixel; reused: many times faster; default: %(default)s",
     )
-    parser.add_argument("--seed", type=int, default=own.seed, help="default: %(default)s")
+    parser.add_argument("--seed", type=whole_number, default=own.seed, help="default: %(default)s")
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
-from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.options import Commands, add_scene_options, number, scene_of, whole_number
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
@@ -43,14 +43,16 @@ def add_to(commands: Commands) -> None:
         "--vary", action="append", required=True, metavar="NAME=VALUES",
         help=f"{SYNTAX}; may be repeated, all combinations are measured",
     )  # fmt: skip
-    parser.add_argument("--images", type=int, default=5, help="a point; default: %(default)s")
+    parser.add_argument(
+        "--images", type=whole_number, default=5, help="a point; default: %(default)s"
+    )
     parser.add_argument(
         "--decoder", action="append", choices=(*DECODERS, BOTH),
         help=f"may be repeated; {BOTH}: all there are; default: {PAPER_DECODER}",
     )  # fmt: skip
-    parser.add_argument("--seed", type=int, default=1, help="default: %(default)s")
+    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.add_argument(
-        "--tolerance", type=float, default=TOLERANCE.default, metavar="LEVELS",
+        "--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS",
         help="what effects left out may change in the profile; default: %(default)s",
     )  # fmt: skip
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
@@ -65,7 +67,7 @@ def add_to(commands: Commands) -> None:
     )  # fmt: skip
     work = parser.add_mutually_exclusive_group()
     work.add_argument(
-        "--jobs", type=int, default=1, metavar="N", help="processes; default: %(default)s"
+        "--jobs", type=whole_number, default=1, metavar="N", help="processes; default: %(default)s"
     )
     work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
     parser.add_argument(

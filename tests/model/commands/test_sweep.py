@@ -280,5 +280,6 @@ def test_a_number_of_too_many_digits_is_refused_in_short(
         main(["sweep", "--vary", "distance=1", "--images", "9" * 5000])
     assert ended.value.code == 2
     *_, last = capsys.readouterr().err.splitlines()
-    assert last.startswith("occ-model sweep: error: argument --images: invalid int value: '999")
+    assert last.startswith("occ-model sweep: error: argument --images: '999")
+    assert last.endswith(" is not a whole number")
     assert len(last) < 1100

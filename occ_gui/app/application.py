@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QSettings
-from PySide6.QtGui import QAction
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
@@ -134,17 +133,17 @@ class Application(QObject):
         self.simulation.failed.connect(self.learning.pins.give_up)
         for speaker in (self.presets, self.files, self.present):
             speaker.status_message.connect(self.window.say)
-        self.learning.status_message.connect(self.messages.show_refusal)
+        self.learning.status_message.connect(self.messages.show_note)
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
-        self.accuracy.tolerance_edited.connect(self.messages.end_refusal)
+        for mended in (self.accuracy.tolerance_edited, self.photo.mended):
+            mended.connect(self.messages.end_refusal)
         self.accuracy.tolerance_edited.connect(self.settings.set_tolerance)
         self.accuracy.observable_chosen.connect(self.settings.set_observable)
         self.accuracy.noise_chosen.connect(self.settings.set_noise)
         self.accuracy.effect_switched.connect(self.store.force)
         self.controls.forced.released.connect(self.store.release_effects)
-        self.accuracy.refused.connect(self.messages.show_refusal)
         self.accuracy.visibility_changed.connect(self.study.set_seen)
         self.accuracy.plan_changed.connect(self.window.show_plan_change)
         self.settings.changed.connect(self._show_settings)
@@ -158,7 +157,8 @@ class Application(QObject):
         self.photos.ended.connect(self.window.reading.end)
         self.window.reading.cancelled.connect(self._cancel_photo)
         self.photo.open_asked.connect(self.files.ask_for_photo)
-        self.photo.form.refused.connect(self.messages.show_refusal)
+        for pane in (self.accuracy, self.photo):
+            pane.refused.connect(self.messages.show_refusal)
         self.photo.form.edited.connect(self.editor.edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.photo.many.save_asked.connect(self.files.ask_to_save_table)
@@ -188,7 +188,7 @@ class Application(QObject):
         self.photos.reading_changed.connect(
             lambda reading: menus.show_choice(menus.scan_axes, reading.scan_axis)
         )
-        menus.modes.triggered.connect(self._show_mode)
+        menus.modes.triggered.connect(lambda action: self.image.set_mode(action.data()))
         self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
 
     def _connect_slider_strips(self) -> None:
@@ -228,9 +228,6 @@ class Application(QObject):
         """Show the photo beside the simulated picture or over it, by one of MODES."""
         self.image.set_mode(mode)
         self.window.menus.show_choice(self.window.menus.modes, mode)
-
-    def _show_mode(self, action: QAction) -> None:
-        self.image.set_mode(action.data())
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")

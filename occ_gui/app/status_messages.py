@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QObject
 
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.wording import with_labels
+from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.window.main_window import MainWindow
 from occ_model.scene.parameters import PARAMETERS
 
@@ -32,6 +32,10 @@ class StatusMessages(QObject):
 
     def show_refusal(self, sentence: str) -> None:
         """Show why an input is not valid, until the next change of scene or settings."""
+        self._window.say(refusal_of(sentence), until=_CHANGE)
+
+    def show_note(self, sentence: str) -> None:
+        """Show what the user should know of the present scene, until it changes."""
         self._window.say(with_labels(sentence), until=_CHANGE)
 
     def show_refusal_for(self, sentence: str, parameters: Sequence[str]) -> None:
@@ -43,7 +47,7 @@ class StatusMessages(QObject):
         self._window.say(with_labels(sentence), until=_PICTURE)
         self._controls.end_refusals(self._failing)
         self._failing = tuple(parameters)
-        self._controls.show_refusal(sentence, parameters)
+        self._controls.show_problem(sentence, parameters)
 
     def show_photo_failure(self, sentence: str) -> None:
         """Show why a photo cannot be read, until the next photo."""

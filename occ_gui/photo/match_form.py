@@ -16,6 +16,7 @@ from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN, MatchChoice
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.scene.parameter_kinds import Quantity
@@ -52,6 +53,9 @@ class MatchForm(QWidget):
     cancelled = Signal()
     refused = Signal(str)
     """Why an entered value is refused."""
+
+    mended = Signal()
+    """An allowed value was entered, whether or not it differs from the last one."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -90,12 +94,12 @@ class MatchForm(QWidget):
         self.gamma.setToolTip(
             self.tr("Estimate the camera's gamma from the shape of the stripes' edges as well.")
         )
+        self._make_notices()
         self._make_run()
         self._lay_out()
         self.sent.chosen.connect(self._show_known)
         self.estimate.chosen.connect(self._show_known)
         self.square.edited.connect(self._confirm_square)
-        self.square.refused.connect(self.refused)
         self._show_known()
 
     def _make_known(self) -> None:
@@ -108,7 +112,6 @@ class MatchForm(QWidget):
             note = self.tr("A known value of the photo; entering it changes the scene.")
             field.setToolTip(f"{note}\n\n{explain(declared)}")
             field.edited.connect(lambda value, name=name: self._edit(name, value))
-            field.refused.connect(self.refused)
         self.hint = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.certain = QCheckBox(self.tr("certain"))
         self.certain.setToolTip(
@@ -119,6 +122,21 @@ class MatchForm(QWidget):
             )
         )
         self.certain.clicked.connect(self._click_certain)
+
+    def _make_notices(self) -> None:
+        """Make the sentences that say, under each field, why its last input was refused."""
+        self.notices: dict[QuantityEdit, RefusalNotice] = {}
+        for field in (self.square, *self.known.values()):
+            notice = self.notices[field] = RefusalNotice(field)
+            field.refused.connect(notice.show_refusal)
+            field.refused.connect(self.refused)
+            field.edited.connect(notice.end)
+            field.edited.connect(self.mended)
+
+    def end_refusals(self) -> None:
+        """Remove the sentences: the fields show other values."""
+        for notice in self.notices.values():
+            notice.end()
 
     def _edit(self, name: str, value: float) -> None:
         self._set_certain(name, value)
@@ -168,15 +186,18 @@ class MatchForm(QWidget):
         grid.addWidget(QLabel(self.tr("Sent")), 0, 0)
         grid.addWidget(self.sent, 0, 1)
         grid.addWidget(self.square, 0, 2)
-        grid.addWidget(QLabel(self.tr("Estimate")), 1, 0)
-        grid.addWidget(self.estimate, 1, 1, 1, 2)
+        grid.addWidget(self.notices[self.square], 1, 1, 1, 2)
+        grid.addWidget(QLabel(self.tr("Estimate")), 2, 0)
+        grid.addWidget(self.estimate, 2, 1, 1, 2)
         known = QHBoxLayout()
         for field in self.known.values():
             known.addWidget(field)
         known.addWidget(self.certain)
         known.addWidget(self.hint, 1)
-        grid.addWidget(QLabel(self.tr("Known")), 2, 0)
-        grid.addLayout(known, 2, 1, 1, 2)
+        grid.addWidget(QLabel(self.tr("Known")), 3, 0)
+        grid.addLayout(known, 3, 1, 1, 2)
+        for place, field in enumerate(self.known.values()):
+            grid.addWidget(self.notices[field], 4 + place, 1, 1, 2)
         grid.setColumnStretch(1, 1)
         run = QHBoxLayout()
         run.addWidget(self.gamma)
@@ -203,6 +224,7 @@ class MatchForm(QWidget):
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene."""
         self._scene = scene
+        self.end_refusals()
         self._show_known()
 
     def show_running(self, running: bool) -> None:
@@ -224,10 +246,15 @@ class MatchForm(QWidget):
     def _show_known(self) -> None:
         square = self.sent.key() == "square"
         self.square.setVisible(square)
+        if not square:
+            self.notices[self.square].end()
         of_frequency = self.estimate.key() == "readout_time"
         for name, field in self.known.items():
-            field.setVisible((name == _FREQUENCY) == of_frequency)
+            is_known = (name == _FREQUENCY) == of_frequency
+            field.setVisible(is_known)
             field.setEnabled(not (of_frequency and square))  # the square wave determines it
+            if not is_known:
+                self.notices[field].end()
             if self._scene is not None:
                 field.set_value(float(self._scene.value(name)))
         if square:

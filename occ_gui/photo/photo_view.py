@@ -38,6 +38,12 @@ class PhotoView(QWidget):
     open_asked = Signal()
     """The user opens a photo."""
 
+    refused = Signal(str)
+    """Why a value that was entered in a form is refused."""
+
+    mended = Signal()
+    """An allowed value was entered in a form."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.many = ManyPhotosView()
@@ -64,6 +70,9 @@ class PhotoView(QWidget):
         self.form.certain_changed.connect(self.many.show_certain)
         self._has_photo = False
         self.many.files_shown.connect(self._show_page)
+        for form in (self.form, self.placement):
+            form.refused.connect(self.refused)
+            form.mended.connect(self.mended)
 
     def _make_invitation(self) -> QWidget:
         page = QWidget()

@@ -2,7 +2,6 @@
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -12,10 +11,39 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.picture.placement import LARGEST_SCALE, LEAST_SCALE, Placement
+from occ_gui.scene.decimal_edit import DecimalEdit
+from occ_gui.scene.parameter_rows import explain
+from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.units import NONE, PIXEL
 
 _FARTHEST = 1e6
 """Largest shift of a photo in pixels."""
+
+COLUMN = Quantity(
+    "photo_column",
+    "Column of the photo",
+    "",
+    "Column of the simulation under the photo's first column, in pixels.",
+    unit=PIXEL, low=-_FARTHEST, high=_FARTHEST, slider=(0.0, 5000.0), scale="linear", default=0.0,
+)  # fmt: skip
+
+ROW = Quantity(
+    "photo_row",
+    "Row of the photo",
+    "",
+    "Row of the simulation under the photo's first row, in pixels.",
+    unit=PIXEL, low=-_FARTHEST, high=_FARTHEST, slider=(0.0, 5000.0), scale="linear", default=0.0,
+)  # fmt: skip
+
+SCALE = Quantity(
+    "photo_scale",
+    "Scale of the photo",
+    "",
+    "Pixels of the simulation to one of the photo.",
+    unit=NONE, low=LEAST_SCALE, high=LARGEST_SCALE, slider=(0.1, 10.0), scale="log", default=1.0,
+)  # fmt: skip
 
 
 class PlacementForm(QWidget):
@@ -25,30 +53,21 @@ class PlacementForm(QWidget):
     """The user moved or scaled the photo: a Placement."""
 
     reset_asked = Signal()
+    refused = Signal(str)
+    """Why an entered value is refused."""
+
+    mended = Signal()
+    """An allowed value was entered, whether or not it differs from the last one."""
+
     moving_chosen = Signal(bool)
     """Whether the user moves and scales the photo by the mouse."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._placement = Placement()
-        self.column = self._field(
-            self.tr("Column of the photo"),
-            self.tr("Column of the simulation under the photo's first column, in pixels."),
-        )
-        self.row = self._field(
-            self.tr("Row of the photo"),
-            self.tr("Row of the simulation under the photo's first row, in pixels."),
-        )
-        for field in (self.column, self.row):
-            field.setRange(-_FARTHEST, _FARTHEST)
-            field.setDecimals(2)
-            field.setSuffix(self.tr(" px"))
-        self.scale = self._field(
-            self.tr("Scale of the photo"),
-            self.tr("Pixels of the simulation to one of the photo."),
-        )
-        self.scale.setRange(LEAST_SCALE, LARGEST_SCALE)
-        self.scale.setDecimals(5)
+        self.notices: dict[DecimalEdit, RefusalNotice] = {}
+        self.column, self.row = self._field(COLUMN, 2), self._field(ROW, 2)
+        self.scale = self._field(SCALE, 5)
         self.scale.setSingleStep(0.01)
         self.by_mouse = QPushButton(self.tr("Mo&ve by mouse"))
         self.by_mouse.setCheckable(True)
@@ -70,14 +89,18 @@ class PlacementForm(QWidget):
         self._lay_out()
         self.show_placement(Placement(), by_hand=False)
 
-    def _field(self, name: str, meaning: str) -> QDoubleSpinBox:
-        field = QDoubleSpinBox()
-        field.setAccessibleName(name)
-        field.setToolTip(meaning)
-        field.setKeyboardTracking(False)
+    def _field(self, declared: Quantity, decimals: int) -> DecimalEdit:
+        field = DecimalEdit(declared, decimals)
+        field.setAccessibleName(declared.label)
+        field.setToolTip(explain(declared))
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
+        notice = self.notices[field] = RefusalNotice(field)
+        field.refused.connect(notice.show_refusal)
+        field.refused.connect(self.refused)
+        field.accepted.connect(notice.end)
+        field.accepted.connect(self.mended)
         return field
 
     def _lay_out(self) -> None:
@@ -92,6 +115,7 @@ class PlacementForm(QWidget):
         for place, (text, field) in enumerate(fields):
             grid.addWidget(QLabel(text), 0, place)
             grid.addWidget(field, 1, place)
+            grid.addWidget(self.notices[field], 2 + place, 0, 1, len(fields))
             grid.setColumnStretch(place, 1)
         buttons = QHBoxLayout()
         buttons.addWidget(self.by_mouse)
@@ -106,6 +130,8 @@ class PlacementForm(QWidget):
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         """Show the placement without emitting a signal."""
         self._placement = placement
+        for notice in self.notices.values():
+            notice.end()
         shown = ((self.column, placement.column), (self.row, placement.row))
         for field, value in (*shown, (self.scale, placement.scale)):
             with QSignalBlocker(field):

@@ -102,7 +102,10 @@ class CompareView(QWidget):
 
     def _make_plot(self) -> None:
         self.plot = new_plot(
-            self.tr("Profiles of A and B"), self.tr("column"), self.tr("level"), self.palette()
+            self.tr("The camera's column profiles of A and B, before enhancement"),
+            self.tr("column of the camera's picture, before enhancement"),
+            self.tr("camera's level"),
+            self.palette(),
         )
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)

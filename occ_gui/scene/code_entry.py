@@ -76,7 +76,11 @@ class CodeEntry(QWidget):
 
     def show_refusal(self, sentence: str) -> None:
         """Show why a code was refused."""
-        self.notices[0].show_sentence(sentence)
+        self.notices[0].show_refusal(sentence)
+
+    def show_problem(self, sentence: str) -> None:
+        """Show what is wrong with the present code."""
+        self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:
         """Remove what was shown."""
@@ -100,5 +104,5 @@ class CodeEntry(QWidget):
         sentence = self.tr("The bits are {text}; allowed: {bits} characters 0 and 1.").format(
             text=shown(text), bits=self._bits
         )
-        self.notices[1].show_sentence(sentence)
+        self.notices[1].show_refusal(sentence)
         self.refused.emit(sentence)

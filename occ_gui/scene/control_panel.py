@@ -144,17 +144,22 @@ class ControlPanel(QWidget):
 
     def show_refusal(self, sentence: str, names: Iterable[str]) -> None:
         """Show, at the fields of some parameters, why their values were refused."""
-        fields = self._fields()
-        for name in names:
-            if name in fields:
-                fields[name].show_refusal(sentence)
+        for field in self._fields_of(names):
+            field.show_refusal(sentence)
+
+    def show_problem(self, sentence: str, names: Iterable[str]) -> None:
+        """Show, at the fields of some parameters, what is wrong with the present values."""
+        for field in self._fields_of(names):
+            field.show_problem(sentence)
 
     def end_refusals(self, names: Iterable[str] | None = None) -> None:
         """Remove the sentences of refusals from the fields of some parameters; by default all."""
+        for field in self._fields().values() if names is None else self._fields_of(names):
+            field.end_refusal()
+
+    def _fields_of(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
         fields = self._fields()
-        for name in fields if names is None else names:
-            if name in fields:
-                fields[name].end_refusal()
+        return [fields[name] for name in names if name in fields]
 
     def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
         """Return the controls of all parameters, by name."""

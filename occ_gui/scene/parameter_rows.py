@@ -42,7 +42,7 @@ class ParameterRow(QWidget):
     """The value that the controls show, or that the user has entered; None before the first."""
 
     notice: RefusalNotice
-    """Why the last input was refused, under the field."""
+    """Why the last input was refused, or what is wrong with the value, under the field."""
 
     def __init__(self, declaration: Declaration, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -51,8 +51,12 @@ class ParameterRow(QWidget):
         self.refused.connect(self.show_refusal)
 
     def show_refusal(self, sentence: str) -> None:
-        """Show why a value was refused, or what is wrong with the present one."""
-        self.notice.show_sentence(sentence)
+        """Show why a value was refused."""
+        self.notice.show_refusal(sentence)
+
+    def show_problem(self, sentence: str) -> None:
+        """Show what is wrong with the present value."""
+        self.notice.show_problem(sentence)
 
     def end_refusal(self) -> None:
         """Remove the sentence."""

@@ -12,7 +12,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
-from occ_gui.scene.wording import with_labels
+from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.guarded_paint import guarded
 
@@ -22,7 +22,7 @@ _FRAME_WIDTH = 2
 
 
 class RefusalNotice(QLabel):
-    """A sentence that says why the value of a field was refused; hidden until there is one.
+    """A sentence under a field that says what is wrong; hidden until there is one.
 
     Screen readers announce it, and read it as the description of the field.
 
@@ -42,9 +42,15 @@ class RefusalNotice(QLabel):
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.hide()
 
-    def show_sentence(self, sentence: str) -> None:
-        """Show a sentence of the model, with labels in place of the parameters' names."""
-        sentence = with_labels(sentence)
+    def show_refusal(self, sentence: str) -> None:
+        """Show why a value was refused; the field shows the last one."""
+        self._show(refusal_of(sentence))
+
+    def show_problem(self, sentence: str) -> None:
+        """Show what is wrong with the value that the field shows."""
+        self._show(with_labels(sentence))
+
+    def _show(self, sentence: str) -> None:
         self.setText(sentence)
         self._field.setAccessibleDescription(sentence)
         self._take_colour()

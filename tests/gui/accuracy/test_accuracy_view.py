@@ -110,7 +110,7 @@ def test_a_wrong_tolerance_is_refused_and_the_field_restored(
     field.selectAll()
     qtbot.keyClicks(field, text)
     qtbot.keyClick(field, Qt.Key.Key_Return)
-    assert user.message.startswith("tolerance is ")
+    assert user.message.startswith("Tolerance cannot be ")
     assert "allowed: from 0 levels" in user.message
     assert field.value() == in_front.settings.settings.tolerance == 0.5
     assert field.lineEdit().text() == "0.5 levels"

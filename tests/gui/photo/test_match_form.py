@@ -167,3 +167,58 @@ def test_the_frequency_of_a_square_wave_is_certain_once_entered(
     qtbot.keyClicks(view.form.square, "1.5 kHz\r")
     assert view.form.certain.isChecked()
     assert view.form._certain == {"switching_frequency": 3e3}
+
+
+def test_a_refused_known_value_says_why_at_its_field_until_mended(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(occ.Scene())
+    view.form.edited.connect(
+        lambda name, value, _: view.show_scene(occ.Scene().replace(**{name: value}))
+    )
+    refused: list[str] = []
+    view.refused.connect(refused.append)
+    fields = {
+        "auto": view.form.known["switching_frequency"],
+        "square": view.form.square,
+    }
+    for sent, field in fields.items():
+        choose(qtbot, view.form.sent, sent)
+        shown, notice = field.text(), view.form.notices[field]
+        for text, sentence in (("0", "cannot be 0 Hz"), ("1,000 Hz", "thousands")):
+            field.selectAll()
+            qtbot.keyClicks(field, text)
+            qtbot.keyClick(field, Qt.Key.Key_Return)
+            assert notice.isVisible()
+            assert sentence in notice.text()
+            assert field.text() == shown
+        with qtbot.waitSignal(view.mended):
+            field.selectAll()
+            qtbot.keyClicks(field, "1,5 kHz")
+            qtbot.keyClick(field, Qt.Key.Key_Return)
+        assert field.value() == 1500.0
+        assert not notice.isVisible()
+    assert len(refused) == 4
+
+
+def test_a_field_that_is_no_longer_asked_for_has_no_sentence(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(occ.Scene())
+    field = view.form.known["switching_frequency"]
+
+    def refuse() -> None:
+        field.selectAll()
+        qtbot.keyClicks(field, "soon")
+        qtbot.keyClick(field, Qt.Key.Key_Return)
+        assert view.form.notices[field].text()
+
+    refuse()
+    choose(qtbot, view.form.estimate, "switching_frequency")
+    assert view.form.notices[field].text() == ""
+    choose(qtbot, view.form.estimate, "readout_time")
+    refuse()
+    view.show_scene(occ.Scene().replace(iso=200.0))
+    assert view.form.notices[field].text() == ""

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from gui.combo_box import choose
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_view import PhotoView
@@ -129,3 +130,34 @@ def test_moving_by_mouse_and_resetting_emit_signals(
     assert moving.args == [True]
     with qtbot.waitSignal(view.placement.reset_asked):
         qtbot.mouseClick(view.placement.reset, Qt.MouseButton.LeftButton)
+
+
+def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
+    view: PhotoView, photo: Photo, qtbot: QtBot
+) -> None:
+    placed: list[Placement] = []
+    view.placement.placed.connect(placed.append)
+    view.show_photo(photo)
+    form = view.placement
+
+    def enter(field: QWidget, text: str) -> None:
+        field.setFocus()
+        qtbot.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+        qtbot.keyClicks(field, text)
+        qtbot.keyClick(field, Qt.Key.Key_Return)
+
+    enter(form.column, "12,5")
+    enter(form.row, "-3.25 px")
+    enter(form.scale, "1,5")
+    assert placed[-1] == Placement(12.5, -3.25, 1.5)
+    count = len(placed)
+    for field, text in ((form.column, "1,000"), (form.row, "left"), (form.scale, "0")):
+        shown = field.text()
+        enter(field, text)
+        assert form.notices[field].isVisible()
+        assert "cannot be" in form.notices[field].text()
+        assert field.text() == shown
+    assert len(placed) == count
+    enter(form.column, "13")
+    assert not form.notices[form.column].isVisible()
+    assert placed[-1].column == 13.0

@@ -1,0 +1,56 @@
+"""Decimal field: a number with decimals that reads a decimal comma; anything else is refused."""
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QValidator
+from PySide6.QtWidgets import QDoubleSpinBox, QWidget
+
+from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_model.errors import ParameterError
+from occ_model.scene.parameter_kinds import Quantity
+
+
+class DecimalEdit(QDoubleSpinBox):
+    """A number field that lets any text be typed, and refuses what is no allowed number.
+
+    Qt's own would read ``1,5`` as 15, and leave out the characters that it does not allow.
+
+    Parameters
+    ----------
+    declared
+        The declaration.
+    decimals
+        Digits after the point.
+    parent
+        The parent widget.
+    """
+
+    accepted = Signal()
+    """What was typed is an allowed number, also if it is the one shown before."""
+
+    refused = Signal(str)
+    """The reason why an input is not valid; the field shows the last value again."""
+
+    def __init__(self, declared: Quantity, decimals: int, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._declared = declared
+        self.setDecimals(decimals)
+        self.setRange(declared.low, declared.high)
+        if declared.unit.symbol:
+            self.setSuffix(f" {declared.unit.symbol}")
+        self.setKeyboardTracking(False)
+        leave_undo_to_window(self)
+
+    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
+        """Allow any text to be typed; invalid text is refused with a sentence at the end."""
+        return QValidator.State.Acceptable, text, position
+
+    def valueFromText(self, text: str) -> float:  # noqa: N802 - Qt's name
+        """Read the typed number; the last value stays where it is refused."""
+        try:
+            # Qt keeps its own unit behind one that is typed.
+            value = self._declared.parse(text.removesuffix(self.suffix()))
+        except ParameterError as error:
+            self.refused.emit(str(error))
+            return self.value()
+        self.accepted.emit()
+        return value

@@ -2,6 +2,7 @@
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Signal
+from PySide6.QtGui import QMouseEvent
 
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.picture_pane import PicturePane
@@ -9,17 +10,17 @@ from occ_gui.profile.profile_view import ProfileView
 
 
 class _Follower(QObject):
-    """Emits a text for each position of the mouse in a view, an empty one when it leaves."""
+    """Emits a text for each position of the mouse in a view, an empty one when it leaves.
+
+    The scene's own signal leaves out positions that follow fast, also that where the mouse stops.
+    """
 
     changed = Signal(str)
 
     def __init__(self, view: pg.GraphicsView) -> None:
         super().__init__(view)
-        view.scene().sigMouseMoved.connect(self._move)
+        self._view = view
         view.viewport().installEventFilter(self)
-
-    def _move(self, point: QPointF) -> None:
-        self.changed.emit(self.text_at(point))
 
     def text_at(self, point: QPointF) -> str:
         """Return the text for a point of the graphics scene."""
@@ -28,6 +29,9 @@ class _Follower(QObject):
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() == QEvent.Type.Leave:
             self.changed.emit("")
+        elif event.type() == QEvent.Type.MouseMove and isinstance(event, QMouseEvent):
+            point = self._view.mapToScene(event.position().toPoint())
+            self.changed.emit(self.text_at(QPointF(point)))
         return False
 
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from gui.user import User
 from PIL import Image
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -124,6 +126,21 @@ def test_the_pointer_reads_the_levels_of_both_pictures(
         qtbot.waitUntil(lambda: application.window.pointed.toolTip() == expected)
     assert application.image.levels_at(-1, 0) is None
     assert application.image.levels_at(column, frame.image.shape[0]) is None
+
+
+def test_the_position_where_a_fast_mouse_stops_is_read(application: Application) -> None:
+    pane = application.image.simulation
+    viewport = pane.graphics.viewport()
+    middle = viewport.rect().center()
+    kind, none, no_key = QEvent.Type.MouseMove, Qt.MouseButton.NoButton, Qt.KeyboardModifier(0)
+    for right in (0, 20, 40):  # faster than a hand
+        place = QPointF(middle + QPoint(right, 0))
+        everywhere = QPointF(viewport.mapToGlobal(place.toPoint()))
+        event = QMouseEvent(kind, place, everywhere, none, none, no_key)
+        QApplication.sendEvent(viewport, event)
+        seen = pane.graphics.mapToScene(place.toPoint())
+        column = round(pane.box.mapSceneToView(QPointF(seen)).x())
+        assert application.window.pointed.toolTip().startswith(f"Simulation: column {column}, ")
 
 
 def test_save_picture_writes_and_names_the_one_that_is_shown(

@@ -103,7 +103,7 @@ class CompareView(QWidget):
     def _make_plot(self) -> None:
         self.plot = new_plot(
             self.tr("The camera's column profiles of A and B, before enhancement"),
-            self.tr("column of the camera's picture, before enhancement"),
+            self.tr("column, before enhancement"),
             self.tr("camera's level"),
             self.palette(),
         )

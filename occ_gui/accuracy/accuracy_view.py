@@ -34,6 +34,9 @@ class AccuracyView(QWidget):
     refused = Signal(str)
     """Why an entered value is refused."""
 
+    mended = Signal()
+    """An allowed tolerance was entered, whether or not it differs from the last one."""
+
     plan_changed = Signal(str)
     """A sentence on the effects that the plan has just switched in or out."""
 
@@ -46,6 +49,7 @@ class AccuracyView(QWidget):
         self._sentence = ""
         self._marked: tuple[Switch, ...] = ()
         self.tolerance = QuantityRow(TOLERANCE)
+        self.tolerance.edited.connect(self.mended)
         self.tolerance.edited.connect(lambda _, value: self.tolerance_edited.emit(value))
         self.tolerance.refused.connect(self.refused)
         self.observable = _choice(

@@ -123,6 +123,7 @@ class Application(QObject):
         self.controls.connect_editor(self.editor)
         self.editor.edit_started.connect(self.messages.end_refusal)
         self.editor.input_refused.connect(self.messages.show_refusal)
+        self.messages.follow(self.accuracy, self.photo)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
         self.store.changed.connect(self._show_scene)
@@ -137,8 +138,6 @@ class Application(QObject):
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
-        for mended in (self.accuracy.tolerance_edited, self.photo.mended):
-            mended.connect(self.messages.end_refusal)
         self.accuracy.tolerance_edited.connect(self.settings.set_tolerance)
         self.accuracy.observable_chosen.connect(self.settings.set_observable)
         self.accuracy.noise_chosen.connect(self.settings.set_noise)
@@ -157,8 +156,6 @@ class Application(QObject):
         self.photos.ended.connect(self.window.reading.end)
         self.window.reading.cancelled.connect(self._cancel_photo)
         self.photo.open_asked.connect(self.files.ask_for_photo)
-        for pane in (self.accuracy, self.photo):
-            pane.refused.connect(self.messages.show_refusal)
         self.photo.form.edited.connect(self.editor.edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.photo.many.save_asked.connect(self.files.ask_to_save_table)

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QObject
 
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.photo.photo_view import PhotoView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.window.main_window import MainWindow
@@ -29,6 +31,12 @@ class StatusMessages(QObject):
         super().__init__(window)
         self._window, self._controls = window, controls
         self._failing: tuple[str, ...] = ()
+
+    def follow(self, *forms: AccuracyView | PhotoView) -> None:
+        """Show what forms refuse from now on, until an allowed value is entered there."""
+        for form in forms:
+            form.refused.connect(self.show_refusal)
+            form.mended.connect(self.end_refusal)
 
     def show_refusal(self, sentence: str) -> None:
         """Show why an input is not valid, until the next change of scene or settings."""

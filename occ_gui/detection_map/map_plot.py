@@ -117,6 +117,8 @@ class MapPlot(QWidget):
         """Return the pixel of a point given by its positions along both axes, from 0 to 1."""
         area = self.area()
         (x, y), (across, up) = point, self._shape
+        if self._image.isNull():  # no points yet, whose cells the axes begin and end with
+            return QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
         return QPointF(
             area.left() + (x * (across - 1) + 0.5) / across * area.width(),
             area.bottom() - (y * (up - 1) + 0.5) / up * area.height(),

@@ -52,7 +52,8 @@ class MapView(QWidget):
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._progress = self._failure = self._refusal = ""
+        self._failure = self._refusal = ""
+        self._progress = self.tr("measuring the first points…")
         self._facts: PointFacts | None = None
         self._is_outdated = False
         self._axes = (MAP_PARAMETERS[0], MAP_PARAMETERS[1])
@@ -80,6 +81,7 @@ class MapView(QWidget):
         self.left_out.hide()
         self.advice = AdviceView()
         self._lay_out()
+        self._show_status()
         self._connect()
         self.show_axes(*self._axes)
 

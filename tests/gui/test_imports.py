@@ -21,7 +21,16 @@ PHYSICS = (
 )
 """The modules and packages of the model that compute, or read and write files."""
 
-MAY_COMPUTE = ("controller", "figures", "jobs", "schedule", "sweep_table", "wiring", "worker")
+MAY_COMPUTE = (
+    "controller",
+    "figures",
+    "jobs",
+    "match_request",
+    "schedule",
+    "sweep_table",
+    "wiring",
+    "worker",
+)
 """What the names of the window's modules end with that may use them, beside all of ``app``."""
 
 

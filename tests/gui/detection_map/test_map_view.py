@@ -14,6 +14,7 @@ from occ_gui.app.application import Application
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
+from occ_gui.detection_map.map_plot import MapPlot
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import (
     MAP_PARAMETERS,
@@ -66,6 +67,14 @@ def view(qtbot: QtBot, small_scene: Scene) -> MapView:
     view.show_scene(small_scene)
     view.show()
     return view
+
+
+def test_before_the_first_points_the_axes_stand_and_it_says_so(view: MapView) -> None:
+    assert "measuring the first points" in view.status.toolTip()
+    for plot in view.findChildren(MapPlot):
+        low, high = plot.place_of((0.0, 0.0)), plot.place_of((1.0, 1.0))
+        assert high.x() - low.x() == plot.area().width()
+        assert low.y() - high.y() == plot.area().height()
 
 
 def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:

@@ -48,6 +48,7 @@ class MatchResult(QWidget):
         for part in (self.verdict, self.stale, self.figures):
             layout.addWidget(part)
         layout.addLayout(buttons)
+        layout.addStretch()
 
     def _make_buttons(self) -> None:
         self.apply = QPushButton(self.tr("&Apply to the scene"))

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontDatabase
-from PySide6.QtWidgets import QFormLayout, QLabel, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -40,13 +40,16 @@ class MatchValues(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._form = QFormLayout(self)
-        self._form.setContentsMargins(0, 0, 0, 0)
-        self._form.setVerticalSpacing(2)
+        # A grid: a form would not give lines that wrap their height.
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setVerticalSpacing(2)
+        grid.setColumnStretch(1, 1)
         self._certain: Mapping[str, float] = {}
         self._noted: float | None = None
         self.labels: dict[str, QLabel] = {}
-        for name, title in self._titles().items():
+        self._titled: dict[str, QLabel] = {}
+        for row, (name, title) in enumerate(self._titles().items()):
             # A pattern can be of any length.
             label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -54,7 +57,9 @@ class MatchValues(QWidget):
             label.setWordWrap(name != "pattern")
             label.setAccessibleName(title)
             self.labels[name] = label
-            self._form.addRow(title, label)
+            self._titled[name] = QLabel(title)
+            grid.addWidget(self._titled[name], row, 0, Qt.AlignmentFlag.AlignTop)
+            grid.addWidget(label, row, 1)
         fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         self.labels["pattern"].setFont(fixed)
 
@@ -70,7 +75,7 @@ class MatchValues(QWidget):
             "saturated": self.tr("Saturated"),
             "duty": self.tr("Duty"),
             "pattern": self.tr("Pattern"),
-            "alternatives": self.tr("Or instead"),
+            "alternatives": self.tr("Alternatives"),
         }
 
     def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
@@ -94,7 +99,8 @@ class MatchValues(QWidget):
                 label.set_full_text(text)
             else:
                 label.setText(text)
-            self._form.setRowVisible(label, bool(text))
+            for part in (label, self._titled[name]):
+                part.setVisible(bool(text))
 
     def _estimates(self, match: Match) -> dict[str, str]:
         """Format the estimates and the given value; empty for a gamma that was not fitted."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.widgets.plot import BAND, PHOTO, REGION
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
@@ -35,6 +35,9 @@ class VerdictView(QWidget):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.reasons.setWordWrap(True)
+        fixed, least = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
+        self.word.setSizePolicy(fixed, fixed)
+        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, least)
         self._verdict = ""
         row = QHBoxLayout()
         row.addWidget(self.word)

@@ -18,10 +18,11 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
+from occ_gui.photo.match_result import MatchResult
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import AccuracyPoint, SweepPoint
+from occ_model.results import AccuracyPoint, Alternative, Match, Region, Stripes, SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -114,3 +115,25 @@ def test_the_accuracy_looks_as_stored(
         view.plot.show_point(point, number, len(points))
     view.plot.show_study_finished()
     matches_its_picture(view, "accuracy")
+
+
+def test_a_doubtful_match_looks_as_stored(
+    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
+) -> None:
+    view = MatchResult()
+    show(qtbot, view, 360, 460)
+    profile = np.array([10.0, 20.0, 30.0])
+    stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
+    other = Alternative("the scene's chips", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
+    match = Match(
+        scene=small_scene, stripes=stripes, readout_time=14.5777e-6, switching_frequency=2e3,
+        exposure_time=62.5e-6, start_time=1e-4, gamma=2.22,
+        uncertainties={"readout_time": 2.7e-10, "exposure_time": 2.1e-7, "start_time": 3e-7},
+        pattern="1001", pattern_was_read=True, profile=profile + 2.0, correlation=0.99123,
+        reasons=("Only 1.2 periods of 4 chips are in view; at least 3 are needed.",),
+        alternatives=(other,),
+    )  # fmt: skip
+    view.show_match(match, 7.9e-5)
+    matches_its_picture(view, "match-doubtful")
+    view.show_outdated("of another part of the photo: match again", usable=False)
+    matches_its_picture(view, "match-outdated")

@@ -110,15 +110,18 @@ class _Cells(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Draw the cells in view."""
         painter = QPainter(self)
-        if self.reading is not None and self.reading.confidence < _CERTAIN:
-            painter.setOpacity(_FADED)
+        certain = self.reading is not None and self.reading.confidence >= _CERTAIN
         palette = self.palette()
         lit = seen_on(palette, QColor(PHOTO))
         for chip, cell in self.rectangles():
+            painter.setOpacity(1.0 if certain else _FADED)
             painter.setPen(QPen(lit))
             painter.setBrush(lit if chip else palette.color(QPalette.ColorRole.Base))
             painter.drawRect(cell)
             if cell.width() >= _LEAST_FOR_DIGITS:
-                role = QPalette.ColorRole.Base if chip else QPalette.ColorRole.Text
+                # Digits stay readable: on a faded cell the colour of text is seen, whatever it is.
+                painter.setOpacity(1.0)
+                on_full = chip and certain
+                role = QPalette.ColorRole.Base if on_full else QPalette.ColorRole.Text
                 painter.setPen(palette.color(role))
                 painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, str(chip))

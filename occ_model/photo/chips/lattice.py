@@ -121,12 +121,16 @@ def chip_numbers(edges: Edges, lattice: Lattice) -> tuple[FloatArray, FloatArray
 
 
 def without_rims(edges: Edges, lattice: Lattice) -> Edges:
-    """Leave out an outermost edge that is off the lattice: the panel's rim is no edge of a chip."""
-    off = [np.abs(kind - np.rint(kind)) for kind in chip_numbers(edges, lattice)]
+    """Leave out an outermost edge that is the panel's rim, not a chip's.
+
+    It is off the lattice, or lies by chance on the place in the lattice of the edge beside it.
+    """
     order = np.argsort(np.concatenate([edges.rising, edges.falling]))
-    ordered, places = np.concatenate(off)[order], edges.places
-    first = places[1] if ordered[0] > _RIM else places[0]
-    last = places[-2] if ordered[-1] > _RIM else places[-1]
+    numbers, places = np.concatenate(chip_numbers(edges, lattice))[order], edges.places
+    nearest = np.rint(numbers)
+    off, lengths = np.abs(numbers - nearest), np.diff(nearest)
+    first = places[1] if off[0] > _RIM or lengths[0] < 1 else places[0]
+    last = places[-2] if off[-1] > _RIM or lengths[-1] < 1 else places[-1]
     return edges.within(float(first), float(last))
 
 

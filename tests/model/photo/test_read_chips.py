@@ -8,8 +8,8 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
-from occ_model.photo.chips.edges import edges_of
-from occ_model.photo.chips.lattice import coarsest, lattice_at
+from occ_model.photo.chips.edges import Edges, edges_of
+from occ_model.photo.chips.lattice import chips_between, coarsest, lattice_at, without_rims
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 
@@ -50,6 +50,25 @@ def test_the_first_chip_starts_where_its_edge_is() -> None:
     read = occ.read_chips(photo_of(np.tile(bars.astype(np.uint8), (30, 1))))
     place = (read.start - 14.5) / read.columns_per_chip
     assert place == pytest.approx(round(place), abs=0.1)
+
+
+@pytest.mark.parametrize("sliver", [2.0, 4.0, 7.0, 11.0])
+@pytest.mark.parametrize("is_last", [False, True])
+def test_a_panel_cut_within_a_chip_has_no_chip_of_its_own_there(
+    sliver: float, is_last: bool
+) -> None:
+    # Next to the whole chips stands what the panel's rim leaves of a bright one.
+    chips = lattice_at(Edges(np.arange(30.0, 400, 40), np.arange(50.0, 400, 40)), 1 / 20)
+    rim = 10.0 - sliver
+    edges = Edges(np.array([rim, *range(30, 400, 40)]), np.arange(10.0, 400, 40))
+    if is_last:
+        edges = Edges(400.0 - edges.falling[::-1], 400.0 - edges.rising[::-1])
+        chips = lattice_at(edges.within(0.0, 391.0), 1 / 20)
+    kept = without_rims(edges, chips)
+    found = chips_between(kept, chips)
+    assert kept.count == edges.count - 1
+    assert found is not None
+    assert "".join(map(str, found[0])) in "01" * 20
 
 
 def test_no_chips_are_read_from_noise() -> None:

@@ -162,7 +162,7 @@ def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> N
 PARTS = (Region(0, 5, 0, 20), Region(0, 5, 20, 40))
 
 
-def test_a_match_of_another_region_is_marked_until_it_is_chosen_again(bench: Bench) -> None:
+def test_a_match_of_another_region_is_marked_as_such(bench: Bench) -> None:
     bench.controller.set_region(PARTS[0])
     bench.start()
     assert bench.ages[-1] == ""

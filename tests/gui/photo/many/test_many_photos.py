@@ -128,7 +128,7 @@ def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot)
     assert view.mean.isHidden()
 
 
-def test_the_table_is_copied_and_saved_as_the_shell_writes_it(
+def test_the_table_is_copied_and_saved_as_the_shell_has_it(
     view: ManyPhotosView, qtbot: QtBot
 ) -> None:
     for button in (view.copy, view.save):

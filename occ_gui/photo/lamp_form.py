@@ -81,7 +81,8 @@ class LampForm(QWidget):
         self.table.setToolTip(
             self.tr(
                 "The lamps, the brightest first: the columns that each covers, the columns of a "
-                "chip, and the periods in view. Fewer than 2.5 are doubtful."
+                "chip, and the periods in view. Fewer than 2.5 are doubtful, and so is a lamp so "
+                "faint beside the brightest that it may be a reflection."
             )
         )
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -117,10 +118,9 @@ class LampForm(QWidget):
         if product is None:
             return str(row + 1), columns, self.tr("no stripes"), ""
         chip = self.tr("{columns:.2f} px").format(columns=1.0 / product)
-        if lamp.periods is None:
-            return str(row + 1), columns, chip, self.tr("code")
         doubt = self.tr(", doubtful") if lamp.is_doubtful else ""
-        return str(row + 1), columns, chip, f"{lamp.periods:.1f}{doubt}"
+        periods = self.tr("code") if lamp.periods is None else f"{lamp.periods:.1f}"
+        return str(row + 1), columns, chip, f"{periods}{doubt}"
 
     def show_sentence(self, sentence: str) -> None:
         """Show what became of the search for lamps."""

@@ -37,8 +37,10 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
         return [*lines, "no stripes: its light does not change while the picture is read out"]
     lines.append(f"frequency times readout time {product:.5f} ± {deviation:.2g} chips a column")
     if lamp.periods is not None:
-        doubt = ": doubtful, so few can be a coincidence" if lamp.is_doubtful else ""
+        doubt = ": doubtful, so few can be a coincidence" if lamp.repeats_seldom else ""
         lines.append(f"{lamp.periods:.1f} periods in view{doubt}")
+    if lamp.is_faint:
+        lines.append("doubtful: so faint beside the brightest lamp, it may be a reflection")
     if lamp.reflections:
         places = ", ".join(
             f"columns {one.first_column} to {one.last_column - 1}, rows {one.first_row} to "

@@ -38,6 +38,8 @@ class Lamp:
         Its standard deviation in chips per column.
     periods
         Number of periods in view; None where none is known.
+    is_faint
+        Whether it is so faint beside the brightest lamp with stripes that it may be a reflection.
     reflections
         Fainter places that blink in time with the lamp.
     """
@@ -51,10 +53,16 @@ class Lamp:
     switching_frequency_times_readout: float | None = None
     product_uncertainty: float | None = None
     periods: float | None = None
+    is_faint: bool = False
     reflections: tuple[Region, ...] = ()
 
     @property
     def is_doubtful(self) -> bool:
+        """Whether it may be no lamp: its stripes repeat too seldom in view, or it is faint."""
+        return self.is_faint or self.repeats_seldom
+
+    @property
+    def repeats_seldom(self) -> bool:
         """Whether its stripes repeat too seldom in view for their frequency to be sure."""
         return self.modulated and self.periods is not None and self.periods < _SURE_PERIODS
 

@@ -16,13 +16,19 @@ FREQUENCY = 0.03
 
 @dataclass
 class Score:
-    """Counts of lamps: there, found, found with the right frequency, reported, invented."""
+    """Counts of lamps: there, found, found with the right frequency, reported, invented.
+
+    What is marked as doubtful counts as found where a lamp is, of which ``found_doubtful`` says how
+    many; where none is, it counts as ``doubtful_invented`` and not as invented.
+    """
 
     there: int = 0
     found: int = 0
     right: int = 0
     reported: int = 0
     invented: int = 0
+    found_doubtful: int = 0
+    doubtful_invented: int = 0
     steady: int = 0
     steady_found: int = 0
     wrong_scenes: list[int] = field(default_factory=list)
@@ -31,7 +37,7 @@ class Score:
         """Count the lamps of a scene; each lamp found is that of one at most."""
         lamps = list(lamps)
         blinking = [lamp for lamp in lamps if lamp.modulated]
-        before = self.found, self.right, self.invented
+        before = self.found, self.right, self.invented + self.doubtful_invented
         left = list(blinking)
         for thing in scene.lamps:
             best = max(left, key=lambda lamp: overlap(thing, lamp.region), default=None)
@@ -39,27 +45,33 @@ class Score:
                 continue
             left.remove(best)
             self.found += 1
+            self.found_doubtful += best.is_doubtful
             assert best.switching_frequency_times_readout is not None
             ratio = best.switching_frequency_times_readout * counted_chip(thing)
             self.right += abs(ratio - 1.0) < FREQUENCY
         self.there += len(scene.lamps)
         self.reported += len(blinking)
-        self.invented += len(left)
+        doubtful = sum(lamp.is_doubtful for lamp in left)
+        self.doubtful_invented += doubtful
+        self.invented += len(left) - doubtful
         for thing in scene.constant:
             self.steady += 1
             self.steady_found += any(
                 overlap(thing, lamp.region) > OVERLAP for lamp in lamps if not lamp.modulated
             )
         wanted = before[0] + len(scene.lamps), before[1] + len(scene.lamps), before[2]
-        if (self.found, self.right, self.invented) != wanted:
+        if (self.found, self.right, self.invented + self.doubtful_invented) != wanted:
             self.wrong_scenes.append(seed)
 
     def lines(self) -> list[str]:
         """Write the score."""
         return [
             f"lamps found: {100 * self.found / self.there:.1f} % of {self.there}",
+            f"of these marked as doubtful: {self.found_doubtful}",
             f"frequency within {100 * FREQUENCY:g} %: {100 * self.right / self.there:.1f} %",
             f"invented: {100 * self.invented / max(self.reported, 1):.1f} % of {self.reported}",
+            f"invented but marked as doubtful: "
+            f"{100 * self.doubtful_invented / max(self.reported, 1):.1f} %",
             f"lamps of constant light found: {self.steady_found} of {self.steady}",
             f"scenes with a mistake: {self.wrong_scenes}",
         ]

@@ -17,8 +17,14 @@ from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Region
 
-_FAINT = 0.6
+_FAINT = 0.45
 """Share of a lamp's light below which what blinks in time with it is its reflection."""
+
+_DOUBTED = 0.25
+"""Share of the brightest modulated lamp's light below which a lamp may be a reflection."""
+
+_SILENT, _SELDOM = 0.1, 3.0
+"""Share of that light, and periods in view, below which together nothing is reported."""
 
 _GAMMA = 2.2
 """Exponent by which grey levels are compared as light."""
@@ -218,7 +224,10 @@ def _lies_at(low: Lamp, lamp: Lamp) -> bool:
 
 def _without_parts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
     """Leave out what lies within a lamp of more edges: noise has split some of its strips."""
-    ordered = sorted(blinking, key=lambda one: -len(one.timing.edges) * one.lamp.area)
+    # A group that reaches into the glow around a lamp covers more of it, with less light.
+    ordered = sorted(
+        blinking, key=lambda one: -len(one.timing.edges) * one.lamp.area * max(one.light, 0.0)
+    )
     kept: list[_Blinking] = []
     for one in ordered:
         if all(_shared(one.lamp, other.lamp) < _WITHIN for other in kept):
@@ -234,9 +243,19 @@ def _shared(one: Lamp, other: Lamp) -> float:
     return float((np.maximum(high, 0) * np.maximum(wide, 0)).sum() / one.area)
 
 
+def _with_doubts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
+    """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
+    brightest = max((one.light for one in blinking), default=0.0)
+    return [
+        replace(one, lamp=replace(one.lamp, is_faint=one.light < _DOUBTED * brightest))
+        for one in blinking
+        if one.light >= _SILENT * brightest or (one.lamp.periods or _SELDOM) >= _SELDOM
+    ]
+
+
 def _without_reflections(blinking: Sequence[_Blinking]) -> list[Lamp]:
     """Give the lamps, each with the regions of the fainter ones that blink in time with it."""
-    ordered = sorted(blinking, key=lambda one: -one.light)
+    ordered = sorted(_with_doubts(blinking), key=lambda one: -one.light)
     kept: list[_Blinking] = []
     mirrored: dict[int, list[Region]] = {}
     for one in ordered:

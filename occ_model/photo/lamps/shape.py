@@ -12,7 +12,7 @@ from occ_model.results import Region
 _OFF = 0.06
 """Share of a chip, besides a column, by which an edge may lie off the lamp's."""
 
-_FAINT = 0.2
+_FAINT = 0.4
 """Share of a lamp's swing below which a strip shows light scattered from it, not the lamp."""
 
 _MOSTLY = 0.7
@@ -20,6 +20,9 @@ _MOSTLY = 0.7
 
 _RIM = 0.4
 """Share of the swing beside it with which a rim cuts a bright stripe."""
+
+_CUT_OFF = 0.3
+"""Share of a chip by which an edge may lie off its place where a rim cuts the stripe beside it."""
 
 _WIDER = 1.15
 """Ratio to a whole bright stripe up to which a stripe is one that the rim cuts."""
@@ -100,6 +103,7 @@ def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float]
     begin, end = int(shared[0]), int(shared[-1])
     if len(shared) < _MOSTLY * np.count_nonzero(swing[begin : end + 1] > least):
         return None
+    begin, end = _with_cut_stripes(edges, begin, end, timing)
     first, last = float(edges.place[begin]), float(edges.place[end])
     stripe = _WIDER * timing.longest_stripe
     if begin == 0 and not edges.rises[begin] and first < stripe:
@@ -111,6 +115,25 @@ def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float]
     elif end + 1 < len(edges) and _is_rim(edges, end + 1, end, stripe):
         last = float(edges.place[end + 1])
     return first, last
+
+
+def _with_cut_stripes(edges: Edges, begin: int, end: int, timing: LampTiming) -> tuple[int, int]:
+    """Add the inner edges of the outermost stripes, which the rim shifts because it cuts them."""
+    swing = edges.high - edges.low
+
+    def is_own(at: int, beside: int) -> bool:
+        if not 0 <= at < len(edges) or swing[at] < _RIM * swing[beside]:
+            return False
+        outward = edges.rises[at] == (at > beside)  # a bright stripe lies beyond it
+        start = timing.rise if edges.rises[at] else timing.fall
+        turns = (float(edges.place[at]) - start) / timing.spacing
+        near = abs(edges.place[at] - edges.place[beside]) < 1.5 * timing.spacing
+        off = abs(turns - round(turns)) * timing.spacing
+        return bool(outward and near and off < _CUT_OFF * timing.chip)
+
+    if timing.is_code:
+        return begin, end
+    return begin - is_own(begin - 1, begin), end + is_own(end + 1, end)
 
 
 def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:

@@ -1,6 +1,7 @@
-"""How many lamps are found in photographs of several: ``python tests/benchmarks/lamps.py 60 3000``.
+"""How many lamps are found in simulated photographs.
 
-200 simulated photographs (or as many as named, from the seed named second) with one to eight lamps, drawn without the model.
+``python tests/benchmarks/lamps.py 60 3000`` takes 60 from seed 3000 on; without numbers it takes
+200. They have one to eight lamps, drawn without the model.
 """
 
 import sys

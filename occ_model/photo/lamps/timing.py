@@ -76,11 +76,13 @@ class LampTiming:
         return float(np.diff(place)[whole].max()) if whole.any() else self.spacing
 
     def agrees(self, other: "LampTiming") -> bool:
-        """Whether another lamp blinks in time with this one: its edges lie on the same lattices."""
-        if self.is_code != other.is_code:
-            return False
+        """Whether another lamp blinks in time with this one: its edges lie on the same lattices.
+
+        Of a code, a part that alternates looks like a repeated pulse of two chips.
+        """
+        spacing = other.chip if self.is_code else other.spacing
         same = _SAME + _SHADED / len(other.edges)
-        if abs(self.spacing - other.spacing) > same * self.spacing:
+        if other.is_code > self.is_code or abs(self.spacing - spacing) > same * self.spacing:
             return False
         offs = []
         for kind, start in ((True, self.rise), (False, self.fall)):

@@ -93,8 +93,10 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     for number, profile in enumerate(means):
         strips.append(edges_of(profile))
         report(0.4 + 0.3 * (number + 1) / len(means))
-    segments = [one for number, edges in enumerate(strips) for one in segments_of(edges, number)]
-    report(0.8)
+    segments: list[Segment] = []
+    for number, edges in enumerate(strips):
+        segments += segments_of(edges, number)
+        report(0.7 + 0.1 * (number + 1) / len(strips))
     blinking = []
     for group in groups_of(segments):
         blinking += _blinking(group, segments, strips, bounds, means.shape[1])

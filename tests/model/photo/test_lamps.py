@@ -63,6 +63,38 @@ def test_a_fainter_place_in_time_with_a_lamp_is_its_reflection() -> None:
     assert len(occ.find_lamps(photo_of(image))) == 2
 
 
+@pytest.mark.parametrize(("level", "doubtful"), [(60.0, True), (180.0, False)])
+def test_what_is_faint_beside_the_brightest_is_doubtful(level: float, doubtful: bool) -> None:
+    lamp, other = (20, 100, 50, 350), (130, 220, 380, 690)
+    image = picture((lamp, 220.0, 30.0, 5.0), (other, level, 37.0, 5.0))
+    brightest, second = occ.find_lamps(photo_of(image))
+    assert not brightest.is_doubtful
+    assert second.is_doubtful == doubtful
+    assert not second.repeats_seldom
+
+
+def test_a_repeated_part_of_a_code_is_its_reflection() -> None:
+    code = np.repeat([1, 1, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 1], 16)
+    image = np.full((ROWS, COLUMNS), 12.0)
+    image[20:120, 40:360] += 200.0 * code
+    # Stripes of two chips, at places of the code's lattices.
+    image[140:220, 440:600] += 50.0 * np.repeat([0, 1] * 5, 16)
+    image += np.random.default_rng(2).normal(0.0, 2.0, image.shape)
+    (lamp,) = occ.find_lamps(photo_of(np.clip(image, 0, 255).astype(np.uint8)))
+    assert lamp.period is None
+    assert len(lamp.reflections) == 1
+
+
+def test_stripes_that_the_rim_cuts_belong_to_the_lamp() -> None:
+    image = 12.0 + np.random.default_rng(3).normal(0.0, 2.0, (ROWS, COLUMNS))
+    # The rim takes light from the outer stripes, and shifts their inner edges by 0.13 of a chip.
+    for left, right, level in ((141, 159, 160), (206, 269, 220), (307, 372, 220), (415, 453, 180)):
+        image[40:200, left:right] += level
+    (lamp,) = occ.find_lamps(photo_of(np.clip(image, 0, 255).astype(np.uint8)))
+    assert lamp.region.first_column == pytest.approx(141, abs=3)
+    assert lamp.region.last_column == pytest.approx(453, abs=3)
+
+
 def test_a_lamp_of_constant_light_is_not_modulated() -> None:
     image = picture(((20, 100, 50, 350), 220.0, 30.0, 5.0), ((140, 200, 420, 520), 230.0, 0.0, 0.0))
     kinds = {lamp.modulated: lamp for lamp in occ.find_lamps(photo_of(image))}

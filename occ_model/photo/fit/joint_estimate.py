@@ -34,14 +34,21 @@ _APART_CHIPS = 0.04
 _TRUSTED = 6.0
 """Differences of the misfit are divided by it: the residual is no mere noise."""
 
-_UNKNOWN_KERNEL = 0.2
-"""Standard deviation in columns of an exposure: the shape of the blur is not known."""
+_UNKNOWN_KERNEL = 0.1
+"""Standard deviation in columns of an exposure: pixels gather light over their own width."""
 
-_UNKNOWN_BLUR = 0.4
+_UNKNOWN_BLUR = 0.25
 """Standard deviation in columns of blur that the model's does not describe."""
 
-_UNKNOWN_RAMP = 0.01
-"""Likewise its share: switching, and processing that follows edges, change a ramp's shape."""
+_UNKNOWN_TAILS = 1.5
+"""Standard deviation of the blur's fourth cumulant, in columns to the fourth: that of a box as wide
+as a normal distribution of 1.06 columns."""
+
+_LONGEST_OF_BLUR = 1.4
+"""Largest standard deviation in columns of an exposure by what is not known of the blur."""
+
+_UNKNOWN_RAMP = 0.005
+"""Likewise as its share: switching, and processing that follows edges, change a ramp's shape."""
 
 _LEAST_EDGES = 0.3
 """Share of the edges' columns that must be seen without clipping."""
@@ -261,13 +268,18 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
 
 
 def _blur_deviation(values: FloatArray) -> float:
-    """Give the chips by which blur of another shape than the model's lengthens an exposure.
+    """Give the chips by which blur of another shape than the model's changes an exposure.
 
-    An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur; to second
-    order a blur of sigma lengthens t by 6 sigma^2 / t, and never by more than its own width.
+    An edge is the exposure's box, of variance t^2/12 and fourth cumulant -t^4/120, convolved with
+    the blur; cumulants add. To second order a blur of sigma lengthens t by 6 sigma^2 / t. A fitted
+    blur is told from the exposure by the fourth order: what is not known of the blur's fourth
+    cumulant k changes t by 30 k / t^3.
     """
-    blur = _UNKNOWN_BLUR * float(values[0])
-    return min(6.0 * blur**2 / float(values[1]), math.sqrt(12.0) * blur)
+    step = float(values[0])
+    columns = float(values[1]) / step
+    second = 6.0 * _UNKNOWN_BLUR**2 / columns
+    fourth = 30.0 * _UNKNOWN_TAILS / columns**3
+    return step * min(math.hypot(second, fourth), _LONGEST_OF_BLUR)
 
 
 def _doubts(seen: float) -> list[str]:

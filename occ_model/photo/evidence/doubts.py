@@ -51,6 +51,10 @@ _ABOVE_NOISE = 50.0
 """Power over that of the noise from which a line of the residual's spectrum is no chance: in a
 thousand bins of noise the strongest one is stronger than this once in 10^18 times."""
 
+_OF_RESIDUAL = 0.15
+"""Share of the residual's power that a line must have: sharp edges that fall between the columns
+leave many lines, each of a few percent."""
+
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
     """Say why a hypothesis is doubtful, in sentences.
@@ -138,7 +142,9 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
         len(found.chips) / found.fit.timing.step,
         len(found.chips),
     )
-    if line is None or line.amplitude < _MOST_REPEATED or line.above_noise < _ABOVE_NOISE:
+    if line is None or line.above_noise < _ABOVE_NOISE:
+        return []
+    if line.amplitude < _MOST_REPEATED or line.share < _OF_RESIDUAL:
         return []
     return [
         f"What is left of the stripes repeats after {line.period:.3g} columns, by "

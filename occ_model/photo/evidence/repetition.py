@@ -40,11 +40,14 @@ class Repetition:
         Half the difference of its crests and troughs, as a share of the stripes' swing.
     above_noise
         Its power over that of the noise around it.
+    share
+        Its share of the residual's power.
     """
 
     period: float
     amplitude: float
     above_noise: float
+    share: float
 
 
 def strongest_line(
@@ -90,7 +93,9 @@ def strongest_line(
     around = slice(max(1, line // 2), 2 * line + 2 * _LEAST_CYCLES)
     noise = max(float(np.median(power[around])) / math.log(2.0), 1e-12)
     amplitude = 2.0 * float(np.sqrt(power[line])) / float(window.sum())
-    return Repetition(columns / line, amplitude, float(power[line] / noise))
+    own = float(power[max(0, line - _NEAR) : line + _NEAR + 1].sum())
+    share = own / max(float(power.sum()), 1e-300)
+    return Repetition(columns / line, amplitude, float(power[line] / noise), share)
 
 
 def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, float]]:

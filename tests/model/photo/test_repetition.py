@@ -58,6 +58,7 @@ def test_a_line_in_noise_has_its_period_and_amplitude(amplitude: float) -> None:
     assert line.period == pytest.approx(12.5, rel=0.01)
     assert line.amplitude == pytest.approx(amplitude, rel=0.1)
     assert line.above_noise > 50.0
+    assert line.share > 0.15
 
 
 def test_noise_has_no_line_and_a_patterns_own_are_left_out() -> None:
@@ -68,3 +69,18 @@ def test_noise_has_no_line_and_a_patterns_own_are_left_out() -> None:
     for line in (only_noise, own):
         assert line is not None
         assert line.above_noise < 50.0
+
+
+@pytest.mark.parametrize("chip", [3.87, 3.98, 4.26])
+def test_sharp_edges_between_columns_leave_no_single_line(chip: float) -> None:
+    """Harmonics of more than half a cycle a column are folded to others by the sampling."""
+    chips, columns = np.array([1, 1, 0, 1, 0, 0, 0, 1, 0, 1]), 1500
+    seen = [
+        chips[((np.arange(columns) + late) / chip % 10).astype(int)].astype(float)
+        for late in (0.0, 0.3)
+    ]
+    noise = np.random.default_rng(6).standard_normal(columns)
+    residual = 100.0 * (seen[1] - seen[0]) + noise
+    line = strongest_line(residual, np.full(columns, 100.0), 10 * chip, 10)
+    assert line is not None
+    assert line.share < 0.15

@@ -1,10 +1,10 @@
-"""How photos are explained, and how surely: ``python tests/benchmarks/matching.py [what] [count]``.
+"""How surely photos are explained: ``python tests/benchmarks/matching.py [what] [count] [first]``.
 
 ``known`` (the default): 500 simulated photos (or as many as named) with noise, vignetting, blur and
 JPEG of quality 60 to 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three.
 ``negatives``: 400 pictures without stripes of an LED. ``others``: 200 photos of another code than
 the scene's. ``unknown``: 300 photos of unknown chips, 1.5 to 20 periods in view, half of them
-saturated.
+saturated. ``first`` is the seed to begin with.
 """
 
 import sys
@@ -69,9 +69,10 @@ TABLES = {
 if __name__ == "__main__":
     words = sys.argv[1:]
     what = words.pop(0) if words and not words[0].isdigit() else "known"
+    count = int(words.pop(0)) if words else (500 if what == "known" else TABLES[what][1])
+    first = int(words.pop(0)) if words else 0
+    seeds = range(first, first + count)
     if what == "known":
-        count = int(words[0]) if words else 500
-        print("\n".join(report(round_trips(range(count)))))
+        print("\n".join(report(round_trips(seeds))))
     else:
-        say, usual = TABLES[what]
-        print("\n".join(tally(said_of(say, range(int(words[0]) if words else usual)))))
+        print("\n".join(tally(said_of(TABLES[what][0], seeds))))

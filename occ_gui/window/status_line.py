@@ -34,6 +34,8 @@ class StatusLine(QStatusBar):
         self.addWidget(self._sentence, 1)
         for widget in (self.reading, self.pointed, self._timing):
             self.addPermanentWidget(widget)
+        for readout in (self.pointed, self._timing):
+            readout.hide()
 
     def showMessage(self, message: str, timeout: int | None = 0) -> None:  # noqa: ARG002, N802 - Qt's name
         """Show a message in place of the previous one, until :meth:`clearMessage`."""
@@ -84,8 +86,9 @@ class _Readout(ElidedLabel):
         self.setContentsMargins(_GAP, 0, 0, 0)
 
     def set_full_text(self, text: str) -> None:
-        """Show a text in one line."""
+        """Show a text in one line; an empty label is hidden."""
         super().set_full_text(text)
+        self.setVisible(bool(text))
         self.updateGeometry()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

@@ -105,7 +105,7 @@ class Desktop(QObject):
             parts.store, parts.settings, self.document, lambda: self._photo,
             parts.learning.users_own, lambda: lamps.rectangle,
         )  # fmt: skip
-        lamps.region_changed.connect(lambda _region: self.autosave.note_change())
+        lamps.region_changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
         self.pointer = CursorReadout(parts.profile, parts.image)
         self._connect()

@@ -1,5 +1,6 @@
 """Outlines of the lamps on the photo, each with its number, and a rectangle drawn by hand."""
 
+import weakref
 from collections.abc import Sequence
 
 import pyqtgraph as pg
@@ -30,7 +31,8 @@ class LampOutlines(QObject):
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
-        self._box = box
+        # The rectangle's signal holds this object, and the view the rectangle: not also the reverse.
+        self._box = weakref.proxy(box)
         self._lamps: Sequence[Lamp] = ()
         self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
         self._updating = False

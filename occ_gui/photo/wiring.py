@@ -65,8 +65,9 @@ class PhotoWiring(QObject):
         self.matching.matched.connect(self.comparison.show_match)
         self.matching.matched.connect(self._on_match)
         self.photos.reading_changed.connect(self._show_reading)
-        self.photos.begun.connect(lambda: self.matching.show_reading(True))
-        self.photos.ended.connect(lambda: self.matching.show_reading(False))
+        # Not by lambdas: a signal would hold them, and they this object, beyond the window's end.
+        self.photos.begun.connect(self._show_begun)
+        self.photos.ended.connect(self._show_ended)
         scenes.changed.connect(pane.show_scene)
         pane.show_scene(scenes.scene)
         self._show_reading(self.photos.reading)
@@ -86,6 +87,12 @@ class PhotoWiring(QObject):
         lamps.region_changed.connect(self.chips.set_region)
         lamps.region_changed.connect(self._show_region)
         self._image.photo.graphics.scene().sigMouseClicked.connect(self._click)
+
+    def _show_begun(self) -> None:
+        self.matching.show_reading(True)
+
+    def _show_ended(self) -> None:
+        self.matching.show_reading(False)
 
     def _click(self, event: MouseClickEvent) -> None:
         self.outlines.click(self._image.photo.box.mapSceneToView(event.scenePos()))

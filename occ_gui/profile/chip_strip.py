@@ -81,7 +81,10 @@ class _Cells(QWidget):
         self.placement = (0.0, 1.0)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("Chips read from the photo"))
-        plot.getViewBox().sigXRangeChanged.connect(lambda *_: self.update())
+        plot.getViewBox().sigXRangeChanged.connect(self._follow)
+
+    def _follow(self) -> None:
+        self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of a line of text."""

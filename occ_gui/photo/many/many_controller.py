@@ -72,7 +72,10 @@ class ManyPhotosController(QObject):
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(view.show_failed)
         view.cancelled.connect(self.cancel)
-        view.closed.connect(lambda: self.show_files(()))
+        view.closed.connect(self._close)
+
+    def _close(self) -> None:
+        self.show_files(())
 
     def show_files(self, paths: Sequence[Path]) -> None:
         """Show these files in place of the previous ones."""

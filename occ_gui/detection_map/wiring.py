@@ -57,7 +57,7 @@ class DetectionMapWiring(QObject):
         self.advisor = AdvisorController(scenes, settings, self.queue, for_advice, pane.advice)
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
-        self._start.timeout.connect(lambda: self.slider_strips.set_seen(True))
+        self._start.timeout.connect(self._begin_strips)
         strips.seen.connect(self._see_strips)
         pane.visibility_changed.connect(self.map.set_seen)
         pane.axes_chosen.connect(self.map.choose_axes)
@@ -74,6 +74,9 @@ class DetectionMapWiring(QObject):
         """Whether all that is seen is measured, and nothing is about to be measured."""
         parts = (self.map, self.slider_strips, self.advisor)
         return not self._start.isActive() and all(part.is_idle for part in parts)
+
+    def _begin_strips(self) -> None:
+        self.slider_strips.set_seen(True)
 
     def _see_strips(self, seen: bool) -> None:
         if seen:

@@ -6,7 +6,7 @@ from round_trips import Found, round_trips
 
 pytestmark = pytest.mark.first
 
-SAMPLE, WHOLE = 16, 500
+SAMPLE, WHOLE = 16, 120
 
 
 @pytest.fixture(scope="module")

@@ -59,8 +59,9 @@ def test_the_picture_on_the_screen_is_the_one_that_is_saved(
     user.enter("iso", "321")
     application.files.save_picture(tmp_path / "picture.png")
     saved = occ.load_photo(tmp_path / "picture.png", "columns").image
-    assert np.array_equal(saved, occ.render(application.store.scene, noise="reused").image)
-    assert user.message == "Saved picture.png"
+    shown = occ.render(application.store.scene, noise="reused").camera_image
+    assert np.array_equal(saved, shown)
+    assert user.message == "Saved picture.png: the camera's picture"
 
 
 def test_a_saved_scene_is_opened_again_with_its_controls(

@@ -59,7 +59,8 @@ def test_twice_the_exposure_is_read_up_to_the_papers_limit(preset: str, last: fl
     assert exposure > 1 / last
     assert set(rates(preset, 4e3, last - 2e3)) == {100.0}
     # The tablet's last step is 2 % below the null: there an image in some dozens is lost.
-    assert min(rate for rate in rates(preset, last, last) if rate is not None) >= 80.0
+    at_last = [rate for rate in rates(preset, last, last) if rate is not None]
+    assert np.mean(at_last) >= 90.0
     assert set(rates(preset, last + 2e3, 20e3)) == {0.0}
 
 

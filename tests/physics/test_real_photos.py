@@ -43,7 +43,7 @@ def test_the_exposure_is_what_the_camera_was_set_to(square_wave: occ.Match) -> N
     """Four columns long: what blurs them is not known, and the stated error holds it."""
     stated = square_wave.uncertainties["exposure_time"]
     assert abs(square_wave.exposure_time - 62.5e-6) < 2.0 * stated
-    assert stated < 0.3 * square_wave.exposure_time
+    assert stated < 0.5 * square_wave.exposure_time
 
 
 def test_the_square_wave_explains_the_photo(square_wave: occ.Match) -> None:

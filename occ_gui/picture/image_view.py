@@ -47,6 +47,8 @@ class ImageView(QWidget):
         self.overlay = PhotoOverlay(self.simulation.box)
         self.before = BeforeWipe(self.simulation.box)
         self._make_switch()
+        # Beside a photo in a small window, a few letters of the title are left.
+        self.simulation.caption.setMinimumWidth(self.fontMetrics().horizontalAdvance("Camera"))
         self.simulation.caption_row.addWidget(self.switch)
         self.simulation.caption_row.addWidget(self.before.controls)
         # The tops of both pictures are aligned.

@@ -171,7 +171,9 @@ def _close_on_interrupt(application: "Application") -> None:
     """Close the window on Ctrl+C in the terminal that started it."""
     from PySide6.QtCore import QTimer
 
-    signal.signal(signal.SIGINT, lambda *_: application.window.close())
+    window = application.window
+    # Not at once: the signal may come while the window paints, and Qt would paint on without it.
+    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window, window.close))
     # Python handles signals only while it runs: this timer makes Qt call it.
     turns = QTimer(application)
     turns.timeout.connect(lambda: None)

@@ -101,7 +101,7 @@ class Application(QObject):
         self.outdated.mark_results(self.profile, self.decode, self.accuracy.effects)
         self.learning.exposure_made.connect(self.outdated.mark_results)
         # Before the session is written.
-        self.window.closing.connect(self._end_exploration)
+        self.window.closing.connect(self._end_lesson)
         self.desktop = Desktop(self)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
@@ -287,9 +287,9 @@ class Application(QObject):
             self._match_next = False
             self.photo_wiring.matching.apply()
 
-    def _end_exploration(self) -> None:
+    def _end_lesson(self) -> None:
         self.simulation.stop()  # of the scene that is restored no picture is needed
-        self.learning.end_exploration()
+        self.learning.end_lesson()
 
     def stop(self) -> None:
         """Stop all work in the background."""

@@ -1,4 +1,4 @@
-"""Learning panes: equations, comparison and explorations, created on demand in docks."""
+"""Learning panes: equations, comparison and lessons, created on demand in docks."""
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -21,8 +21,8 @@ from occ_gui.widgets.lazy_pane import LazyPane, PaneContent
 
 if TYPE_CHECKING:
     from occ_gui.explanation.wiring import ExplanationWiring
-    from occ_gui.explorations.exploration_controller import ExplorationController
-    from occ_gui.explorations.exploration_view import ExplorationView
+    from occ_gui.lessons.lesson_controller import LessonController
+    from occ_gui.lessons.lesson_view import LessonView
     from occ_gui.pins.compare_view import CompareView
 
 
@@ -54,7 +54,7 @@ class LearningPanes(QObject):
     scenes
         The store of the scene.
     photos
-        Opens the photos of the explorations.
+        Opens the photos of the lessons.
     image, profile
         The panes that show the results before the last change; columns are selected in the
         profile.
@@ -108,19 +108,19 @@ class LearningPanes(QObject):
         return view
 
     @cached_property
-    def explorations_pane(self) -> "ExplorationView":
-        """The pane of the explorations."""
-        from occ_gui.explorations.exploration_view import ExplorationView
+    def lessons_pane(self) -> "LessonView":
+        """The pane of the lessons."""
+        from occ_gui.lessons.lesson_view import LessonView
 
-        return ExplorationView()
+        return LessonView()
 
     @cached_property
-    def explorations(self) -> "ExplorationController":
-        """The controller of the explorations, connected with their pane."""
-        from occ_gui.explorations.exploration_controller import ExplorationController
+    def lessons(self) -> "LessonController":
+        """The controller of the lessons, connected with their pane."""
+        from occ_gui.lessons.lesson_controller import LessonController
 
-        pane = self.explorations_pane
-        controller = ExplorationController(self._scenes, self._photos, pane)
+        pane = self.lessons_pane
+        controller = LessonController(self._scenes, self._photos, pane)
         pane.chosen.connect(controller.choose)
         pane.moved.connect(controller.go)
         pane.list_asked.connect(controller.leave)
@@ -130,13 +130,13 @@ class LearningPanes(QObject):
         return controller
 
     def users_own(self) -> UserState | None:
-        """Return what the user was working on, if an exploration is under way."""
-        return self.explorations.users_own() if "explorations" in vars(self) else None
+        """Return what the user was working on, if a lesson is under way."""
+        return self.lessons.users_own() if "lessons" in vars(self) else None
 
-    def end_exploration(self) -> None:
-        """Restore what the user was working on, if an exploration is under way."""
-        if "explorations" in vars(self):
-            self.explorations.restore_user()
+    def end_lesson(self) -> None:
+        """Restore what the user was working on, if a lesson is under way."""
+        if "lessons" in vars(self):
+            self.lessons.restore_user()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Pass new results on to the panes and controllers that use them."""
@@ -159,7 +159,7 @@ class LearningPanes(QObject):
         add = self._add_dock
         add("equations", self.tr("Equations"), self._explain, behind="decode")
         add("compare", self.tr("Compare"), self._compare, behind="profile")
-        add("explorations", self.tr("Explorations"), self._explore, below="controls")
+        add("lessons", self.tr("Lessons"), self._learn, below="controls")
 
     def _add_dock(
         self, name: str, title: str, make: Callable[[], PaneContent], **place: str
@@ -174,8 +174,8 @@ class LearningPanes(QObject):
     def _compare(self) -> PaneContent:
         return self.compare, self.compare.set_seen
 
-    def _explore(self) -> PaneContent:
-        return self.explorations_pane, self.explorations.set_seen
+    def _learn(self) -> PaneContent:
+        return self.lessons_pane, self.lessons.set_seen
 
     def _connect_menus(self) -> None:
         actions = self._window.actions_by_name
@@ -187,7 +187,5 @@ class LearningPanes(QObject):
                 lambda _=False, shown=shown: self.pins.go_to(shown)
             )
         actions["clear_pins"].triggered.connect(self.pins.clear)
-        actions["explorations"].triggered.connect(
-            lambda: self._window.bring_to_front("explorations")
-        )
+        actions["lessons"].triggered.connect(lambda: self._window.bring_to_front("lessons"))
         self.pins.status_message.connect(self.status_message)

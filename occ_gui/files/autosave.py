@@ -33,7 +33,7 @@ class Autosave(QObject):
     region
         Returns the rectangle of the photo that was drawn by hand, if any.
     set_aside
-        Returns what the user was working on, while an exploration shows something else.
+        Returns what the user was working on, while a lesson shows something else.
     """
 
     status_message = Signal(str)

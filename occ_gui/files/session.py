@@ -47,7 +47,7 @@ def state_folder() -> Path:
 
 @dataclass(frozen=True, slots=True)
 class UserState:
-    """What the user is working on, or was before an exploration began.
+    """What the user is working on, or was before a lesson began.
 
     Parameters
     ----------

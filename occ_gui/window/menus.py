@@ -188,7 +188,7 @@ class Menus(QObject):
 
     def _make_help_menu(self) -> None:
         menu = self._top("help", self.tr("&Help"))
-        self._add(menu, "explorations", self.tr("&Explorations"))
+        self._add(menu, "lessons", self.tr("&Lessons"))
         self._add(menu, "about", self.tr("&About"))
         self._add(menu, "shortcuts", self.tr("&Keyboard shortcuts…"), self.tr("F1"))
         self._add(menu, "palette", self.tr("Find a &command…"), self.tr("Ctrl+Shift+P"))

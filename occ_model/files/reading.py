@@ -8,7 +8,7 @@ from pathlib import Path
 from occ_model.errors import SceneFileError, one_line
 
 LARGEST_TEXT = 1_000_000
-"""Bytes allowed in a scene, preset or exploration; ours have a few thousand."""
+"""Bytes allowed in a scene, preset or lesson; ours have a few thousand."""
 
 _CHUNK = 1 << 20
 """Bytes read at a time: a file may hold more, or less, than its size says."""

@@ -1,4 +1,4 @@
-"""Results for teaching: equations with numbers, a column's exposure, explorations."""
+"""Results for teaching: equations with numbers, a column's exposure, lessons."""
 
 from dataclasses import dataclass
 
@@ -102,7 +102,7 @@ class ExposureWindow:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of an exploration.
+    """One step of a lesson.
 
     Parameters
     ----------
@@ -129,8 +129,8 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Exploration:
-    """A guided exploration.
+class Lesson:
+    """A guided lesson.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""Teaching material on a scene: its equations, a column's exposure, guided explorations."""
+"""Teaching material on a scene: its equations, a column's exposure, guided lessons."""

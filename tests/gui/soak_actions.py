@@ -13,19 +13,19 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.explorations.exploration_view import ExplorationView
 from occ_gui.files.file_controller import sample_photos
+from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.scene.gesture import NO_GESTURE, new_gesture
 from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
-from occ_model.results.teaching import Exploration
+from occ_model.results.teaching import Lesson
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.provenance import ENDINGS
 from occ_model.scene.scene import Scene
-from occ_model.teaching.explorations import explorations
+from occ_model.teaching.lessons import lessons
 
 _HEAVY = ("rows", "columns", "point_spread", "distance", "panel_width", "panel_height")
 """What would make pictures so large, or blurs so wide, that a soak is about them alone."""
@@ -46,11 +46,11 @@ def smaller(scene: Scene) -> Scene:
     return scene.replace(rows=150, columns=1200)
 
 
-def smaller_explorations() -> tuple[Exploration, ...]:
-    """Give the explorations with pictures that take a few milliseconds."""
+def smaller_lessons() -> tuple[Lesson, ...]:
+    """Give the lessons with pictures that take a few milliseconds."""
     return tuple(
         replace(each, steps=tuple(replace(step, scene=smaller(step.scene)) for step in each.steps))
-        for each in explorations()
+        for each in lessons()
     )
 
 
@@ -111,9 +111,9 @@ class Monkey:
             self.pin: 20,
             self.go_to_what_is_pinned: 10,
             self.clear_the_pins: 6,
-            self.choose_an_exploration: 10,
+            self.choose_an_lesson: 10,
             self.step_on_or_back: 20,
-            self.leave_the_exploration: 6,
+            self.leave_the_lesson: 6,
             self.choose_a_theme: 6,
             self.save_the_scene: 10,
             self.open_the_saved_scene: 10,
@@ -150,7 +150,7 @@ class Monkey:
         self._show_a_photo_everywhere()
         self.close_the_photo()
         self.clear_the_pins()
-        self.leave_the_exploration()
+        self.leave_the_lesson()
         self._application.desktop.theme.choose(THEMES[0])
         self.reset_the_layout()
         self._application.window.resize(*_FIRST_SIZE)
@@ -260,14 +260,14 @@ class Monkey:
     def clear_the_pins(self) -> None:
         self._trigger("clear_pins")
 
-    def _guide(self) -> ExplorationView:
-        guide = self._application.learning.explorations_pane
+    def _guide(self) -> LessonView:
+        guide = self._application.learning.lessons_pane
         if not guide.choices:
-            self._trigger("explorations")
+            self._trigger("lessons")
             self._qtbot.waitUntil(lambda: bool(guide.choices))
         return guide
 
-    def choose_an_exploration(self) -> None:
+    def choose_an_lesson(self) -> None:
         guide = self._guide()
         guide.all.click()
         self._random.choice(guide.choices).click()
@@ -279,7 +279,7 @@ class Monkey:
         buttons = (guide.next, guide.next, guide.back, guide.again, guide.reveal)
         self._random.choice(buttons).click()
 
-    def leave_the_exploration(self) -> None:
+    def leave_the_lesson(self) -> None:
         self._guide().all.click()
 
     def save_the_scene(self) -> None:

@@ -13,13 +13,13 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_explorations
+from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import GarbageCollector
-from occ_gui.explorations import exploration_controller as explorations_room
+from occ_gui.lessons import lesson_controller as lessons_room
 
 ACTIONS = int(os.environ.get("OCC_SOAK", "300"))
 _LONG = 5_000
@@ -66,7 +66,7 @@ def monkey(
     tmp_path: Path,
 ) -> Iterator[Monkey]:
     """Let a monkey at the application, and leave the other tests their theme and clipboard."""
-    monkeypatch.setattr(explorations_room, "explorations", smaller_explorations)
+    monkeypatch.setattr(lessons_room, "lessons", smaller_lessons)
     GarbageCollector(application.window)  # as a program that runs has one: figures are in cycles
     yield Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, request.param)
     application.desktop.theme.choose("system")

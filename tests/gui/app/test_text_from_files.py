@@ -15,15 +15,15 @@ from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.explorations.exploration_controller import ExplorationController
-from occ_gui.explorations.exploration_view import ExplorationView
 from occ_gui.files.document import Document
+from occ_gui.lessons.lesson_controller import LessonController
+from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.window.command_palette import plain
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
-from occ_model.teaching.explorations import explorations
+from occ_model.teaching.lessons import lessons
 
 TAG = "<img src=nothing.png>"
 NAME = f"{TAG} & <b>bold\n\x1b[31m\u202egnp"
@@ -113,14 +113,14 @@ def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> 
     assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
 
 
-def test_an_explorations_title_is_text(
+def test_an_lessons_title_is_text(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    hostile = tuple(replace(each, title=f"{TAG} & co") for each in explorations())
-    monkeypatch.setattr("occ_gui.explorations.exploration_controller.explorations", lambda: hostile)
-    view = ExplorationView()
+    hostile = tuple(replace(each, title=f"{TAG} & co") for each in lessons())
+    monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: hostile)
+    view = LessonView()
     qtbot.addWidget(view)
-    controller = ExplorationController(application.store, application.photos, view)
+    controller = LessonController(application.store, application.photos, view)
     controller.set_seen(True)
     assert plain(view.choices[0].text()).startswith(f"{TAG} & co")
     controller.choose(hostile[0].name)

@@ -15,11 +15,11 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.start import kept_settings
-from occ_gui.explorations.exploration_controller import ExplorationController
-from occ_gui.explorations.exploration_view import ExplorationView
 from occ_gui.files.kept_file import LARGEST, MOST_NAMES, usable_settings_path
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
+from occ_gui.lessons.lesson_controller import LessonController
+from occ_gui.lessons.lesson_view import LessonView
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -237,16 +237,16 @@ def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path,
     "error",
     [RecursionError("too deep"), ValueError("9" * 5000), AttributeError("get"), KeyError(1)],
 )
-def test_unreadable_explorations_are_reported(
+def test_unreadable_lessons_are_reported(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
     def fail() -> None:
         raise error
 
-    monkeypatch.setattr("occ_gui.explorations.exploration_controller.explorations", fail)
-    view = ExplorationView()
+    monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", fail)
+    view = LessonView()
     qtbot.addWidget(view)
-    ExplorationController(application.store, application.photos, view).set_seen(True)
+    LessonController(application.store, application.photos, view).set_seen(True)
     told = [label.text() for label in view.findChildren(QLabel)]
     assert any(type(error).__name__ in text for text in told)
     assert not view.choices

@@ -189,14 +189,14 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
         application.image.before.chosen.setChecked(True)
         assert_faultless(qtbot, window, changes)
         assert axis_labels_cut_off(window) == []
-    window.bring_to_front("explorations")
-    assert_faultless(qtbot, window, "list of explorations")
+    window.bring_to_front("lessons")
+    assert_faultless(qtbot, window, "list of lessons")
     for place in (0, 2):
-        learning.explorations_pane.choices[place].click()
-        learning.explorations_pane.reveal.click()
+        learning.lessons_pane.choices[place].click()
+        learning.lessons_pane.reveal.click()
         user.wait_until_idle()
         assert_faultless(qtbot, window, "answer")
-        learning.explorations_pane.all.click()
+        learning.lessons_pane.all.click()
     assert window.size() == size
 
 

@@ -25,7 +25,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
 from occ_gui.picture.photo_overlay import MODES
 
-ON_DEMAND = ("explorations",)
+ON_DEMAND = ("lessons",)
 """Docks that are not shown until they are asked for."""
 
 

@@ -14,7 +14,7 @@ from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.presets import USER_FOLDER, preset_named, presets, unreadable_presets
 from occ_model.scene.provenance import ENDINGS
 from occ_model.scene.scene import Scene
-from occ_model.teaching.explorations import read_exploration
+from occ_model.teaching.lessons import read_lesson
 
 posix = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no such files")
 
@@ -127,7 +127,7 @@ def test_every_reader_of_scenes_refuses_what_is_no_regular_file(
     with pytest.raises(SceneFileError, match="device, pipe or socket"):
         read_scene_file(path)
     with pytest.raises(SceneFileError, match="device, pipe or socket"):
-        read_exploration(path)
+        read_lesson(path)
     assert main(["plan", "--scene", str(path)]) == 2
     assert "device, pipe or socket" in capsys.readouterr().err
 

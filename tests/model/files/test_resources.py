@@ -21,7 +21,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with zipfile.ZipFile(path, "w") as packed:
         for file in sorted((ROOT / "occ_model").rglob("*.py")):
             packed.write(file, file.relative_to(ROOT))
-        for folder in ("docs", "explorations", "photos", "pictures", "presets"):
+        for folder in ("docs", "lessons", "photos", "pictures", "presets"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))
     return path
@@ -55,10 +55,10 @@ def test_presets_are_loaded_out_of_an_archive(archive: Path) -> None:
     assert "\n".join(lines[count:]).strip() == occ.load_preset("phone-136us").to_toml().strip()
 
 
-def test_explorations_are_loaded_out_of_an_archive(archive: Path) -> None:
+def test_lessons_are_loaded_out_of_an_archive(archive: Path) -> None:
     program = (
-        "from occ_model.teaching.explorations import explorations\n"
-        "for each in explorations(): print(each.name, len(each.steps))\n"
+        "from occ_model.teaching.lessons import lessons\n"
+        "for each in lessons(): print(each.name, len(each.steps))\n"
     )
     here = [*run(ROOT, program)]
     assert len(here) == 5

@@ -1,4 +1,4 @@
-"""The explanations say what the model does: equations, exposure windows, explorations."""
+"""The explanations say what the model does: equations, exposure windows, lessons."""
 
 import re
 from pathlib import Path
@@ -16,8 +16,8 @@ from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
-from occ_model.teaching.explorations import explorations, read_exploration
 from occ_model.teaching.exposure_window import exposure_window
+from occ_model.teaching.lessons import lessons, read_lesson
 
 PANES = ("profile", "decode", "accuracy", "photo")
 """The docks that a step can name."""
@@ -149,12 +149,12 @@ def test_a_column_outside_the_picture_is_refused(column: object) -> None:
         exposure_window(Scene(), column)  # type: ignore[arg-type]
 
 
-def test_every_exploration_names_a_pane_and_photo_that_exist() -> None:
-    found = explorations()
-    assert [exploration.name[0] for exploration in found] == list("12345")
-    for exploration in found:
-        assert exploration.title
-        for step in exploration.steps:
+def test_every_lesson_names_a_pane_and_photo_that_exist() -> None:
+    found = lessons()
+    assert [lesson.name[0] for lesson in found] == list("12345")
+    for lesson in found:
+        assert lesson.title
+        for step in lesson.steps:
             assert step.text.endswith((".", ")"))
             assert step.question.endswith("?")
             assert step.answer.endswith(".")
@@ -166,12 +166,12 @@ def test_every_exploration_names_a_pane_and_photo_that_exist() -> None:
 STEP = 'preset = "phone-68us", text = "one", question = "two?", answer = "three."'
 
 
-def test_a_file_of_one_s_own_is_read_as_an_exploration(tmp_path: Path) -> None:
+def test_a_file_of_one_s_own_is_read_as_an_lesson(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(f'title = "x"\nstep = [{{{STEP}, set = {{iso = 200}}}}]', encoding="utf-8")
-    exploration = read_exploration(path)
-    (step,) = exploration.steps
-    assert (exploration.name, exploration.title, step.text) == ("mine", "x", "one")
+    lesson = read_lesson(path)
+    (step,) = lesson.steps
+    assert (lesson.name, lesson.title, step.text) == ("mine", "x", "one")
     assert step.scene == occ.load_preset("phone-68us").replace(iso=200)
 
 
@@ -199,15 +199,15 @@ def test_a_file_of_one_s_own_is_read_as_an_exploration(tmp_path: Path) -> None:
     ],
     ids=lambda content: content[:20],
 )
-def test_a_file_that_is_no_exploration_is_refused_in_a_sentence(
+def test_a_file_that_is_no_lesson_is_refused_in_a_sentence(
     tmp_path_factory: pytest.TempPathFactory, content: str
 ) -> None:
-    path = tmp_path_factory.mktemp("explorations") / "mine.toml"
+    path = tmp_path_factory.mktemp("lessons") / "mine.toml"
     path.write_text(content, encoding="utf-8")
     with pytest.raises(SceneFileError) as refused:
-        read_exploration(path)
+        read_lesson(path)
     assert str(refused.value).endswith(".")
     assert str(refused.value).isprintable()
     assert len(str(refused.value)) < 1000
     with pytest.raises(SceneFileError, match=r"missing\.toml"):
-        read_exploration(path.with_name("missing.toml"))
+        read_lesson(path.with_name("missing.toml"))

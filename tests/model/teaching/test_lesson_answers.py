@@ -1,4 +1,4 @@
-"""Every answer of the explorations is true: its numbers are held against the model."""
+"""Every answer of the lessons is true: its numbers are held against the model."""
 
 import math
 
@@ -9,11 +9,11 @@ import occ_model as occ
 from occ_model.files.resources import resource_path
 from occ_model.results.teaching import Step
 from occ_model.scene.scene import Scene
-from occ_model.teaching.explorations import explorations
+from occ_model.teaching.lessons import lessons
 
 
-def step(exploration: int, number: int) -> Step:
-    return explorations()[exploration - 1].steps[number - 1]
+def step(lesson: int, number: int) -> Step:
+    return lessons()[lesson - 1].steps[number - 1]
 
 
 def reads(scene: Scene, decoder: str = "threshold") -> bool:

@@ -1,4 +1,4 @@
-"""Explorations: a list, steps that set their scene, and questions answered on demand."""
+"""Lessons: a list, steps that set their scene, and questions answered on demand."""
 
 import json
 from dataclasses import asdict
@@ -13,21 +13,21 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.explorations import exploration_controller
-from occ_gui.explorations.exploration_view import ExplorationView
 from occ_gui.files.session import Session, SessionFile, UserState
+from occ_gui.lessons import lesson_controller
+from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_model.effects.registry import NAMES
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
-from occ_model.teaching.explorations import explorations
+from occ_model.teaching.lessons import lessons
 
 
 @pytest.fixture
-def guide(application: Application, user: User, qtbot: QtBot) -> ExplorationView:
-    """Open the explorations by the menu."""
-    user.choose("&Explorations")
-    guide = application.learning.explorations_pane
+def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
+    """Open the lessons by the menu."""
+    user.choose("&Lessons")
+    guide = application.learning.lessons_pane
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.choices))
     return guide
 
@@ -36,10 +36,10 @@ def in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
 
 
-def test_opening_the_explorations_lists_them_and_changes_nothing(
-    application: Application, guide: ExplorationView, small_scene: Scene
+def test_opening_the_lessons_lists_them_and_changes_nothing(
+    application: Application, guide: LessonView, small_scene: Scene
 ) -> None:
-    titles = [exploration.title for exploration in explorations()]
+    titles = [lesson.title for lesson in lessons()]
     assert len(titles) == 5
     for button, title in zip(guide.choices, titles, strict=True):
         assert button.text().startswith(title)
@@ -49,17 +49,17 @@ def test_opening_the_explorations_lists_them_and_changes_nothing(
 
 
 def test_each_pane_that_a_step_names_is_a_dock() -> None:
-    named = {step.pane for exploration in explorations() for step in exploration.steps}
+    named = {step.pane for lesson in lessons() for step in lesson.steps}
     assert named <= set(PANES)
 
 
 def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
-    application: Application, guide: ExplorationView, user: User, qtbot: QtBot, small_scene: Scene
+    application: Application, guide: LessonView, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    exploration = explorations()[0]
+    lesson = lessons()[0]
     guide.choices[0].click()
     user.wait_until_idle()
-    step = exploration.steps[0]
+    step = lesson.steps[0]
     assert application.store.scene == step.scene
     assert application.store.undo_stack.count() == 1
     assert guide.question.text() == step.question
@@ -70,9 +70,7 @@ def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
     assert application.store.scene == small_scene
 
 
-def test_the_answer_is_shown_on_demand_until_the_next_step(
-    guide: ExplorationView, user: User
-) -> None:
+def test_the_answer_is_shown_on_demand_until_the_next_step(guide: LessonView, user: User) -> None:
     guide.choices[0].click()
     assert not guide.answer.isVisible()
     guide.reveal.click()
@@ -86,9 +84,9 @@ def test_the_answer_is_shown_on_demand_until_the_next_step(
 
 
 def test_back_next_and_again_move_and_set_the_scene(
-    application: Application, guide: ExplorationView, user: User
+    application: Application, guide: LessonView, user: User
 ) -> None:
-    steps = explorations()[0].steps
+    steps = lessons()[0].steps
     guide.choices[0].click()
     guide.next.click()
     assert application.store.scene == steps[1].scene
@@ -105,14 +103,14 @@ def test_back_next_and_again_move_and_set_the_scene(
 
 
 def test_progress_is_kept_and_what_is_done_is_ticked(
-    application: Application, guide: ExplorationView, user: User
+    application: Application, guide: LessonView, user: User
 ) -> None:
     guide.choices[0].click()
     guide.next.click()
     guide.all.click()
     assert "step 2 of 3" in guide.choices[0].text()
-    application.window.docks["explorations"].hide()
-    user.choose("&Explorations")
+    application.window.docks["lessons"].hide()
+    user.choose("&Lessons")
     guide.choices[0].click()
     assert "step 2 of 3" in guide.place.text()
     guide.next.click()
@@ -125,14 +123,14 @@ def test_progress_is_kept_and_what_is_done_is_ticked(
 
 
 def test_a_sample_photo_is_open_only_while_steps_need_it(
-    application: Application, guide: ExplorationView, user: User, qtbot: QtBot
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
 ) -> None:
     opened: list[str] = []
     application.photos.opened.connect(lambda p: opened.append("" if p is None else p.path.stem))
     guide.choices[4].click()
     user.wait_until_idle()
     qtbot.waitUntil(lambda: in_front(application, "photo"))
-    assert application.store.scene == explorations()[4].steps[0].scene
+    assert application.store.scene == lessons()[4].steps[0].scene
     guide.again.click()
     user.wait_until_idle()
     guide.next.click()
@@ -145,7 +143,7 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(
 
 
 def test_a_photo_of_the_users_own_stays_open(
-    application: Application, guide: ExplorationView, user: User, photo_file: Any
+    application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
@@ -155,7 +153,7 @@ def test_a_photo_of_the_users_own_stays_open(
 
 
 def test_the_photos_give_the_numbers_that_the_answers_state(
-    application: Application, guide: ExplorationView, user: User
+    application: Application, guide: LessonView, user: User
 ) -> None:
     guide.choices[4].click()
     user.wait_until_idle()
@@ -172,47 +170,47 @@ def test_the_photos_give_the_numbers_that_the_answers_state(
     assert application.controls.code.number.value() == 345
 
 
-def test_explorations_that_cannot_be_read_give_a_sentence(
+def test_lessons_that_cannot_be_read_give_a_sentence(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     def fail() -> None:
-        raise SceneFileError("1.toml is no exploration: it is a <song>.")
+        raise SceneFileError("1.toml is no lesson: it is a <song>.")
 
-    monkeypatch.setattr(exploration_controller, "explorations", fail)
-    user.choose("&Explorations")
-    guide = application.learning.explorations_pane
+    monkeypatch.setattr(lesson_controller, "lessons", fail)
+    user.choose("&Lessons")
+    guide = application.learning.lessons_pane
     qtbot.waitUntil(lambda: "&lt;song&gt;" in guide._invitation.text())
     assert guide.choices == []
 
 
 def test_a_missing_photo_is_reported(
     application: Application,
-    guide: ExplorationView,
+    guide: LessonView,
     user: User,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(exploration_controller, "sample_photos", list)
+    monkeypatch.setattr(lesson_controller, "sample_photos", list)
     guide.choices[4].click()
     assert user.message == "The photo led-1khz is missing."
     user.wait_until_idle()
 
 
-def test_the_explorations_pane_opens_readable_and_keeps_its_size(
-    application: Application, guide: ExplorationView, qtbot: QtBot
+def test_the_lessons_pane_opens_readable_and_keeps_its_size(
+    application: Application, guide: LessonView, qtbot: QtBot
 ) -> None:
     window = application.window
-    dock, above = window.docks["explorations"], window.docks["controls"]
+    dock, above = window.docks["lessons"], window.docks["controls"]
     third = window.height() // 3
     qtbot.waitUntil(lambda: dock.height() == third)
     both = above.height() + dock.height()
     window.resizeDocks([above, dock], [both - third - 60, third + 60], Qt.Orientation.Vertical)
     qtbot.waitUntil(lambda: dock.height() == third + 60)
-    window.bring_to_front("explorations")
+    window.bring_to_front("lessons")
     qtbot.wait(20)
     assert dock.height() == third + 60
 
 
-def test_the_list_follows_the_theme(application: Application, guide: ExplorationView) -> None:
+def test_the_list_follows_the_theme(application: Application, guide: LessonView) -> None:
     for theme, is_light in (("dark", False), ("light", True), ("dark", False), ("system", True)):
         application.desktop.theme.choose(theme)
         QApplication.processEvents()
@@ -222,8 +220,8 @@ def test_the_list_follows_the_theme(application: Application, guide: Exploration
 
 
 @pytest.mark.parametrize("how", ["all", "done"])
-def test_an_exploration_has_a_state_of_its_own_and_returns_the_users(
-    application: Application, guide: ExplorationView, user: User, small_scene: Scene, how: str
+def test_an_lesson_has_a_state_of_its_own_and_returns_the_users(
+    application: Application, guide: LessonView, user: User, small_scene: Scene, how: str
 ) -> None:
     application.settings.set_tolerance(7.0)
     application.settings.set_noise("exact")
@@ -243,11 +241,11 @@ def test_an_exploration_has_a_state_of_its_own_and_returns_the_users(
         guide.next.click()
     user.wait_until_idle()
     assert (application.store.scene, application.settings.settings) == (small_scene, mine)
-    assert "end of the exploration" in user.entry("&Undo").text()
+    assert "end of the lesson" in user.entry("&Undo").text()
 
 
-def test_the_users_photo_returns_after_an_exploration(
-    application: Application, guide: ExplorationView, user: User, photo_file: Any
+def test_the_users_photo_returns_after_an_lesson(
+    application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
@@ -259,8 +257,8 @@ def test_the_users_photo_returns_after_an_exploration(
     assert application.desktop._photo == photo_file
 
 
-def test_a_photo_opened_during_an_exploration_stays_open(
-    application: Application, guide: ExplorationView, user: User, photo_file: Any
+def test_a_photo_opened_during_an_lesson_stays_open(
+    application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:
     guide.choices[1].click()
     application.open_photo(photo_file)
@@ -270,9 +268,9 @@ def test_a_photo_opened_during_an_exploration_stays_open(
     assert application.desktop._photo == photo_file
 
 
-def test_a_crash_during_an_exploration_leaves_the_users_own_state(
+def test_a_crash_during_an_lesson_leaves_the_users_own_state(
     application: Application,
-    guide: ExplorationView,
+    guide: LessonView,
     user: User,
     small_scene: Scene,
     photo_file: Path,
@@ -303,9 +301,9 @@ def test_a_crash_during_an_exploration_leaves_the_users_own_state(
     autosave.end()
 
 
-def test_a_window_closed_during_an_exploration_keeps_the_users_scene(
+def test_a_window_closed_during_an_lesson_keeps_the_users_scene(
     application: Application,
-    guide: ExplorationView,
+    guide: LessonView,
     user: User,
     small_scene: Scene,
     monkeypatch: pytest.MonkeyPatch,

@@ -1,4 +1,4 @@
-"""Load the guided explorations: steps with a text, a scene, a question and its answer."""
+"""Load the guided lessons: steps with a text, a scene, a question and its answer."""
 
 from collections.abc import Mapping
 from functools import lru_cache
@@ -8,17 +8,17 @@ from typing import Any
 from occ_model.errors import OccError, SceneFileError, one_line, shown
 from occ_model.files.reading import read_text
 from occ_model.files.resources import resource_names, resource_text
-from occ_model.results.teaching import Exploration, Step
+from occ_model.results.teaching import Lesson, Step
 from occ_model.scene.from_text import with_settings
 from occ_model.scene.presets import load_preset
 from occ_model.scene.toml_format import parse_toml
 
-_FOLDER, _ENDING = "explorations", ".toml"
+_FOLDER, _ENDING = "lessons", ".toml"
 
 
 @lru_cache(maxsize=1)
-def explorations() -> tuple[Exploration, ...]:
-    """Load the explorations that come with the package, in their order.
+def lessons() -> tuple[Lesson, ...]:
+    """Load the lessons that come with the package, in their order.
 
     Raises
     ------
@@ -26,32 +26,32 @@ def explorations() -> tuple[Exploration, ...]:
         A file cannot be read.
     """
     return tuple(
-        _exploration(name, resource_text(_FOLDER, f"{name}{_ENDING}"))
+        _lesson(name, resource_text(_FOLDER, f"{name}{_ENDING}"))
         for name in resource_names(_FOLDER, _ENDING)
     )
 
 
-def read_exploration(path: Path) -> Exploration:
-    """Read an exploration's file.
+def read_lesson(path: Path) -> Lesson:
+    """Read a lesson's file.
 
     Raises
     ------
     SceneFileError
-        The file cannot be read, holds no exploration, names a preset that does not exist, or has a
+        The file cannot be read, holds no lesson, names a preset that does not exist, or has a
         value that is out of range.
     """
-    return _exploration(path.stem, read_text(path))
+    return _lesson(path.stem, read_text(path))
 
 
-def _exploration(name: str, text: str) -> Exploration:
+def _lesson(name: str, text: str) -> Lesson:
     try:
         content = parse_toml(text)
         steps = tuple(_step(step) for step in content["step"])
-        return Exploration(name, _text(content["title"]), steps)
+        return Lesson(name, _text(content["title"]), steps)
     except OccError as error:
-        raise SceneFileError(f"{one_line(name)} is no exploration: {error}") from None
+        raise SceneFileError(f"{one_line(name)} is no lesson: {error}") from None
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise SceneFileError(f"{one_line(name)} is no exploration: {shown(error)}.") from None
+        raise SceneFileError(f"{one_line(name)} is no lesson: {shown(error)}.") from None
 
 
 def _step(content: Mapping[str, Any]) -> Step:

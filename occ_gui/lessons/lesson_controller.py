@@ -1,4 +1,4 @@
-"""Exploration controller: each step sets its scene, opens its photo and shows its pane."""
+"""Lesson controller: each step sets its scene, opens its photo and shows its pane."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -16,26 +16,26 @@ from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
-from occ_model.results.teaching import Exploration, Step
-from occ_model.teaching.explorations import explorations
+from occ_model.results.teaching import Lesson, Step
+from occ_model.teaching.lessons import lessons
 
 
-class ExplorationPane(Protocol):
-    """A pane that shows explorations and their steps."""
+class LessonPane(Protocol):
+    """A pane that shows lessons and their steps."""
 
-    def list_explorations(
-        self, found: Sequence[Exploration], reached: Mapping[str, int], failure: str
+    def list_lessons(
+        self, found: Sequence[Lesson], reached: Mapping[str, int], failure: str
     ) -> None:
-        """List explorations with the steps reached, or the reason why there are none."""
+        """List lessons with the steps reached, or the reason why there are none."""
 
-    def show_step(self, exploration: Exploration, place: int) -> None:
-        """Show a step of an exploration."""
+    def show_step(self, lesson: Lesson, place: int) -> None:
+        """Show a step of a lesson."""
 
 
-class ExplorationController(QObject):
+class LessonController(QObject):
     """Goes from step to step, and keeps the steps reached while the window is open.
 
-    An exploration begins with the window's first settings and no forced effects; when it ends,
+    A lesson begins with the window's first settings and no forced effects; when it ends,
     the user's own scene, settings and photo are restored.
 
     Parameters
@@ -45,7 +45,7 @@ class ExplorationController(QObject):
     photos
         Opens the photo of a step.
     pane
-        Shows the explorations.
+        Shows the lessons.
     """
 
     status_message = Signal(str)
@@ -54,13 +54,13 @@ class ExplorationController(QObject):
     pane_wanted = Signal(str)
     """The name of the pane that a step refers to."""
 
-    def __init__(self, scenes: SceneStore, photos: PhotoController, pane: ExplorationPane) -> None:
+    def __init__(self, scenes: SceneStore, photos: PhotoController, pane: LessonPane) -> None:
         super().__init__()
         self._scenes = scenes
         self._photos = photos
         self._pane = pane
-        self._all: tuple[Exploration, ...] = ()
-        self._current: Exploration | None = None
+        self._all: tuple[Lesson, ...] = ()
+        self._current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
         self._open: Path | None = None
@@ -68,26 +68,24 @@ class ExplorationController(QObject):
         photos.opened.connect(self._note_photo)
 
     def set_seen(self, seen: bool) -> None:
-        """Read the explorations when their pane is first shown."""
+        """Read the lessons when their pane is first shown."""
         if seen and not self._all:
             failure = ""
             try:
-                self._all = explorations()
+                self._all = lessons()
             except OccError as error:
                 failure = one_line(str(error), LONGEST)
             except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
-                failure = self.tr("The explorations cannot be read: {reason}.").format(
-                    reason=reason
-                )
-            self._pane.list_explorations(self._all, {}, failure)
+                failure = self.tr("The lessons cannot be read: {reason}.").format(reason=reason)
+            self._pane.list_lessons(self._all, {}, failure)
 
     def choose(self, name: str) -> None:
-        """Continue an exploration at the step reached."""
-        for exploration in self._all:
-            if exploration.name == name:
+        """Continue a lesson at the step reached."""
+        for lesson in self._all:
+            if lesson.name == name:
                 self._begin()
-                self._current = exploration
+                self._current = lesson
                 self._go(self._places.get(name, 0))
 
     def go(self, steps: int) -> None:
@@ -104,13 +102,13 @@ class ExplorationController(QObject):
         self.leave()
 
     def leave(self) -> None:
-        """End the exploration and return to the list; the step reached is kept."""
+        """End the lesson and return to the list; the step reached is kept."""
         self._current = None
         self.restore_user()
-        self._pane.list_explorations(self._all, self._places | self._done, "")
+        self._pane.list_lessons(self._all, self._places | self._done, "")
 
     def users_own(self) -> UserState | None:
-        """Return what the end of the exploration restores; None where none is under way."""
+        """Return what the end of the lesson restores; None where none is under way."""
         is_users = self._open not in {None, *sample_photos()}
         if self._user is None or not is_users:
             return self._user
@@ -128,7 +126,7 @@ class ExplorationController(QObject):
         if user is None:
             return
         self._scenes.settings.restore(user.settings)
-        title = self.tr("end of the exploration")
+        title = self.tr("end of the lesson")
         self._scenes.put(user.scene, title, new_gesture(), force=user.settings.force)
         if self._open == user.photo:
             return
@@ -143,19 +141,17 @@ class ExplorationController(QObject):
             self._set(self._current, self._places[self._current.name])
 
     def _go(self, place: int) -> None:
-        exploration = self._current
-        if exploration is None:
+        lesson = self._current
+        if lesson is None:
             return
-        self._places[exploration.name] = place
-        self._done.pop(exploration.name, None)
-        self._pane.show_step(exploration, place)
-        self._set(exploration, place)
+        self._places[lesson.name] = place
+        self._done.pop(lesson.name, None)
+        self._pane.show_step(lesson, place)
+        self._set(lesson, place)
 
-    def _set(self, exploration: Exploration, place: int) -> None:
-        step = exploration.steps[place]
-        title = self.tr("step {number} of “{title}”").format(
-            number=place + 1, title=exploration.title
-        )
+    def _set(self, lesson: Lesson, place: int) -> None:
+        step = lesson.steps[place]
+        title = self.tr("step {number} of “{title}”").format(number=place + 1, title=lesson.title)
         self._scenes.put(step.scene, title, new_gesture(), force={})
         self._open_photo(step)
         if step.pane:

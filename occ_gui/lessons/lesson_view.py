@@ -1,4 +1,4 @@
-"""Exploration pane: the list of explorations, or one step with its question and answer."""
+"""Lesson pane: the list of lessons, or one step with its question and answer."""
 
 import html
 import re
@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
-from occ_model.results.teaching import Exploration
+from occ_model.results.teaching import Lesson
 
 _INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
 
@@ -29,11 +29,11 @@ _LEAST = QSize(200, 160)
 """Smallest size in pixels: then the list, or a question with its text, scrolls."""
 
 
-class ExplorationView(QWidget):
-    """The list of explorations, or the current step of one."""
+class LessonView(QWidget):
+    """The list of lessons, or the current step of one."""
 
     chosen = Signal(str)
-    """The name of the exploration to continue."""
+    """The name of the lesson to continue."""
 
     moved = Signal(int)
     """The number of steps to go forward; negative to go back."""
@@ -95,7 +95,7 @@ class ExplorationView(QWidget):
 
     def _make_buttons(self) -> QVBoxLayout:
         self.all = _button(
-            self.tr("All"), self.tr("Go back to the list of explorations, and to your own scene.")
+            self.tr("All"), self.tr("Go back to the list of lessons, and to your own scene.")
         )
         self.back = _button(self.tr("Back"), self.tr("Go to the step before, and set its scene."))
         self.next = _button(self.tr("Next"), self.tr("Go to the next step, and set its scene."))
@@ -117,39 +117,39 @@ class ExplorationView(QWidget):
             column.addLayout(row)
         return column
 
-    def list_explorations(
-        self, found: Sequence[Exploration], reached: Mapping[str, int], failure: str
+    def list_lessons(
+        self, found: Sequence[Lesson], reached: Mapping[str, int], failure: str
     ) -> None:
-        """List explorations with the steps reached, or the reason why there are none."""
+        """List lessons with the steps reached, or the reason why there are none."""
         self._invitation.setText(
             _set(failure)
             or self.tr(
-                "Choose an exploration. Each step sets a scene and asks a question that you answer "
+                "Choose a lesson. Each step sets a scene and asks a question that you answer "
                 "by trying. At the end your own scene returns."
             )
         )
         for button in self.choices:
             button.deleteLater()
         self.choices = []
-        for exploration in found:
-            button = self._choice(exploration, reached.get(exploration.name))
+        for lesson in found:
+            button = self._choice(lesson, reached.get(lesson.name))
             self.choices.append(button)
             self._list.addWidget(button)
         self._pages.setCurrentIndex(0)
 
-    def _choice(self, exploration: Exploration, reached: int | None) -> QPushButton:
-        count = len(exploration.steps)
+    def _choice(self, lesson: Lesson, reached: int | None) -> QPushButton:
+        count = len(lesson.steps)
         words = {
             None: self.tr("{title} ({count} steps)"),
             count: self.tr("✓ {title}"),
         }
         text = words.get(reached, self.tr("{title} (step {place} of {count})"))
         button = QPushButton(
-            text.format(title=in_menu(exploration.title), count=count, place=(reached or 0) + 1)
+            text.format(title=in_menu(lesson.title), count=count, place=(reached or 0) + 1)
         )
         button.setToolTip(self.tr("Set the scene of its step and show its question."))
         button.setStyleSheet(_LEFT)
-        button.clicked.connect(lambda: self.chosen.emit(exploration.name))
+        button.clicked.connect(lambda: self.chosen.emit(lesson.name))
         return button
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
@@ -160,13 +160,13 @@ class ExplorationView(QWidget):
                 button.setStyleSheet("")
                 button.setStyleSheet(_LEFT)
 
-    def show_step(self, exploration: Exploration, place: int) -> None:
-        """Show a step of an exploration."""
-        step, count = exploration.steps[place], len(exploration.steps)
+    def show_step(self, lesson: Lesson, place: int) -> None:
+        """Show a step of a lesson."""
+        step, count = lesson.steps[place], len(lesson.steps)
         self.place.setText(
             _set(
                 self.tr("{title}, step {place} of {count}").format(
-                    title=exploration.title, place=place + 1, count=count
+                    title=lesson.title, place=place + 1, count=count
                 )
             )
         )

@@ -1,1 +1,0 @@
-"""Guided explorations: scenes with questions, step by step."""

@@ -1,0 +1,1 @@
+"""Guided lessons: scenes with questions, step by step."""

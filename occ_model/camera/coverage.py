@@ -48,16 +48,17 @@ class Coverage:
         self._crossings = _crossings(outline, seen, self._stride)
         self._coarse = self._whole(rows) if self._cell > 1 else None
 
-    def rows(self, first: int, last: int) -> Pixels:
-        """Return the rows from ``first`` to before ``last``, shape (rows, columns), 0 to 1."""
+    def rows(self, rows: range) -> Pixels:
+        """Return some rows, shape (number of rows, columns), 0 to 1."""
+        first, last = rows.start, rows.stop
         if self._coarse is not None:
-            return self._enlarged(self._coarse, first, last)
+            return self._enlarged(self._coarse, rows)
         margin = self._margin
         sharp = self._sharp(first - margin, last + margin, 1)
         if not margin:
-            return sharp
+            return sharp[:: rows.step]
         blurred = cv2.GaussianBlur(sharp, (2 * margin + 1, 2 * margin + 1), self._blur)
-        inner = blurred[margin : margin + last - first, margin : margin + self._columns]
+        inner = blurred[margin : margin + last - first : rows.step, margin : margin + self._columns]
         return np.ascontiguousarray(inner, dtype=np.float32)
 
     def _sharp(self, first: int, last: int, cell: int) -> Pixels:
@@ -87,22 +88,22 @@ class Coverage:
         blurred = cv2.GaussianBlur(sharp, size, blur)
         return np.asarray(blurred, dtype=np.float32)
 
-    def _enlarged(self, coarse: Pixels, first: int, last: int) -> Pixels:
+    def _enlarged(self, coarse: Pixels, rows: range) -> Pixels:
         """Interpolate linearly between the cells' centres."""
         # Not by OpenCV: its coordinates are short integers in many versions.
-        column, right = self._between(0, self._columns, coarse.shape[1])
-        row, below = self._between(first, last, coarse.shape[0])
+        column, right = self._between(range(self._columns), coarse.shape[1])
+        row, below = self._between(rows, coarse.shape[0])
         part = coarse[row[0] : row[-1] + 2]
         wide = part[:, column] * (1.0 - right) + part[:, column + 1] * right
-        weight = np.zeros((last - first, len(part)), dtype=np.float32)
-        line = np.arange(last - first)
+        weight = np.zeros((len(rows), len(part)), dtype=np.float32)
+        line = np.arange(len(rows))
         weight[line, row - row[0]] = 1.0 - below
         weight[line, row - row[0] + 1] = below
         return np.asarray(weight @ wide, dtype=np.float32)
 
-    def _between(self, first: int, last: int, cells: int) -> tuple[IndexArray, Pixels]:
+    def _between(self, pixels: range, cells: int) -> tuple[IndexArray, Pixels]:
         """Return the cell before each pixel's centre, and the distance from it in cells."""
-        place = (np.arange(first, last) + (self._margin + 0.5)) / self._cell - 0.5
+        place = (np.asarray(pixels) + (self._margin + 0.5)) / self._cell - 0.5
         before = np.clip(np.floor(place), 0, cells - 2)
         return before.astype(np.int64), np.clip(place - before, 0.0, 1.0).astype(np.float32)
 

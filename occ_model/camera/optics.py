@@ -4,6 +4,7 @@ Rows are computed while they are in the processor's cache, and the largest pictu
 memory than its own bytes.
 """
 
+from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -29,11 +30,11 @@ class Gain:
     stage
         The stage that its time is counted under.
     rows
-        Gives the factors for rows from the first to before the last.
+        Gives the factors of some rows.
     """
 
     stage: str
-    rows: Callable[[int, int], Pixels]
+    rows: Callable[[range], Pixels]
 
 
 STAGE = "optics"
@@ -75,9 +76,6 @@ class Optics:
         return plain_outline and not (self.blur or self.emission or self.transmission)
 
 
-Band: TypeAlias = tuple[int, int]
-"""Rows of a picture: the first, and the one after the last."""
-
 Panel: TypeAlias = slice | NDArray[np.bool_]
 """Where the panel is in some rows: the same columns of each, or an array of them all."""
 
@@ -88,23 +86,17 @@ class Rows:
 
     Parameters
     ----------
-    first, last
-        The first row and the one after the last.
+    place
+        Which rows of the picture they are.
     values : ndarray of float32, shape (rows, columns), or (1, columns) where all are alike
         Mean pixel values before saturation.
     panel : slice, or ndarray of bool, shape (rows, columns)
         Where the panel is.
     """
 
-    first: int
-    last: int
+    place: range
     values: Pixels
     panel: Panel
-
-    @property
-    def place(self) -> slice:
-        """Which rows of the picture they are."""
-        return slice(self.first, self.last)
 
 
 def picture_rows(
@@ -113,7 +105,7 @@ def picture_rows(
     panel: FloatArray,
     surroundings: FloatArray,
     stage_ended: Callable[[str], object],
-    bands: Sequence[Band] | None = None,
+    bands: Sequence[range] | None = None,
 ) -> Iterator[Rows]:
     """Compute the picture's mean pixel values, from the first rows to the last.
 
@@ -130,7 +122,7 @@ def picture_rows(
     bands
         The rows that are computed, in order; None for the whole picture.
     """
-    bands = bands or whole_picture(scene.camera.rows)
+    bands = bands or in_blocks(range(scene.camera.rows))
     if optics.is_plain:
         parts = _plain_rows(scene.camera, optics.outline, panel, surroundings, bands)
     else:
@@ -140,9 +132,9 @@ def picture_rows(
         yield rows
 
 
-def whole_picture(rows: int) -> list[Band]:
-    """Return bands that a picture is made of."""
-    return [(start, min(start + BLOCK_ROWS, rows)) for start in range(0, rows, BLOCK_ROWS)]
+def in_blocks(rows: range) -> list[range]:
+    """Divide rows, or every k-th row, of a picture into those that are computed at once."""
+    return [rows[start : start + BLOCK_ROWS] for start in range(0, len(rows), BLOCK_ROWS)]
 
 
 def _plain_rows(
@@ -150,7 +142,7 @@ def _plain_rows(
     corners: FloatArray,
     panel: FloatArray,
     surroundings: FloatArray,
-    bands: Sequence[Band],
+    bands: Sequence[range],
 ) -> Iterator[Rows]:
     first, last = row_spans(corners, camera.rows, camera.columns)
     panel_row = panel.astype(np.float32)[None, :]
@@ -161,18 +153,20 @@ def _plain_rows(
     breaks = (np.flatnonzero(changed) + 1).tolist() if level else []
     column = np.arange(camera.columns)
     shown, row = None, dark_row
-    for top, bottom in bands:
-        starts = [top, *(at for at in breaks if top < at < bottom), bottom]
-        for start, stop in pairwise(starts):
-            if not level:
-                inside = (column >= first[start:stop, None]) & (column < last[start:stop, None])
-                yield Rows(start, stop, np.where(inside, panel_row, dark_row), inside)
-                continue
-            span = slice(int(first[start]), int(last[start]))
+    for band in bands:
+        if not level:
+            place = slice(band.start, band.stop, band.step)
+            inside = (column >= first[place, None]) & (column < last[place, None])
+            yield Rows(band, np.where(inside, panel_row, dark_row), inside)
+            continue
+        within = (bisect_left(band, at) for at in breaks if band.start < at <= band[-1])
+        for start, stop in pairwise([0, *dict.fromkeys(within), len(band)]):
+            alike = band[start:stop]
+            span = slice(int(first[alike.start]), int(last[alike.start]))
             if span != shown:  # the same array again is known to have the same noise
                 shown, row = span, dark_row.copy()
                 row[:, span] = panel_row[:, span]
-            yield Rows(start, stop, row, span)
+            yield Rows(alike, row, span)
 
 
 def _mixed_rows(
@@ -180,7 +174,7 @@ def _mixed_rows(
     optics: Optics,
     panel: FloatArray,
     surroundings: FloatArray,
-    bands: Sequence[Band],
+    bands: Sequence[range],
     stage_ended: Callable[[str], object],
 ) -> Iterator[Rows]:
     coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
@@ -188,19 +182,19 @@ def _mixed_rows(
     own = (luminance_of(panel, camera) - dark).astype(np.float32)
     around = dark.astype(np.float32)
     unit = float(pixel_value(np.ones(1), camera)[0])
-    for start, stop in bands:
-        light = coverage.rows(start, stop)
+    for band in bands:
+        light = coverage.rows(band)
         inside = light >= np.float32(0.5)
         stage_ended(optics.cover_stage)
         for gain in optics.emission:
-            light *= gain.rows(start, stop)
+            light *= gain.rows(band)
             stage_ended(gain.stage)
         light *= own
         light += around
         stage_ended(STAGE)
         for gain in optics.transmission:
-            light *= gain.rows(start, stop)
+            light *= gain.rows(band)
             stage_ended(gain.stage)
         values = np.asarray(cv2.pow(light, 1.0 / camera.gamma), dtype=np.float32)
         values *= np.float32(unit)
-        yield Rows(start, stop, values, inside)
+        yield Rows(band, values, inside)

@@ -59,8 +59,8 @@ def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
     return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
 
 
-def pixel_rays(camera: Camera, first: int, last: int) -> tuple[Pixels, Pixels]:
-    """Return the rays of the pixels in rows from ``first`` to before ``last``.
+def pixel_rays(camera: Camera, rows: range) -> tuple[Pixels, Pixels]:
+    """Return the rays of the pixels in some rows.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def pixel_rays(camera: Camera, first: int, last: int) -> tuple[Pixels, Pixels]:
     """
     column, row = _centre(camera)
     x = (np.arange(camera.columns) - column) / camera.focal_length_pixels
-    y = (np.arange(first, last) - row) / camera.focal_length_pixels
+    y = (np.asarray(rows) - row) / camera.focal_length_pixels
     return x.astype(np.float32)[None, :], y.astype(np.float32)[:, None]
 
 
@@ -146,7 +146,7 @@ def check_size(camera: Camera) -> None:
 
 
 def paint(
-    enhanced: ByteArray, corners: FloatArray, rows: int, surroundings: ByteArray
+    enhanced: ByteArray, corners: FloatArray, rows: range, surroundings: ByteArray
 ) -> ByteArray:
     """Make the image: inside the panel every row carries the profile, outside the surroundings.
 
@@ -157,21 +157,22 @@ def paint(
     corners : ndarray of float64, shape (4, 2)
         The panel's corners.
     rows
-        Height of the image.
+        The rows that are painted, one below the other.
     surroundings : ndarray of uint8, shape (columns,)
         Grey levels outside the panel.
 
     Returns
     -------
-    ndarray of uint8, shape (rows, columns)
+    ndarray of uint8, shape (number of ``rows``, columns)
     """
     columns = len(enhanced)
-    first, last = row_spans(corners, rows, columns)
-    image = np.empty((rows, columns), dtype=np.uint8)
+    spans = row_spans(corners, rows.stop, columns)
+    first, last = (ends[rows.start :: rows.step] for ends in spans)
+    image = np.empty((len(rows), columns), dtype=np.uint8)
     # Rows with the same span are painted as one block; a level panel is a single one.
     changes = np.flatnonzero((first[1:] != first[:-1]) | (last[1:] != last[:-1])) + 1
     starts = [0, *changes.tolist()]
-    for top, bottom in zip(starts, [*starts[1:], rows], strict=True):
+    for top, bottom in zip(starts, [*starts[1:], len(rows)], strict=True):
         a, b = int(first[top]), int(last[top])
         block = image[top:bottom]
         block[:, :a] = surroundings[:a]

@@ -10,6 +10,7 @@ from occ_model.commands.options import (
     add_simulation_options,
     scene_of,
     simulation_settings_of,
+    whole_number,
 )
 from occ_model.errors import one_line
 from occ_model.files.writing import write_image
@@ -30,6 +31,13 @@ def add_to(commands: Commands) -> None:
         help="whose picture is written: the receiver's, enhanced as the scene says, which decode "
         "reads (default), or the camera's, as a photo is",
     )
+    parser.add_argument(
+        "--rows-step",
+        type=whole_number,
+        default=1,
+        metavar="K",
+        help="make a draft: simulate and write every K-th row only; default: all rows",
+    )
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
     parser.set_defaults(command=_run, writes={"save_scene": SCENE_FILE})
@@ -38,7 +46,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     settings = simulation_settings_of(options)
-    frame = render_with(scene, settings)
+    frame = render_with(scene, settings, options.rows_step)
     image, title = frame.picture(options.picture), frame.picture_title(options.picture)
     write_image(options.out, image, title)
     if options.save_scene:
@@ -47,6 +55,7 @@ def _run(options: argparse.Namespace) -> int:
     milliseconds = 1e3 * sum(frame.timings.values())
     name = one_line(str(options.out))
     what = f"{title[:1].lower()}{title[1:]}"
-    size = f"{columns} columns, {rows} rows"
+    of_all = "" if frame.rows_step == 1 else f" of {scene.camera.rows}"
+    size = f"{columns} columns, {rows}{of_all} rows"
     print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {what}")
     return 0

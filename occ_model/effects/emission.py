@@ -46,8 +46,8 @@ class Emission(OpticsEffect):
         """Darken the panel by the angle at which each pixel sees it."""
         power = scene.transmitter.lambertian_order - 1.0
 
-        def gain(first: int, last: int) -> Pixels:
-            x, y = pixel_rays(scene.camera, first, last)
+        def gain(rows: range) -> Pixels:
+            x, y = pixel_rays(scene.camera, rows)
             cosines = np.minimum(np.abs(_cosine(scene, x, y)), 1.0)
             return np.asarray(cosines ** np.float32(power), dtype=np.float32)
 

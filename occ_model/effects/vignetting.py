@@ -44,8 +44,8 @@ class Vignetting(OpticsEffect):
         """Darken every pixel by its angle."""
         power = -scene.lens.vignetting_exponent / 2.0
 
-        def gain(first: int, last: int) -> Pixels:
-            x, y = pixel_rays(scene.camera, first, last)
+        def gain(rows: range) -> Pixels:
+            x, y = pixel_rays(scene.camera, rows)
             return np.asarray(cv2.pow(1.0 + x * x + y * y, power), dtype=np.float32)
 
         return replace(optics, transmission=(*optics.transmission, Gain(self.name, gain)))

@@ -24,10 +24,13 @@ class Frame:
     ----------
     scene
         The scene.
-    image : ndarray of uint8, shape (rows, columns)
-        The receiver's picture, enhanced as the scene says: the one that is decoded.
     plan
         The effects simulated, and why.
+    image : ndarray of uint8, shape (number of ``rows``, columns)
+        The receiver's picture, enhanced as the scene says: the one that is decoded.
+    rows
+        The rows of the picture that ``image`` shows: all of them, or in a draft every k-th,
+        ceil(rows / k) of them. A view draws each of them k rows high.
     profile : ndarray of float64, shape (columns,)
         Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding;
         of a picture that is kept in a file, as it is read back. With column effects only it is the
@@ -47,11 +50,17 @@ class Frame:
     scene: Scene
     plan: Plan
     image: ByteArray
+    rows: range
     profile: FloatArray
     signal: FloatArray
     corners: FloatArray
     timings: Mapping[str, float]
     make_camera_image: Callable[[], ByteArray] = field(repr=False)
+
+    @property
+    def rows_step(self) -> int:
+        """How many rows of the picture each row of ``image`` stands for: 1, more in a draft."""
+        return self.rows.step
 
     @cached_property
     def camera_image(self) -> ByteArray:

@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.optics import Band, Optics, Panel, picture_rows, whole_picture
+from occ_model.camera.optics import Optics, Panel, in_blocks, picture_rows
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
@@ -85,7 +85,7 @@ class PixelExposure:
         plan: Plan,
         columns: Columns,
         timer: StageTimer,
-        bands: Sequence[Band] | None = None,
+        bands: Sequence[range] | None = None,
     ) -> None:
         self._scene = scene = view.scene
         self._region = view.region
@@ -94,8 +94,8 @@ class PixelExposure:
         self._limits = planned(plan, PixelEffect)
         self._noises = planned(plan, NoiseEffect)
         self._files = planned(plan, FileEffect)
-        self._bands = bands or whole_picture(scene.camera.rows)
-        height = sum(stop - start for start, stop in self._bands)
+        self._bands = bands or in_blocks(range(scene.camera.rows))
+        height = sum(len(band) for band in self._bands)
         self._shape = (height, scene.camera.columns)
         self._optics = Optics(view.corners)
         for effect in planned(plan, OpticsEffect):
@@ -113,7 +113,7 @@ class PixelExposure:
         ended = self._timer.stage_ended
         for rows in picture_rows(self._scene, self._optics, *light, ended, self._bands):
             mean = self._saturated(rows.values)
-            height = rows.last - rows.first
+            height = len(rows.place)
             if noise is None:
                 values = np.ascontiguousarray(np.broadcast_to(mean, (height, mean.shape[1])))
             else:

@@ -7,11 +7,13 @@ import numpy as np
 
 from occ_model.arrays import Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.optics import in_blocks
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
 from occ_model.results import Frame, Plan
+from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import (
     TOLERANCE,
@@ -32,6 +34,7 @@ def render(
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,
     noise: NoiseSource = "exact",
+    rows_step: int = 1,
 ) -> Frame:
     """Simulate the picture that the scene's camera takes.
 
@@ -50,6 +53,10 @@ def render(
     noise
         ``"exact"``: drawn for every pixel; ``"reused"``: from a plane of noise at random places,
         many times faster. All noise then shares its numbers: the fixed pattern is not fixed.
+    rows_step
+        From 2 on a draft: every ``rows_step``-th row of the picture and no other, each as it is in
+        the picture but for its random numbers. A file is made of the draft's rows, as if they were
+        a picture.
 
     Returns
     -------
@@ -59,25 +66,30 @@ def render(
     ------
     ParameterError
         The tolerance or the seed is negative, or no number; there is no such observable, effect or
-        source of noise; or the picture is too large for the JPEG file that the scene asks for.
+        source of noise; the step of a draft is less than 1 row or more than the picture has; or the
+        picture is too large for the JPEG file that the scene asks for.
     ProjectionError
         Part of the panel is behind the camera, the lens folds the picture, or the image would be
         too large.
     """
     force = {} if force is None else force
-    return render_with(scene, SimulationSettings(tolerance, observable, force, noise, seed))
+    settings = SimulationSettings(tolerance, observable, force, noise, seed)
+    return render_with(scene, settings, rows_step)
 
 
-def render_with(scene: Scene, settings: SimulationSettings) -> Frame:
+def render_with(scene: Scene, settings: SimulationSettings, rows_step: int = 1) -> Frame:
     """Simulate the picture that the scene's camera takes with some settings: see :func:`render`."""
     check_scene(scene)
+    check_count("rows_step", rows_step, 1, scene.camera.rows)
     settings = settings.checked(NAMES)
     check_size(scene.camera)
     timer = StageTimer()
     view = paper_view_of(scene, timer.stage_ended)
     chosen = plan_of(view, settings)
     timer.stage_ended("plan")
-    return render_plan(view, chosen, seed=settings.seed, noise=settings.noise, timer=timer)
+    return render_plan(
+        view, chosen, seed=settings.seed, noise=settings.noise, rows_step=rows_step, timer=timer
+    )
 
 
 def render_plan(
@@ -86,6 +98,7 @@ def render_plan(
     *,
     seed: int,
     noise: NoiseSource = "exact",
+    rows_step: int = 1,
     timer: StageTimer | None = None,
 ) -> Frame:
     """Simulate a picture whose effects are chosen.
@@ -96,7 +109,7 @@ def render_plan(
         The paper's view of the scene.
     chosen
         Its effects are simulated.
-    seed, noise
+    seed, noise, rows_step
         As for :func:`render`.
     timer
         Times each stage.
@@ -115,18 +128,24 @@ def render_plan(
     enhancement = Enhancement(columns.profile, scene.model.enhancement)
     enhanced = enhancement(columns.profile)
     timer.stage_ended("enhancement")
-    around, corners, rows = to_bytes(columns.around), view.corners, scene.camera.rows
+    around, corners = to_bytes(columns.around), view.corners
+    rows = every_row(scene.camera.rows, rows_step)
     if chosen.kinds <= {"column"}:
         profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)
         timer.stage_ended("image")
         camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
-        exposure = PixelExposure(view, chosen, columns, timer)
+        exposure = PixelExposure(view, chosen, columns, timer, in_blocks(rows))
         made = exposure.pictures(enhancement, seed, noise)
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
-    return Frame(scene, chosen, image, profile, signal, corners, timer.timings, camera_image)
+    return Frame(scene, chosen, image, rows, profile, signal, corners, timer.timings, camera_image)
+
+
+def every_row(rows: int, step: int) -> range:
+    """Return every ``step``-th of a picture's rows, each near the middle of those it stands for."""
+    return range(min(step // 2, (rows - 1) % step), rows, step)
 
 
 def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "exact") -> Pixels:

@@ -14,7 +14,6 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, Pixels
 from occ_model.camera.enhancement import Enhancement
-from occ_model.camera.optics import Band
 from occ_model.effects.effect import NoiseEffect, pixel_spread
 from occ_model.effects.paper_view import PaperView
 from occ_model.results import Plan
@@ -65,7 +64,7 @@ class SampledPicture:
 class _Part:
     """Bands that a part of the picture is sampled by, and how often each stands in the sample."""
 
-    bands: tuple[Band, ...]
+    bands: tuple[range, ...]
     repeats: int
 
 
@@ -89,14 +88,14 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     SampledPicture or None
         None where a sample would not be much smaller than the picture.
     """
-    top, bottom = _span(view)
-    rows_each = (bottom - top) / (BANDS * BAND)
+    across = _span(view)
+    rows_each = len(across) / (BANDS * BAND)
     if rows_each < 2.0:
         return None
     parts = (
-        _beside((0, top), rows_each),
-        _Part(_spread((top, bottom), BANDS), 1),
-        _beside((bottom, view.scene.camera.rows), rows_each),
+        _beside(range(across.start), rows_each),
+        _Part(_spread(across, BANDS), 1),
+        _beside(range(across.stop, view.scene.camera.rows), rows_each),
     )
     columns, timer = expose_columns(view, plan), StageTimer()
     bands = [band for part in parts for band in part.bands]
@@ -106,28 +105,28 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     return SampledPicture(_repeated(image, parts), rows_each)
 
 
-def _span(view: PaperView) -> Band:
+def _span(view: PaperView) -> range:
     """Return the rows that the panel spans, to whole bands; the whole picture if none is seen."""
     rows = view.scene.camera.rows
     first, last = (view.region.first_row, view.region.last_row) if view.is_seen else (0, rows)
-    return first // BAND * BAND, min(-(-last // BAND) * BAND, rows // BAND * BAND)
+    return range(first // BAND * BAND, min(-(-last // BAND) * BAND, rows // BAND * BAND))
 
 
-def _beside(rows: Band, rows_each: float) -> _Part:
+def _beside(rows: range, rows_each: float) -> _Part:
     """Sample rows beside the panel by few bands, repeated in proportion to their number."""
-    height = rows[1] - rows[0]
+    height = len(rows)
     if height < BAND:
         return _Part((), 0)
     count = min(_BESIDE, height // BAND)
     return _Part(_spread(rows, count), max(1, round(height / (rows_each * BAND * count))))
 
 
-def _spread(rows: Band, count: int) -> tuple[Band, ...]:
+def _spread(rows: range, count: int) -> tuple[range, ...]:
     """Return bands evenly over some rows, each the one in the middle of its part."""
-    blocks = (rows[1] - rows[0]) // BAND
+    blocks = len(rows) // BAND
     places = ((np.arange(count) + 0.5) * (blocks / count)).astype(int)
-    starts = (rows[0] // BAND + places) * BAND
-    return tuple((int(start), int(start) + BAND) for start in starts)
+    starts = (rows.start // BAND + places) * BAND
+    return tuple(range(int(start), int(start) + BAND) for start in starts)
 
 
 def _repeated(image: ByteArray, parts: tuple[_Part, ...]) -> ByteArray:

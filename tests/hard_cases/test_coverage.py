@@ -81,7 +81,7 @@ def stars(draw: st.DrawFn) -> np.ndarray:
 @cases(star=stars())
 def test_sharp_coverage_is_that_of_rational_arithmetic(star: np.ndarray) -> None:
     rows, columns = 12, 41
-    found = Coverage(star, rows, columns).rows(0, rows)
+    found = Coverage(star, rows, columns).rows(range(rows))
     assert np.isin(found, [0.0, 1.0]).all()
     worst = Fraction(0)
     for row in range(rows):
@@ -102,9 +102,9 @@ def test_a_blur_loses_no_light(star: np.ndarray, blur: float) -> None:
     outline = star / max(np.abs(star - star.mean(axis=0)).max() / 40.0, 1.0)
     outline = outline - outline.min(axis=0) + margin
     width, height = np.ceil(np.ptp(outline, axis=0)).astype(int) + 2 * margin
-    sharp = Coverage(outline, height, width).rows(0, height).sum(dtype=np.float64)
+    sharp = Coverage(outline, height, width).rows(range(height)).sum(dtype=np.float64)
     assume(sharp > 0)
-    blurred = Coverage(outline, height, width, blur).rows(0, height).sum(dtype=np.float64)
+    blurred = Coverage(outline, height, width, blur).rows(range(height)).sum(dtype=np.float64)
     error = abs(blurred / sharp - 1.0)
     record("light after a blur, relative", "panels of 1 to 80 px, blur 0.05 to 30 px", error)
     assert error <= 2e-3
@@ -126,7 +126,7 @@ def test_the_widest_blur_of_a_rectangle_is_two_normal_integrals(
 ) -> None:
     ends = np.array([left, left + width, top, top + height]) * blur
     outline = np.array([ends[[0, 2]], ends[[1, 2]], ends[[1, 3]], ends[[0, 3]]])
-    found = Coverage(outline, 3, 5, blur).rows(0, 3)
+    found = Coverage(outline, 3, 5, blur).rows(range(3))
     # A panel is made of the pixels whose centres it covers.
     x0, x1, y0, y1 = (np.ceil(ends) - 0.5).tolist()
     across = [normal((x1 - c) / blur) - normal((x0 - c) / blur) for c in range(5)]
@@ -141,7 +141,7 @@ def test_a_blur_of_more_columns_than_16_bits_hold_is_right(columns: int) -> None
     # OpenCV counts the places of a transformed picture in 16 bits.
     ends = np.array([0.3, 0.9]) * columns
     outline = np.array([[ends[0], -99], [ends[1], -99], [ends[1], 99], [ends[0], 99]])
-    found = Coverage(outline, 2, columns, 8.5).rows(0, 2)
+    found = Coverage(outline, 2, columns, 8.5).rows(range(2))
     column = np.arange(columns)
     x0, x1 = (np.ceil(ends) - 0.5).tolist()
     spans = (x0 - 45 <= column) & (column <= x0 + 45) | (x1 - 45 <= column) & (column <= x1 + 45)
@@ -170,5 +170,5 @@ def test_an_upright_edge_on_pixels_centres_is_not_jagged(side: int) -> None:
         assert (first == x).all()
         assert (last == 80).all()
         np.testing.assert_array_equal(
-            Coverage(outline, 300, 80).rows(0, 300), np.tile(np.arange(80) >= x, (300, 1))
+            Coverage(outline, 300, 80).rows(range(300)), np.tile(np.arange(80) >= x, (300, 1))
         )

@@ -98,7 +98,7 @@ def gain_of(effect: OpticsEffect, scene: Scene) -> np.ndarray:
     optics = effect.apply(scene, Optics(np.zeros((4, 2))))
     (gain,) = (*optics.emission, *optics.transmission)
     assert isinstance(gain, Gain)
-    return gain.rows(0, scene.camera.rows).astype(np.float64)
+    return gain.rows(range(scene.camera.rows)).astype(np.float64)
 
 
 def corner_rays(scene: Scene) -> list[tuple[int, int, mpmath.matrix]]:

@@ -103,7 +103,7 @@ def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
     normal = turned(0.0, 0.0, -1.0)
     place = np.array([pose.offset_x, pose.offset_y, pose.distance])
     optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
-    gains = optics.emission[0].rows(0, ROWS)
+    gains = optics.emission[0].rows(range(ROWS))
     for x, y in ((-0.2, -0.3), (0.1, -0.3), (0.1, 0.2), (0.0, 0.0)):
         point = turned(x, y, 0.0) + place
         column, row = np.rint(image_points(point[:2] / point[2], scene.camera)).astype(int)

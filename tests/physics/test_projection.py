@@ -129,5 +129,5 @@ def test_a_panel_outside_the_picture_leaves_it_dark() -> None:
 
 def test_a_panel_that_fills_the_picture_leaves_no_surroundings() -> None:
     corners = np.array([[-9, -9], [99, -9], [99, 99], [-9, 99]])
-    image = paint(np.arange(50, dtype=np.uint8), corners, 20, np.full(50, 200, np.uint8))
+    image = paint(np.arange(50, dtype=np.uint8), corners, range(20), np.full(50, 200, np.uint8))
     np.testing.assert_array_equal(image, np.tile(np.arange(50), (20, 1)))

@@ -1,0 +1,60 @@
+"""A draft: every k-th row of the picture, its columns' means within the error that it states."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.scene.scene import Scene
+
+NOISELESS = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    """A real camera's picture, a twelfth of its size each way."""
+    scene = occ.load_preset("phone-136us-real")
+    return scene.replace(rows=385, columns=288, readout_time=12 * scene.camera.readout_time)
+
+
+@pytest.mark.parametrize("step", [1, 2, 7, 64, 100, 384, 385])
+@pytest.mark.parametrize("tolerance", [0.0, math.inf])
+@pytest.mark.parametrize("turn", [{}, {"roll": 0.3, "yaw": 0.2}, {"radial_k1": 0.0}])
+def test_the_rows_of_a_draft_are_rows_of_the_picture(
+    scene: Scene, step: int, tolerance: float, turn: dict[str, float]
+) -> None:
+    turned = scene.replace(**turn)
+    draft, whole = (
+        occ.render(turned, tolerance=tolerance, force=NOISELESS, rows_step=k) for k in (step, 1)
+    )
+    assert len(draft.image) == len(draft.rows) == math.ceil(385 / step)
+    assert draft.rows_step == step
+    np.testing.assert_array_equal(draft.image, whole.image[draft.rows])
+    np.testing.assert_array_equal(draft.camera_image, whole.camera_image[draft.rows])
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 10, 385])
+@pytest.mark.parametrize("step", [1, 2, 3, 4, 10])
+def test_each_row_stands_for_rows_around_it(scene: Scene, rows: int, step: int) -> None:
+    if step > rows:
+        return
+    shown = occ.render(scene.replace(rows=rows), tolerance=math.inf, rows_step=step).rows
+    middle = np.arange(len(shown)) * step + (step - 1) / 2
+    assert np.abs(np.array(shown) - middle).max() <= step / 2
+    assert shown[-1] < rows
+
+
+@pytest.mark.parametrize("step", [0, -1, 386, 1.5, True])
+def test_a_step_of_no_row_or_of_too_many_is_refused(scene: Scene, step: int) -> None:
+    with pytest.raises(occ.ParameterError, match=f"rows_step is {step}; allowed: a whole number"):
+        occ.render(scene, rows_step=step)
+
+
+@pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
+def test_a_draft_is_read_as_its_picture_is(preset: str) -> None:
+    scene = occ.load_preset(preset).replace(rows=1152, columns=1728)
+    scene = scene.replace(readout_time=2 * scene.camera.readout_time)
+    for step in (1, 3):
+        frame = occ.render(scene, noise="reused", rows_step=step)
+        assert occ.decode(frame.image, scene).code == scene.transmitter.code

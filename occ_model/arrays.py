@@ -1,4 +1,4 @@
-"""Types of arrays: floating point, indices, bytes, pixels."""
+"""Types of arrays: floating point, indices, bytes, pixels, truth values."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,3 +7,4 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 ByteArray = NDArray[np.uint8]
 Pixels = NDArray[np.float32]
+BoolArray = NDArray[np.bool_]

@@ -3,12 +3,13 @@
 from occ_model.errors import ParameterError, shown
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
+from occ_model.receiver.sequence.decoder import DECODER as SEQUENCE
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
 
 PAPER_DECODER = THRESHOLD.name
 """The name of the paper's decoder, which is the default."""
 
-DECODERS: dict[str, Decoder] = {decoder.name: decoder for decoder in (THRESHOLD, MATCHED)}
+DECODERS: dict[str, Decoder] = {decoder.name: decoder for decoder in (THRESHOLD, MATCHED, SEQUENCE)}
 """The decoders by name."""
 
 

@@ -129,11 +129,18 @@ class DecodeResult:
     correlation
         Of the best code's forward model with the signal.
     confidence
-        Lead of the best code over the second best, 0 to 1.
+        How sure the code is, from 0 to 1: the lead of the best code over the second best, or the
+        probability that all its bits are right.
     folded : ndarray of float64, shape (bins,)
         The signal folded over one packet.
     model : ndarray of float64, shape (bins,)
         The best code's forward model, beside ``folded``.
+    light : ndarray of float64, shape as ``signal``
+        The light of each column in shares of full light, the camera's tone curve undone.
+    light_model : ndarray of float64, shape as ``signal``
+        The light that the chips read would give, beside ``light``.
+    bit_likelihoods : ndarray of float64, shape as ``bits``
+        The probability that each bit is right.
     """
 
     decoder: str
@@ -154,3 +161,6 @@ class DecodeResult:
     confidence: float | None = None
     folded: FloatArray | None = None
     model: FloatArray | None = None
+    light: FloatArray | None = None
+    light_model: FloatArray | None = None
+    bit_likelihoods: FloatArray | None = None

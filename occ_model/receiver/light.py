@@ -1,0 +1,118 @@
+"""From grey levels to light: the camera's tone curve undone, where it is known, or estimated.
+
+A detector that adds up light needs a signal that is proportional to it, up to a constant. Histogram
+equalization depends on the picture: which light has which level cannot be undone from the picture
+alone. What remains is the order of the levels. The share of exposures that are lit so much or less
+is known for random data; so a level's rank gives its light about as well as the data in the picture
+are like random ones.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, ByteArray, FloatArray
+from occ_model.camera.photometry import WHITE
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import packets
+
+_CODES = 64
+"""Random codes that the distribution of light is computed from."""
+
+PER_CHIP = 16
+"""Exposures in each chip of :func:`expected_light`."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Light:
+    """A signal in light.
+
+    Parameters
+    ----------
+    values : ndarray of float64, shape (columns,)
+        Proportional to the light of each column, up to a constant.
+    clipped : ndarray of bool, shape (columns,)
+        Columns of the largest level, whose light is that or more.
+    is_estimated
+        Whether only the order of the levels was used, as the curve from light to levels is unknown.
+    """
+
+    values: FloatArray
+    clipped: BoolArray
+    is_estimated: bool
+
+
+def is_curve_known(scene: Scene) -> bool:
+    """Whether the curve from light to the levels of a picture follows from the scene."""
+    model = scene.model
+    return model.enhancement == "none" or (
+        model.enhancement == "stretch" and model.averaging == "pixel-value"
+    )
+
+
+def in_light(signal: FloatArray, scene: Scene) -> Light:
+    """Return a signal in light.
+
+    Parameters
+    ----------
+    signal : ndarray of float64, shape (columns,)
+        Grey levels.
+    scene
+        What a receiver knows of it is used: averaging, gamma and enhancement, and where the curve
+        is estimated, exposure time, switching frequency and number of bits.
+    """
+    model = scene.model
+    clipped = signal >= WHITE - 0.5
+    if not is_curve_known(scene):
+        return Light(by_rank(signal, expected_light(scene)), np.zeros_like(clipped), True)
+    if model.enhancement == "stretch":
+        clipped = np.zeros_like(clipped)  # the brightest column is white, and is no less exact
+    if model.averaging == "light":
+        # Light is what averages; a level has the power gamma of it.
+        return Light(np.maximum(signal / WHITE, 0.0) ** scene.camera.gamma, clipped, False)
+    return Light(signal / WHITE, clipped, False)
+
+
+def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
+    """Give each value of a signal the light that as large a share of the columns has or exceeds.
+
+    Parameters
+    ----------
+    signal : ndarray of float64, shape (columns,)
+        Grey levels, which rise with the light.
+    levels : ndarray of float64, any shape
+        The light of many exposures.
+    """
+    _, place, counts = np.unique(signal, return_inverse=True, return_counts=True)
+    share = (np.cumsum(counts) - 0.5 * counts) / len(signal)
+    ordered = np.sort(levels, axis=None)
+    at = (np.arange(ordered.size) + 0.5) / ordered.size
+    return np.asarray(np.interp(share, at, ordered)[place])
+
+
+def expected_light(scene: Scene) -> FloatArray:
+    """Return the lit shares of exposures of random data in the order of time, 16 a chip."""
+    transmitter = scene.transmitter
+    bits = 0 if transmitter.pattern else transmitter.bits
+    return _expected_light(bits, scene.camera.exposure_time * transmitter.switching_frequency)
+
+
+@lru_cache(maxsize=32)
+def _expected_light(bits: int, exposure: float) -> FloatArray:
+    random = np.random.default_rng(1)
+    chips: ByteArray
+    if bits:
+        chips = packets(random.integers(0, 2**bits, _CODES), bits).ravel()
+    else:
+        chips = random.integers(0, 2, 16 * _CODES, dtype=np.uint8)
+    starts = (np.arange(len(chips) * PER_CHIP) + 0.5) / PER_CHIP
+    lit = np.concatenate([[0.0], np.cumsum(chips)])
+    ends = starts + exposure % len(chips)
+    chip_edges = np.arange(2 * len(chips) + 1)
+    integral = np.concatenate([lit, lit[1:] + lit[-1]])
+    whole = np.floor(exposure / len(chips)) * lit[-1]
+    light = np.interp(ends, chip_edges, integral) - np.interp(starts, chip_edges, integral) + whole
+    light /= exposure
+    light.flags.writeable = False
+    return np.asarray(light)

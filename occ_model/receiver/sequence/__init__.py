@@ -1,0 +1,1 @@
+"""The sequence detector: the most likely chips, each exposure a moving average of several."""

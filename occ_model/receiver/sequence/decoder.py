@@ -1,0 +1,174 @@
+"""The sequence detector: the chip sequence whose exposures are most like the signal.
+
+Beyond the paper, it knows the switching frequency, the exposure time and the readout time, and the
+line code. It needs no list of codes: the data may be any. An exposure of several chips is a moving
+average of them, which the Viterbi algorithm undoes.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.light import PER_CHIP, Light, by_rank, expected_light, in_light
+from occ_model.receiver.sequence.exposures import Timing
+from occ_model.receiver.sequence.fit import (
+    Fit,
+    Rows,
+    detect,
+    find_phase,
+    first_guess,
+    improve,
+)
+from occ_model.receiver.sequence.packets import likeliest_packet
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
+from occ_model.receiver.signal import why_flat
+from occ_model.results import DecodeResult
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import HEADER, code_of, packet_length
+
+_IMPROVEMENTS = 2
+"""How often the fit is improved from the chips that were detected."""
+
+_LEAST_CERTAINTY = 0.9
+"""Least probability that all bits are right, of a code that is read."""
+
+_MOST_CHIPS_A_COLUMN = 1.0
+"""Chips from one column to the next above which a chip may fall between two columns."""
+
+_LONGEST_MEMORY = 16
+"""Most chips that an exposure reaches back to; the states double with every second one."""
+
+_LEAST_NOISE = 1e-4
+"""Least noise that is assumed, in shares of full light: below it the model itself is not exact."""
+
+_PAIRS = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
+"""The pairs of chips of differential Manchester: either may follow any level."""
+
+
+def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
+    """Read the code from the chips whose exposures are most like the signal.
+
+    Parameters
+    ----------
+    signal : ndarray of float64, shape (columns,)
+        Mean grey level of each column.
+    scene
+        Its number of bits, switching frequency, exposure time, readout time, averaging, gamma and
+        enhancement are used.
+
+    Returns
+    -------
+    DecodeResult
+        With the chips, the light of each column beside that of the chips' model, and the
+        probability that each bit is right.
+    """
+    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    if result.failure is not None:
+        return result
+    transmitter, camera = scene.transmitter, scene.camera
+    frequency = transmitter.switching_frequency
+    timing = Timing(camera.exposure_time * frequency, camera.readout_time * frequency)
+    refusal = _why_not(timing, len(signal), scene)
+    if refusal is not None:
+        return replace(result, failure=refusal)
+    words = FREE_CHIPS if transmitter.pattern else (*_PAIRS, Word(0, HEADER, 0))
+    fit, light = _fit(signal, scene, timing, words)
+    result = _with_steps(result, fit, light)
+    if transmitter.pattern:
+        return replace(
+            result,
+            failure="A raw chip pattern is sent, which holds no packets; "
+            f"{len(fit.chips.values)} chips were read.",
+        )
+    return _framed(result, fit, transmitter.bits)
+
+
+def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
+    """Say why chips cannot be told apart at a timing, or that too few are seen."""
+    if timing.step > _MOST_CHIPS_A_COLUMN:
+        return (
+            f"A chip lasts {1.0 / timing.step:.2g} columns: the columns are too far apart to show "
+            "each chip."
+        )
+    if timing.memory > _LONGEST_MEMORY:
+        return (
+            f"An exposure covers {timing.exposure:.3g} chips; the sequence detector undoes up to "
+            f"{_LONGEST_MEMORY}."
+        )
+    if scene.transmitter.pattern:
+        return None
+    seen, length = int(rows * timing.step), packet_length(scene.transmitter.bits)
+    if seen < length:
+        return (
+            f"Less than one packet: {seen} of {length} chips fit the panel's image; come closer or "
+            "raise the frequency."
+        )
+    return None
+
+
+def _fit(
+    signal: FloatArray, scene: Scene, timing: Timing, words: tuple[Word, ...]
+) -> tuple[Fit, Light]:
+    """Detect the chips, and improve what they were detected with."""
+    light, expected = in_light(signal, scene), expected_light(scene)
+    rows = Rows(light.values, np.where(light.clipped, 0.0, 1.0), expected)
+    trellis = trellis_of(words, timing.memory)
+    brightness = first_guess(rows, timing, PER_CHIP)
+    timing = find_phase(rows, timing, brightness, trellis)
+    fit = detect(rows, timing, brightness, trellis)
+    for _ in range(_IMPROVEMENTS):
+        if light.is_estimated:
+            # The chips found have a distribution of light of their own, nearer to the picture's.
+            light = replace(light, values=by_rank(signal, fit.model))
+            rows = replace(rows, light=light.values)
+        fit = detect(rows, *improve(rows, fit), trellis)
+    return fit, light
+
+
+def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
+    """Add the chips and the fit to a result."""
+    share = fit.brightness.lit_share(light.values)
+    count = len(share)
+    starts = (fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase) / (
+        fit.timing.step
+    )
+    about, model = share - share.mean(), fit.model - fit.model.mean()
+    energy = math.sqrt(float(about @ about) * float(model @ model))
+    seen = (starts > -1.0 / fit.timing.step) & (starts < count)
+    return replace(
+        result,
+        chip_length=1.0 / fit.timing.step,
+        chips=fit.chips.values[seen],
+        chip_starts=starts[seen],
+        correlation=float(about @ model) / energy if energy > 0.0 else 0.0,
+        light=share,
+        light_model=fit.model,
+    )
+
+
+def _framed(result: DecodeResult, fit: Fit, bits: int) -> DecodeResult:
+    """Read the packet, if it is certain enough."""
+    lit = np.where(fit.chips.values == 1, 1.0, -1.0)
+    ratios = lit * fit.chips.margins / (2.0 * max(fit.noise, _LEAST_NOISE) ** 2)
+    packet = likeliest_packet(ratios, bits)
+    result = replace(
+        result,
+        bits=packet.bits,
+        bit_likelihoods=packet.likelihoods,
+        confidence=packet.certainty,
+    )
+    if packet.certainty < _LEAST_CERTAINTY:
+        worst = int(packet.likelihoods.argmin())
+        return replace(
+            result,
+            failure=f"The chips are not certain enough: all {bits} bits are right with a "
+            f"probability of {packet.certainty:.2f}, bit {worst + 1} with "
+            f"{packet.likelihoods[worst]:.2f}.",
+        )
+    return replace(result, code=code_of(packet.bits))
+
+
+DECODER = Decoder("sequence", "Sequence: the most likely chips", read_signal)

@@ -1,0 +1,125 @@
+"""What the rows say of the chips: each row is the mean of the chips that its exposure covers.
+
+Row i is exposed over [i s + p, i s + p + T] in chips, with s = t_r f, T = t f and a phase p. The
+share of chip k in it is the overlap of the exposure with [k, k + 1], over T: the taps of a
+rectangular filter, sampled at the line rate.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """The timing of rows against chips.
+
+    Parameters
+    ----------
+    exposure
+        Length of an exposure in chips, T.
+    step
+        Chips from the start of one row's exposure to that of the next, s.
+    phase
+        Where the first row's exposure starts, in chips, p; chip 0 starts at 0.
+    """
+
+    exposure: float
+    step: float
+    phase: float = 0.0
+
+    @property
+    def memory(self) -> int:
+        """Chips that an exposure can reach back to, from the one that it ends in."""
+        return int(np.ceil(self.exposure - 1e-9))
+
+    def starts(self, rows: int) -> FloatArray:
+        """Return where the exposure of each row starts, in chips, shape (rows,)."""
+        return np.asarray(self.phase + self.step * np.arange(rows), dtype=np.float64)
+
+
+def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
+    """Return the chip that each exposure ends in, and the shares of that and the chips before.
+
+    Parameters
+    ----------
+    timing
+        Its exposure is used.
+    starts : ndarray of float64, any shape
+        Where the exposures start, in chips.
+
+    Returns
+    -------
+    last : ndarray of int64, shape as ``starts``
+        The chips.
+    shares : ndarray of float64, shape (..., memory + 1)
+        The shares of the chip and of those before it, the latest first; their sum is 1.
+    """
+    ends = starts + timing.exposure
+    last = np.floor(ends)
+    begins = last[..., None] - np.arange(timing.memory + 1)
+    overlap = np.minimum(ends[..., None], begins + 1.0) - np.maximum(starts[..., None], begins)
+    return last.astype(np.int64), np.maximum(overlap, 0.0) / timing.exposure
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ChipStatistics:
+    """All that a squared distance of rows from chips depends on, gathered by the last chip.
+
+    The squared distance of the rows that end in a chip from the light of chips c is
+    c' G c - 2 v' c, and a number that does not depend on the chips.
+
+    Parameters
+    ----------
+    first
+        The first chip that a row ends in.
+    features : ndarray of float64, shape (chips, features)
+        v, the diagonal of G, and twice the entries of its upper triangle.
+    energy : ndarray of float64, shape (chips,)
+        The number that does not depend on the chips.
+    """
+
+    first: int
+    features: FloatArray
+    energy: FloatArray
+
+
+def features_of(words: FloatArray) -> FloatArray:
+    """Return what each feature counts in the distance of some chips, shape (..., features)."""
+    upper, lower = np.triu_indices(words.shape[-1], 1)
+    return np.concatenate([-2.0 * words, words, words[..., upper] * words[..., lower]], axis=-1)
+
+
+def gather(light: FloatArray, weights: FloatArray, timing: Timing) -> ChipStatistics:
+    """Gather rows by the chip that each of them ends in.
+
+    Parameters
+    ----------
+    light : ndarray of float64, shape (rows,)
+        The share of full light of each row.
+    weights : ndarray of float64, shape (rows,)
+        What each row counts; 0 where it is clipped.
+    timing
+        The timing.
+    """
+    starts = timing.starts(len(light))
+    last, shares = taps(timing, starts)
+    first, count = int(last[0]), int(last[-1] - last[0]) + 1
+    upper, lower = np.triu_indices(shares.shape[1], 1)
+    weighted = shares * weights[:, None]
+    terms = np.concatenate(
+        [
+            weighted * light[:, None],
+            weighted * shares,
+            2.0 * weighted[:, upper] * shares[:, lower],
+            (weights * light**2)[:, None],
+        ],
+        axis=1,
+    )
+    bounds = np.searchsorted(last, np.arange(first, first + count))
+    filled = np.flatnonzero(np.diff(np.append(bounds, len(last))))
+    sums = np.zeros((count, terms.shape[1]))
+    sums[filled] = np.add.reduceat(terms, bounds[filled], axis=0)
+    return ChipStatistics(first, sums[:, :-1], sums[:, -1])

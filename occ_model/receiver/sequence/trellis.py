@@ -1,0 +1,144 @@
+"""The trellis of a code: which chips may follow which, as far as one exposure reaches back.
+
+A code is a set of words of chips, each from one state of the encoder to the next; a header is one
+word more. Where the words of a chip sequence start is not known: any word may follow any other that
+ends in its state. Each state of the trellis is a place within a word and the chips before it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+
+NO_STATE = -1
+"""Marks a place of a table that no state fills."""
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """Chips that are sent together, from one state of the encoder to another."""
+
+    before: int
+    chips: tuple[int, ...]
+    after: int
+
+
+FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))
+"""Any chip may follow any other."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Trellis:
+    """The states of a code whose exposures reach over some chips, and the steps between them.
+
+    A step adds a chip. The steps into one state are numbered; those that are missing are
+    ``NO_STATE``.
+
+    Parameters
+    ----------
+    memory
+        Chips that a state holds.
+    places : ndarray of int64, shape (states,)
+        The place within a word; 0 is reached where any encoder's state 0 word has ended.
+    chips : ndarray of uint8, shape (states, memory)
+        The last chips, the latest first.
+    before : ndarray of int64, shape (steps, states)
+        The state that each step comes from.
+    words : ndarray of float64, shape (steps, states, memory + 1)
+        The chips of each step, the latest first.
+    after : ndarray of int64, shape (ways, states)
+        The steps out of each state, as places in the flat ``before``.
+    """
+
+    memory: int
+    places: IndexArray
+    chips: ByteArray
+    before: IndexArray
+    words: FloatArray
+    after: IndexArray
+
+    @property
+    def states(self) -> int:
+        """Number of states."""
+        return len(self.places)
+
+
+@lru_cache(maxsize=32)
+def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """Return the steps out of each place within the words, as pairs of a chip and a place.
+
+    The first places are the encoder's states, between words; the others stand within words, and
+    words that begin alike share them.
+    """
+    count = 1 + max(max(word.before, word.after) for word in words)
+    steps: list[dict[tuple[int, int], int]] = [{} for _ in range(count)]
+    for word in words:
+        place = word.before
+        for chip in word.chips[:-1]:
+            key = (chip, NO_STATE)
+            if key not in steps[place]:
+                steps[place][key] = len(steps)
+                steps.append({})
+            place = steps[place][key]
+        steps[place][(word.chips[-1], word.after)] = word.after
+    return tuple(tuple((chip, to) for (chip, _), to in one.items()) for one in steps)
+
+
+@lru_cache(maxsize=16)
+def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
+    """Make the trellis of a code.
+
+    Parameters
+    ----------
+    words
+        The code.
+    memory
+        Chips that a state holds, one less than an exposure can touch.
+    """
+    steps = places_of(words)
+    reached: set[tuple[int, tuple[int, ...]]] = {(place, ()) for place in range(len(steps))}
+    for _ in range(memory):
+        reached = {(to, (chip, *chips)) for place, chips in reached for chip, to in steps[place]}
+    states = sorted(reached)
+    number = {state: place for place, state in enumerate(states)}
+    into: list[list[tuple[int, tuple[int, ...]]]] = [[] for _ in states]
+    for (place, chips), state in number.items():
+        for chip, to in steps[place]:
+            word = (chip, *chips)
+            into[number[to, word[:memory]]].append((state, word))
+    most = max(map(len, into))
+    before = np.full((most, len(states)), NO_STATE)
+    words_of = np.zeros((most, len(states), memory + 1))
+    for state, found in enumerate(into):
+        for step, (origin, word) in enumerate(found):
+            before[step, state] = origin
+            words_of[step, state] = word
+    return Trellis(
+        memory,
+        np.array([place for place, _ in states]),
+        np.array([chips for _, chips in states], dtype=np.uint8).reshape(len(states), memory),
+        before,
+        words_of,
+        _steps_out(before),
+    )
+
+
+def _steps_out(before: IndexArray) -> IndexArray:
+    """Return the steps out of each state, as places in the flat table of the steps into them."""
+    flat = before.ravel()
+    used = np.flatnonzero(flat != NO_STATE)
+    used = used[np.argsort(flat[used], kind="stable")]
+    origins = flat[used]
+    starts = np.searchsorted(origins, np.arange(before.shape[1]))
+    rank = np.arange(len(used)) - starts[origins]
+    after = np.full((int(rank.max()) + 1, before.shape[1]), NO_STATE)
+    after[rank, origins] = used
+    return after
+
+
+def words_from(groups: Sequence[tuple[int, Sequence[int], int]]) -> tuple[Word, ...]:
+    """Return words given as encoder's state, chips, encoder's state after them."""
+    return tuple(Word(before, tuple(map(int, chips)), after) for before, chips, after in groups)

@@ -137,6 +137,9 @@ class Desktop(QObject):
             "palette": self.show_palette,
         }.items():
             actions[name].triggered.connect(slot)
+        before = parts.image.before.chosen
+        actions["before"].toggled.connect(before.setChecked)
+        before.toggled.connect(actions["before"].setChecked)
         actions["hold_brightness"].triggered.connect(self.brightness.switch)
 
     @property

@@ -16,6 +16,9 @@ from occ_model.results import DecodeResult
 _CHIP_STRIP_HEIGHT = 0.16
 """Height of the strip of chips below the signal, as a fraction of the signal's range."""
 
+_LEAST_HEIGHT = 104
+"""Pixels, with the name of either axis in whole."""
+
 _COLOURS = (BAND, SIMULATION)
 """Colours of the run lengths of zeros and of ones."""
 
@@ -58,6 +61,7 @@ class SignalPlot(QWidget):
         self.plot.dress_with(lambda palette: self.chips.setOpts(brush=seen_on(palette, SIMULATION)))
         for item in (self.threshold, self.chips):
             self.plot.addItem(item, ignoreBounds=True)
+        self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)

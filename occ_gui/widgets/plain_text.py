@@ -25,3 +25,8 @@ def in_menu(text: str) -> str:
 def in_title(text: str) -> str:
     """Escape a text for the title of a window, where ``[*]`` marks a change."""
     return one_line(text).replace("[*]", "[*][*]")
+
+
+def plain(text: str) -> str:
+    """Return a menu entry's text without the marks of its shortcut letters."""
+    return text.replace("&&", "\0").replace("&", "").replace("\0", "&")

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
+from occ_gui.widgets.plain_text import plain
 from occ_model.scene.parameters import PARAMETERS
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
@@ -121,11 +122,6 @@ class CommandPalette(QDialog):
     def chosen(self) -> Command | None:
         """The chosen command, None if there is none."""
         return self._chosen
-
-
-def plain(text: str) -> str:
-    """Return a menu entry's text without the marks of its shortcut letters."""
-    return text.replace("&&", "\0").replace("&", "").replace("\0", "&")
 
 
 def entries(menu: QMenu | QMenuBar, path: str = "") -> Iterator[tuple[str, QAction]]:

@@ -17,6 +17,7 @@ from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.window.menus import Menus
 from occ_gui.window.status_line import StatusLine
+from occ_gui.window.toolbar.toolbar import ToolBar
 
 _FIRST_SIZE = QSize(1280, 800)
 _HEIGHT_RATIO = 3
@@ -65,6 +66,8 @@ class MainWindow(QMainWindow):
         self.docks["map"].visibilityChanged.connect(detection.set_seen)
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
+        self.toolbar = ToolBar(self.menus.actions, self.menus.drop_downs)
+        self.addToolBar(self.toolbar)
         self.setAcceptDrops(True)
         leave_drops_to_window(self)
         self._message_until = ""

@@ -42,6 +42,8 @@ class Menus(QObject):
         self.actions: dict[str, QAction] = {}
         self.tops: dict[str, QMenu] = {}
         self.figures: dict[str, QAction] = {}
+        self.drop_downs: dict[str, QMenu] = {}
+        """The menus that the toolbar opens, too."""
         self._make_file_menu(window)
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
@@ -90,7 +92,7 @@ class Menus(QObject):
         self._add(menu, "quit", self.tr("&Quit"), self.tr("Ctrl+Q")).triggered.connect(window.close)
 
     def _make_export_menu(self, file: QMenu) -> None:
-        self._export = file.addMenu(self.tr("E&xport"))
+        self._export = self.drop_downs["export"] = file.addMenu(self.tr("E&xport"))
         self._export.setToolTipsVisible(True)
         self._after_figures = self._export.addSeparator()
         keys = self.tr("Ctrl+Shift+E")
@@ -117,6 +119,7 @@ class Menus(QObject):
         undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
         redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
         menu.addActions([undo, redo])
+        self.actions |= {"undo": undo, "redo": redo}
         self._make_pin_menu(menu)
         menu.addSeparator()
         self._add(menu, "copy_figure", self.tr("Copy fi&gure"), self.tr("Ctrl+Shift+C"))
@@ -165,7 +168,10 @@ class Menus(QObject):
     def _make_view_menu(self, docks: Iterable[QDockWidget]) -> None:
         menu = self._view = self._top("view", self.tr("&View"))
         self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
-        theme = menu.addMenu(self.tr("&Theme"))
+        before = self._add(menu, "before", self.tr("&Before the change"), self.tr("Ctrl+Alt+Z"))
+        before.setCheckable(True)
+        before.setToolTip(self.tr("Show the picture before the latest change beside the one now."))
+        theme = self.drop_downs["theme"] = menu.addMenu(self.tr("&Theme"))
         words = {
             "system": self.tr("&System"),
             "light": self.tr("&Light"),

@@ -19,8 +19,7 @@ from occ_gui.files.document import Document
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.window.command_palette import plain
+from occ_gui.widgets.plain_text import in_tool_tip, plain
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons

@@ -34,7 +34,8 @@ from shiboken6 import isValid
 
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.window.command_palette import entries, plain
+from occ_gui.widgets.plain_text import plain
+from occ_gui.window.command_palette import entries
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 

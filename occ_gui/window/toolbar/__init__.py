@@ -1,0 +1,1 @@
+"""Toolbar: the commands that are used most, as icons."""

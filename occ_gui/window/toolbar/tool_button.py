@@ -1,0 +1,61 @@
+"""Tool button: a menu entry, or a whole menu, as an icon."""
+
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QMenu, QToolButton, QWidget
+
+from occ_gui.widgets.icons import icon
+from occ_gui.widgets.plain_text import in_tool_tip, plain
+
+ICON_SIZE = 20
+
+_NATIVE = QKeySequence.SequenceFormat.NativeText
+
+
+class ToolButton(QToolButton):
+    """Carries out an action, or opens a menu; it is named, enabled and checked as the action is.
+
+    Parameters
+    ----------
+    drawing
+        The name of its icon.
+    action
+        The menu entry; for a menu its own action.
+    parent
+        The toolbar.
+    """
+
+    def __init__(self, drawing: str, action: QAction, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._drawing, self.shown = drawing, action
+        self.setAutoRaise(True)
+        self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))
+        menu = action.menu()
+        if isinstance(menu, QMenu):
+            self.setMenu(menu)
+            self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        else:
+            self.clicked.connect(action.trigger)
+        action.changed.connect(self._follow)
+        self._follow()
+
+    def draw(self) -> None:
+        """Draw the icon in the present colours, for the present screen."""
+        found = icon(self._drawing, self.palette(), ICON_SIZE, self.devicePixelRatioF())
+        self.setIcon(found)
+
+    def _follow(self) -> None:
+        """Take over name, keys and state of the action."""
+        action = self.shown
+        name = plain(action.text()).rstrip("…")
+        keys = action.shortcut().toString(_NATIVE)
+        self.setAccessibleName(name)
+        text = self.tr("{command} ({keys})").format(command=name, keys=keys) if keys else name
+        meaning = action.toolTip()
+        if meaning != name:  # where none is given, Qt takes the name
+            text = f"{text}\n{meaning}"
+        self.setToolTip(in_tool_tip(text))
+        self.setStatusTip("")
+        self.setEnabled(action.isEnabled())
+        self.setCheckable(action.isCheckable())
+        self.setChecked(action.isChecked())

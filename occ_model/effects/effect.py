@@ -166,6 +166,14 @@ class FileEffect(Effect):
         """Return the picture as it is read back from the file."""
 
     @abstractmethod
+    def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
+        """Return what the file's rounding adds to a column's mean over one block, in grey levels.
+
+        Its standard deviation, if the block's coefficients lie anywhere between their steps, and
+        the most that it can be, root mean square over the columns.
+        """
+
+    @abstractmethod
     def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
         """Return the most by which a change of the picture can change what is read back.
 

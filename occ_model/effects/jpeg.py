@@ -68,6 +68,17 @@ class Jpeg(FileEffect):
         rounded = math.hypot(change, math.sqrt(change))
         return rounded + math.sqrt(rounded * step)
 
+    def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
+        """Return that of the coefficients without a vertical frequency, which alone have a mean.
+
+        Each varies by its step q over the root of 12, and the mean of a block's eight rows by an
+        eighth of the root of the sum of their squares. Where only a part of the rows is averaged,
+        all coefficients count, half a step each.
+        """
+        steps = quantization_steps(scene.camera.jpeg_quality)
+        most = math.sqrt(float((steps**2).mean())) / 2.0 + 2.0 * _ROUNDING
+        return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0, most
+
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
         """Write and read the file.
 

@@ -45,6 +45,9 @@ class Frame:
         Seconds of each stage, an effect under its name, in the order of computation.
     make_camera_image
         Returns the camera's picture.
+    estimate_errors
+        For the profile and the signal, by name: returns how far they may lie from those of the
+        whole picture; empty where they are those.
     """
 
     scene: Scene
@@ -56,6 +59,7 @@ class Frame:
     corners: FloatArray
     timings: Mapping[str, float]
     make_camera_image: Callable[[], ByteArray] = field(repr=False)
+    estimate_errors: Mapping[str, Callable[[], float]] = field(repr=False, default_factory=dict)
 
     @property
     def rows_step(self) -> int:
@@ -66,6 +70,17 @@ class Frame:
     def camera_image(self) -> ByteArray:
         """The camera's picture, before the receiver's enhancement, shape as ``image``."""
         return self.make_camera_image()
+
+    @cached_property
+    def draft_error(self) -> Mapping[str, float]:
+        """How far a draft's ``profile`` and ``signal`` may lie from the whole picture's, by name.
+
+        Root mean square over the columns of the panel's bounding rectangle, in grey levels: the
+        draft's own sampling error and that of the whole picture, whose noise is another. 0 where
+        the picture is no draft, or all its rows are alike.
+        """
+        none = {"profile": 0.0, "signal": 0.0}
+        return none | {name: estimate() for name, estimate in self.estimate_errors.items()}
 
     def picture(self, whose: str) -> ByteArray:
         """Return the picture of the ``"camera"`` or the ``"receiver"``.

@@ -16,6 +16,7 @@ from occ_model.effects.registry import planned
 from occ_model.results import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
 from occ_model.simulation.columns import Columns
+from occ_model.simulation.draft_error import DraftedPanel
 from occ_model.simulation.noise_source import NOISE_MAKERS, Noise, NoiseMaker
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -101,6 +102,15 @@ class PixelExposure:
         for effect in planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
             timer.stage_ended(effect.name)
+
+    def drafted_panel(self, rows: range) -> DraftedPanel:
+        """Return where a draft with these rows shows the panel."""
+        columns = slice(self._region.first_column, self._region.last_column)
+        size = (self._scene.camera.rows, self._scene.camera.columns)
+        outline, blur = self._optics.outline, self._optics.blur
+        found = [file.rounding_of_means(self._scene) for file in self._files]
+        usual, most = (sum(sizes) for sizes in zip((0.0, 0.0), *found, strict=True))
+        return DraftedPanel(rows, columns, outline, size, blur, usual, most)
 
     def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
         """Expose the rows from first to last."""

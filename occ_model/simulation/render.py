@@ -1,6 +1,6 @@
 """Render a scene: simulate the picture, stage by stage as light travels, each stage timed."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -8,6 +8,7 @@ import numpy as np
 from occ_model.arrays import Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import in_blocks
+from occ_model.camera.photometry import FLAT
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
@@ -22,6 +23,7 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
 )
 from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.draft_error import draft_error
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -56,7 +58,8 @@ def render(
     rows_step
         From 2 on a draft: every ``rows_step``-th row of the picture and no other, each as it is in
         the picture but for its random numbers. A file is made of the draft's rows, as if they were
-        a picture.
+        a picture. Its column means lie near those of the picture: see
+        :attr:`occ_model.Frame.draft_error`.
 
     Returns
     -------
@@ -130,6 +133,7 @@ def render_plan(
     timer.stage_ended("enhancement")
     around, corners = to_bytes(columns.around), view.corners
     rows = every_row(scene.camera.rows, rows_step)
+    errors: dict[str, Callable[[], float]] = {}  # none where all rows are alike
     if chosen.kinds <= {"column"}:
         profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)
@@ -140,7 +144,26 @@ def render_plan(
         made = exposure.pictures(enhancement, seed, noise)
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
-    return Frame(scene, chosen, image, rows, profile, signal, corners, timer.timings, camera_image)
+        panel = exposure.drafted_panel(rows)
+        levels = np.concatenate([columns.profile, columns.around, profile])
+        seen = enhancement(levels)
+        stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT), 1.0)
+        errors = {
+            "profile": partial(draft_error, panel, made.camera_image, profile, levels, 1.0),
+            "signal": partial(draft_error, panel, image, signal, seen, stretch),
+        }
+    return Frame(
+        scene=scene,
+        plan=chosen,
+        image=image,
+        rows=rows,
+        profile=profile,
+        signal=signal,
+        corners=corners,
+        timings=timer.timings,
+        make_camera_image=camera_image,
+        estimate_errors=errors,
+    )
 
 
 def every_row(rows: int, step: int) -> range:

@@ -15,6 +15,7 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE, ColumnLight
 from occ_model.effects.paper_view import PaperView
+from occ_model.results.plan import Stage
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
@@ -41,6 +42,9 @@ class Effect(ABC):
 
     kind: ClassVar[Kind]
     """How it leaves the rows of a picture."""
+
+    stage: ClassVar[Stage]
+    """Where on the light's way it happens."""
 
     parameters: ClassVar[tuple[str, ...]]
     """The parameters of a scene that it depends on, by name."""
@@ -84,6 +88,7 @@ class LightEffect(Effect):
     """An effect on the light that reaches each column."""
 
     kind = "column"
+    stage = "light"
 
     @abstractmethod
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
@@ -94,6 +99,7 @@ class OpticsEffect(Effect):
     """An effect on how the lens pictures the panel."""
 
     kind = "image"
+    stage = "optics"
 
     @abstractmethod
     def apply(self, scene: Scene, optics: Optics) -> Optics:
@@ -104,6 +110,7 @@ class PixelEffect(Effect):
     """An effect on a pixel's mean value that depends on that value alone."""
 
     kind = "column"
+    stage = "sensor"
 
     @abstractmethod
     def apply(self, scene: Scene, values: Values) -> Values:
@@ -114,6 +121,7 @@ class NoiseEffect(Effect):
     """Noise that is independent from pixel to pixel, its mean zero."""
 
     kind = "noise"
+    stage = "sensor"
     of_the_camera: ClassVar[bool] = False
     """Whether every picture that the camera takes has the same noise."""
 
@@ -160,6 +168,7 @@ class FileEffect(Effect):
     """An effect of the file that the picture is kept in."""
 
     kind = "image"
+    stage = "processing"
 
     @abstractmethod
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:

@@ -271,6 +271,7 @@ def _decide(
         effect=effect.name,
         label=effect.label,
         kind=effect.kind,
+        stage=effect.stage,
         bound=bound,
         included=included,
         forced=by_hand is not None,

@@ -2,6 +2,12 @@
 
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
+from occ_model.results.effect_costs import (
+    EffectCrop,
+    EffectDifference,
+    Forecast,
+    TimeShares,
+)
 from occ_model.results.frame import Frame
 from occ_model.results.lamp import Lamp
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
@@ -22,6 +28,9 @@ __all__ = [
     "Comparison",
     "Decision",
     "DecodeResult",
+    "EffectCrop",
+    "EffectDifference",
+    "Forecast",
     "Frame",
     "Lamp",
     "Limits",
@@ -41,6 +50,7 @@ __all__ = [
     "SweepRequest",
     "SweepRow",
     "SweepTable",
+    "TimeShares",
     "Trial",
     "WorkingRange",
 ]

@@ -11,7 +11,7 @@ ACCURACY_PARTS = {
 """The parts of an accuracy study, with their titles."""
 
 CHAINED_PARTS = ("integration", "effects")
-"""The parts whose points, all but the last, form a curve."""
+"""The parts whose points, but for that of the present settings, form a curve."""
 
 LEAST_ERROR = 1e-3
 """Least error in levels that is drawn; smaller ones are drawn as this one."""
@@ -32,7 +32,9 @@ class AccuracyPoint:
     error
         Root mean square difference from the most exact way, in levels of the stretched profile.
     current
-        Whether the present settings simulate in this way.
+        Whether the present settings simulate in this way: one point of a study.
+    effects
+        The effects simulated, where the part compares them.
     """
 
     part: str
@@ -40,3 +42,4 @@ class AccuracyPoint:
     seconds: float
     error: float
     current: bool = False
+    effects: tuple[str, ...] = ()

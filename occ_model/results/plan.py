@@ -1,8 +1,12 @@
 """Result of planning: which effects are simulated, and why."""
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 from occ_model.scene.simulation_settings import Observable
+
+Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]
+"""A stage of the light's way from the panel to the file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,6 +22,8 @@ class Decision:
     kind
         ``"column"``: it leaves all rows of the panel alike; ``"noise"``: alike but for independent
         noise; ``"image"``: not alike.
+    stage
+        Where on the light's way it happens.
     bound
         Most change of the observable by leaving it out, root mean square in levels of the
         stretched profile. 0 where the scene does not have the effect.
@@ -34,6 +40,7 @@ class Decision:
     effect: str
     label: str
     kind: str
+    stage: Stage
     bound: float
     included: bool
     forced: bool

@@ -171,7 +171,14 @@ def every_row(rows: int, step: int) -> range:
     return range(min(step // 2, (rows - 1) % step), rows, step)
 
 
-def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "exact") -> Pixels:
+def observe(
+    scene: Scene,
+    chosen: Plan,
+    *,
+    seed: int = 1,
+    noise: NoiseSource = "exact",
+    timer: StageTimer | None = None,
+) -> Pixels:
     """Simulate the observable that a plan's tolerance refers to.
 
     Parameters
@@ -182,6 +189,8 @@ def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "
         Its effects are simulated, and its observable is given.
     seed, noise
         As for :func:`render`.
+    timer
+        Times each stage.
 
     Returns
     -------
@@ -191,9 +200,9 @@ def observe(scene: Scene, chosen: Plan, *, seed: int = 1, noise: NoiseSource = "
         ``"signal"``: the means of its columns in the receiver's picture.
     """
     check_size(scene.camera)
-    view, timer = paper_view_of(scene), StageTimer()
+    view, timer = paper_view_of(scene), timer or StageTimer()
     if chosen.observable == "signal":
-        image = render_plan(view, chosen, seed=seed, noise=noise).image
+        image = render_plan(view, chosen, seed=seed, noise=noise, timer=timer).image
         return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
     exposure = PixelExposure(view, chosen, columns, timer)

@@ -1,10 +1,17 @@
 """Time the stages of a simulation."""
 
+from collections.abc import Sequence
+from math import fsum
 from time import perf_counter
+from typing import Self
 
 
 class StageTimer:
-    """Adds up the seconds that each stage takes, by its name."""
+    """Adds up the seconds that each stage takes, by its name.
+
+    Every moment since the timer was made counts to one stage: the times of all stages add up to the
+    time between the first moment and the end of the last stage.
+    """
 
     def __init__(self) -> None:
         self.timings: dict[str, float] = {}
@@ -13,5 +20,29 @@ class StageTimer:
     def stage_ended(self, stage: str) -> None:
         """Add the time since the last stage ended to that of this stage, or part of it."""
         now = perf_counter()
-        self.timings[stage] = self.timings.get(stage, 0.0) + now - self._last
+        self._add(stage, now - self._last)
         self._last = now
+
+    def parallel_stages_ended(self, timers: Sequence[Self]) -> None:
+        """Divide the time since the last stage ended among stages that ran at the same time.
+
+        Each stage counts in proportion to the time that it took in all threads together, so that
+        the sum stays the time that has passed.
+
+        Parameters
+        ----------
+        timers
+            The timer of each thread.
+        """
+        now = perf_counter()
+        passed, self._last = now - self._last, now
+        taken: dict[str, float] = {}
+        for timer in timers:
+            for stage, seconds in timer.timings.items():
+                taken[stage] = taken.get(stage, 0.0) + seconds
+        total = fsum(taken.values())
+        for stage, seconds in taken.items():
+            self._add(stage, passed * seconds / total if total else passed / len(taken))
+
+    def _add(self, stage: str, seconds: float) -> None:
+        self.timings[stage] = self.timings.get(stage, 0.0) + seconds

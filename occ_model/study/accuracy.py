@@ -11,7 +11,6 @@ from time import perf_counter
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.exposure import lit_fraction
@@ -27,6 +26,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.render import observe, render
+from occ_model.study.effect_differences import plan_of_effects, rms
 from occ_model.study.observation import panel_span
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
@@ -96,7 +96,7 @@ def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
         name = f"{samples} sample{'s' if samples > 1 else ''}"
         yield AccuracyPoint("integration", name, seconds, error(lit))
     seconds, lit = timed(partial(lit_fraction, scene))
-    yield AccuracyPoint("integration", "closed form", seconds, error(lit), current=True)
+    yield AccuracyPoint("integration", "closed form", seconds, error(lit))
 
 
 def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
@@ -124,10 +124,11 @@ def _rung(
     *,
     current: bool = False,
 ) -> AccuracyPoint:
-    step = plan(scene, np.inf, settings.observable, dict.fromkeys(sorted(effects), True))
+    step = plan_of_effects(scene, settings.observable, effects)
     difference = _observed(scene, step, settings) - truth
     seconds, _ = timed(partial(_rendered, scene, effects, settings))
-    return AccuracyPoint("effects", name, seconds, rms(difference) * step.stretch, current)
+    error = rms(difference) * step.stretch
+    return AccuracyPoint("effects", name, seconds, error, current, step.included)
 
 
 def _label(chosen: Plan, effect: str) -> str:
@@ -150,13 +151,12 @@ def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
     seconds, columns = timed(lambda: expose_columns(paper_view_of(scene), chosen))
     error = rms(columns.profile[seen] - truth) * chosen.stretch
-    alone = "image" not in chosen.kinds and panel_span(scene) is not None
     if panel_span(scene) is not None:
-        yield AccuracyPoint("path", "profile path", seconds, error, alone)
-    by_image = plan(scene, np.inf, "profile", dict.fromkeys(chosen.included, True))
+        yield AccuracyPoint("path", "profile path", seconds, error)
+    by_image = plan_of_effects(scene, "profile", chosen.included)
     difference = _observed(scene, by_image, settings) - truth
     seconds, _ = timed(partial(_rendered, scene, frozenset(chosen.included), settings))
-    yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch, not alone)
+    yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch)
 
 
 def _noise_sources(
@@ -168,8 +168,8 @@ def _noise_sources(
     if not noises:
         return
     names = frozenset(effect.name for effect in noises)
-    noisy = plan(scene, np.inf, "image", dict.fromkeys(sorted(names), True))
-    still = observe(scene, plan(scene, np.inf, "image"), seed=settings.seed)
+    noisy = plan_of_effects(scene, "image", names)
+    still = observe(scene, plan_of_effects(scene, "image", ()), seed=settings.seed)
     wanted = rms(pixel_spread(noises, scene, still))
     for source in NOISE_SOURCES:
         own = SimulationSettings(seed=settings.seed, noise=source)
@@ -177,13 +177,7 @@ def _noise_sources(
         seconds, _ = timed(partial(_rendered, scene, names, own))
         name = {"exact": "drawn for each pixel", "reused": "reused plane"}[source]
         error = abs(size - wanted) * stretch
-        yield AccuracyPoint("noise", name, seconds, error, source == settings.noise)
-
-
-def rms(values: NDArray[np.floating]) -> float:
-    """Give the root mean square."""
-    flat = values.ravel()
-    return float(np.sqrt(np.mean(np.square(flat, dtype=np.float64))))
+        yield AccuracyPoint("noise", name, seconds, error)
 
 
 def timed(work: Callable[[], Result]) -> tuple[float, Result]:

@@ -68,9 +68,11 @@ def test_the_ladder_ends_at_the_complete_simulation(points: list[AccuracyPoint])
     assert current.error <= 0.5
 
 
-def test_the_current_setting_is_marked_once_a_part(points: list[AccuracyPoint]) -> None:
-    for part in ACCURACY_PARTS:
-        assert sum(point.current for point in of(points, part)) == 1
+@pytest.mark.parametrize("tolerance", [0.0, 5.0, np.inf])
+def test_the_present_setting_is_marked_exactly_once(tolerance: float) -> None:
+    scene, settings = small("phone-136us-real"), SimulationSettings(tolerance, noise="reused")
+    (current,) = [point for point in accuracy(scene, settings) if point.current]
+    assert set(current.effects) == set(occ.plan(scene, tolerance).included)
 
 
 def test_both_noise_sources_have_the_sensors_noise() -> None:
@@ -110,7 +112,7 @@ def test_the_command_prints_the_table_and_writes_the_figure(
     command = ["accuracy", *settings, "--noise", "reused", "--tolerance", "2", "--out", str(folder)]
     assert main(command) == 0
     printed = capsys.readouterr().out.splitlines()
-    assert sum("<- current" in line for line in printed) == len(ACCURACY_PARTS)
+    assert sum("<- current" in line for line in printed) == 1
     assert any(line.startswith("integration 4096 samples") for line in printed)
     expected = {f"accuracy.{ending}" for ending in ("pdf", "png", "csv")}
     assert {path.name for path in folder.iterdir()} == expected

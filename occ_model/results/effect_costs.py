@@ -1,0 +1,121 @@
+"""What effects cost and change: their computing times, what leaving them out would change."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import fsum
+from typing import Self
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.results.frame import Frame
+from occ_model.results.plan import Plan
+
+
+@dataclass(frozen=True, slots=True)
+class TimeShares:
+    """The computing time of one picture, divided among its effects and all the rest.
+
+    Parameters
+    ----------
+    effects
+        Seconds of each effect that was computed by itself.
+    stages
+        Seconds of each other stage of the simulation.
+    together
+        Effects that were computed in one step with another, and which effect's time it counts to.
+    rows_differ
+        Whether rows were computed one by one: not where only effects on whole columns are included.
+    """
+
+    effects: Mapping[str, float]
+    stages: Mapping[str, float]
+    together: Mapping[str, str]
+    rows_differ: bool
+
+    @classmethod
+    def of(cls, frame: Frame) -> Self:
+        """Divide the time of a picture, as it was measured while the picture was made."""
+        included = frame.plan.included
+        noises = [d.effect for d in frame.plan.decisions if d.included and d.kind == "noise"]
+        timed = {name: frame.timings[name] for name in included if name in frame.timings}
+        return cls(
+            effects=timed,
+            stages={name: s for name, s in frame.timings.items() if name not in timed},
+            together={name: noises[-1] for name in noises if name not in timed},
+            rows_differ=not frame.plan.kinds <= {"column"},
+        )
+
+    @property
+    def everything_else(self) -> float:
+        """The seconds that belong to no effect."""
+        return fsum(self.stages.values())
+
+    @property
+    def seconds(self) -> float:
+        """The seconds of the whole picture: those of the effects and of everything else."""
+        return fsum((*self.effects.values(), *self.stages.values()))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EffectCrop:
+    """A part of the panel that shows an effect best: the paper's model with it, and without it.
+
+    Parameters
+    ----------
+    with_effect, without : ndarray of uint8, shape (rows, columns)
+        The camera's pixels, both stretched in the same way to the full range of grey.
+    difference : ndarray of uint8, shape (rows, columns)
+        The first less the second in grey levels, multiplied by ``amplification``, around 128.
+    amplification
+        Factor of the difference.
+    is_averaged
+        Whether it is the whole panel, reduced by averaging areas; otherwise real pixels.
+    """
+
+    with_effect: ByteArray
+    without: ByteArray
+    difference: ByteArray
+    amplification: int
+    is_averaged: bool
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EffectDifference:
+    """What leaving one effect out of the complete simulation changes.
+
+    Parameters
+    ----------
+    effect
+        The effect's name.
+    error
+        Root mean square of the change of the observable, in levels of the stretched profile.
+    change : ndarray of float64, shape (samples,)
+        The change in some places, the same for all effects of a scene, with this root mean square.
+    crop
+        How the effect alone looks.
+    """
+
+    effect: str
+    error: float
+    change: FloatArray
+    crop: EffectCrop
+
+
+@dataclass(frozen=True, slots=True)
+class Forecast:
+    """What a simulation with other settings would take, and how exact it would be.
+
+    Parameters
+    ----------
+    plan
+        Its plan.
+    seconds
+        Its expected time, None where a time is not known yet.
+    error
+        Its expected error, root mean square in levels of the stretched profile: that of the changes
+        of all effects left out, added up as if none influenced another. None where a change is not
+        known yet.
+    """
+
+    plan: Plan
+    seconds: float | None
+    error: float | None

@@ -1,0 +1,117 @@
+"""Measure what leaving an effect out of the complete simulation changes, and what it looks like."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray, Pixels
+from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.plan import plan
+from occ_model.results import EffectCrop, EffectDifference, Plan
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
+from occ_model.simulation.render import observe, render_plan
+from occ_model.simulation.stage_timer import StageTimer
+from occ_model.study.telling_crop import telling_crop
+
+_SAMPLES = 2**16
+"""Most places in which a change is kept."""
+
+_UNSEEN = 0.05
+"""Root mean square in grey levels below which a change of the panel's pixels is not seen."""
+
+_MARGIN = 16
+"""The panel's size in margins."""
+
+
+class CompleteSimulation:
+    """The simulation of a scene with all its effects, which others are compared with.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    observable
+        What is compared: as for :func:`occ_model.plan`.
+    seed
+        Seed of the noise, which is drawn for every pixel, each effect from its own stream.
+    timer
+        Times each stage of the simulations.
+
+    Raises
+    ------
+    ProjectionError
+        The scene has no picture.
+    """
+
+    def __init__(
+        self, scene: Scene, observable: Observable, seed: int = 1, timer: StageTimer | None = None
+    ) -> None:
+        self._scene, self._observable, self._seed = scene, observable, seed
+        self._timer = timer
+        complete = plan(scene, 0.0, observable)
+        self._stretch = complete.stretch
+        self.effects = complete.included
+        """The names of all effects of the scene."""
+        self._seen = self._simulated(self.effects, observable)
+        self._bare = self._simulated((), "image")
+        size = self._seen.size
+        self._places = np.arange(size) if size <= _SAMPLES else _some(size)
+
+    def without(self, effect: str) -> EffectDifference:
+        """Measure what leaving out one of the effects changes."""
+        others = [name for name in self.effects if name != effect]
+        difference = (self._seen - self._simulated(others, self._observable)).ravel()
+        error = rms(difference) * self._stretch
+        change = difference[self._places].astype(np.float64) * self._stretch
+        # Of a change that few pixels show, a sample may have more or less than its share.
+        change *= error / max(rms(change), np.finfo(float).tiny)
+        return EffectDifference(effect, error, change, self._crop(effect))
+
+    def _crop(self, effect: str) -> EffectCrop:
+        """Show the effect alone: beside all others, noise and file above all, many are not seen."""
+        alone, bare = self._simulated((effect,), "image"), self._bare
+        if rms(alone - bare) < _UNSEEN:  # it may move the panel's outline outwards
+            alone, bare = self._with_margin((effect,)), self._with_margin(())
+        return telling_crop(alone, bare)
+
+    def _with_margin(self, effects: Iterable[str]) -> Pixels:
+        """Return the camera's pixels of the panel and a little of its surroundings."""
+        view = paper_view_of(self._scene)
+        chosen = plan_of_effects(self._scene, "image", effects)
+        frame = render_plan(view, chosen, seed=self._seed, timer=self._timer)
+        rows, columns = (
+            slice(max(0, first - length // _MARGIN), last + length // _MARGIN)
+            for first, last, length in (
+                (view.region.first_row, view.region.last_row, view.region.rows),
+                (view.region.first_column, view.region.last_column, view.region.columns),
+            )
+        )
+        return frame.camera_image[rows, columns].astype(np.float32)
+
+    def error_of(self, effects: Iterable[str]) -> float:
+        """Measure the error of a simulation with these effects, in levels."""
+        included = [name for name in self.effects if name in set(effects)]
+        if len(included) == len(self.effects):
+            return 0.0
+        seen = self._simulated(included, self._observable)
+        return rms(self._seen - seen) * self._stretch
+
+    def _simulated(self, effects: Iterable[str], observable: Observable) -> Pixels:
+        chosen = plan_of_effects(self._scene, observable, effects)
+        return observe(self._scene, chosen, seed=self._seed, timer=self._timer)
+
+
+def plan_of_effects(scene: Scene, observable: Observable, effects: Iterable[str]) -> Plan:
+    """Return a plan that includes these effects and no other."""
+    return plan(scene, np.inf, observable, dict.fromkeys(sorted(effects), True))
+
+
+def rms(values: Pixels | FloatArray) -> float:
+    """Return the root mean square."""
+    return float(np.sqrt(np.mean(np.square(values.ravel(), dtype=np.float64))))
+
+
+def _some(size: int) -> NDArray[np.int64]:
+    return np.random.default_rng(0).integers(0, size, _SAMPLES)

@@ -1,0 +1,126 @@
+"""Laws of what leaving an effect out changes, and of the forecast that is made from it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.results import EffectDifference, TimeShares
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import OBSERVABLES, Observable, SimulationSettings
+from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
+from occ_model.study.forecast import forecast
+from occ_model.study.telling_crop import COLUMNS, ROWS, telling_crop
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return occ.load_preset("phone-136us-real").replace(
+        rows=160, columns=400, panel_width=0.1, panel_height=0.05, distance=0.5
+    )
+
+
+@pytest.fixture(scope="module")
+def differences(scene: Scene) -> dict[str, EffectDifference]:
+    complete = CompleteSimulation(scene, "image")
+    return {name: complete.without(name) for name in complete.effects}
+
+
+@pytest.mark.parametrize("observable", OBSERVABLES)
+def test_a_measured_error_is_within_its_effects_bound(scene: Scene, observable: Observable) -> None:
+    complete = CompleteSimulation(scene, observable)
+    for decision in occ.plan(scene, 0.0, observable).decisions:
+        if decision.bound:
+            assert complete.without(decision.effect).error <= decision.bound, decision.effect
+
+
+def test_leaving_out_one_effect_is_the_error_of_the_others(
+    scene: Scene, differences: dict[str, EffectDifference]
+) -> None:
+    complete = CompleteSimulation(scene, "image")
+    for name, difference in differences.items():
+        others = set(complete.effects) - {name}
+        assert difference.error == pytest.approx(complete.error_of(others))
+        assert rms(difference.change) == pytest.approx(difference.error)
+    assert complete.error_of(complete.effects) == 0.0
+
+
+def test_crops_stretch_both_pictures_alike_and_say_the_amplification() -> None:
+    random = np.random.default_rng(5)
+    one = random.uniform(40.0, 60.0, (300, 400)).astype(np.float32)
+    other = one.copy()
+    checks = np.where(np.indices((ROWS, COLUMNS)).sum(axis=0) % 2, 3.0, -3.0)
+    other[100 : 100 + ROWS, 200 : 200 + COLUMNS] -= checks
+    crop = telling_crop(one, other)
+    assert crop.with_effect.shape == crop.without.shape == crop.difference.shape == (ROWS, COLUMNS)
+    assert not crop.is_averaged
+    np.testing.assert_allclose(crop.difference, 128 + checks * crop.amplification, atol=1)
+    both = crop.with_effect.astype(int) - crop.without
+    inside = (np.minimum(crop.with_effect, crop.without) > 0) & (
+        np.maximum(crop.with_effect, crop.without) < 255
+    )
+    assert np.ptp(np.abs(both[inside])) <= 1  # one stretching for both
+
+
+def test_a_slow_change_is_shown_on_the_whole_panel() -> None:
+    ramp = np.linspace(0.0, 20.0, 900, dtype=np.float32)[None, :] + np.zeros((700, 1), np.float32)
+    crop = telling_crop(100.0 + ramp, np.full_like(ramp, 100.0))
+    assert crop.is_averaged
+    assert (np.diff(crop.difference[0].astype(int)) >= 0).all()
+    assert crop.difference[0, -1] == pytest.approx(128 + 20 * crop.amplification, abs=2)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 3.0, 30.0, np.inf])
+def test_the_times_of_a_picture_add_up_to_the_pictures_time(scene: Scene, tolerance: float) -> None:
+    frame = occ.render(scene, tolerance=tolerance, noise="reused")
+    shares = TimeShares.of(frame)
+    assert shares.seconds == pytest.approx(sum(frame.timings.values()), rel=1e-12)
+    assert shares.everything_else >= 0.0
+    parts = (*shares.effects.values(), shares.everything_else)
+    assert sum(parts) == pytest.approx(shares.seconds, rel=1e-12)
+    included = set(shares.effects) | set(shares.together)
+    assert included == set(frame.plan.included)
+    assert set(shares.together.values()) <= set(shares.effects)
+
+
+def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
+    settings = SimulationSettings(3.0, noise="reused")
+    measured = TimeShares.of(occ.render(scene, tolerance=3.0, noise="reused"))
+    found = forecast(scene, settings, measured, None, None, {})
+    assert found.seconds == pytest.approx(measured.seconds, rel=1e-12)
+
+
+def test_a_forecast_adds_what_is_switched_and_knows_what_it_does_not(
+    scene: Scene, differences: dict[str, EffectDifference]
+) -> None:
+    complete = TimeShares.of(occ.render(scene, tolerance=0.0, noise="reused"))
+    bare = TimeShares.of(occ.render(scene, tolerance=np.inf))
+    off = SimulationSettings(0.0, force={"jpeg": False}, noise="reused")
+    found = forecast(scene, off, complete, None, None, differences)
+    assert found.error == pytest.approx(differences["jpeg"].error)
+    assert found.seconds == pytest.approx(complete.seconds - complete.effects["jpeg"], rel=1e-12)
+    none = replace(off, tolerance=np.inf, force={})
+    assert forecast(scene, none, complete, None, None, {}).seconds is None
+    assert forecast(scene, none, complete, None, None, {}).error is None
+    assert forecast(scene, none, complete, complete, bare, {}).seconds == pytest.approx(
+        bare.seconds, rel=1e-12
+    )
+
+
+def test_changes_that_do_not_influence_each_other_add_up(scene: Scene) -> None:
+    plain = scene.replace(jpeg_quality=100, gain_variation=0.0, enhancement="none")
+    complete = CompleteSimulation(plain, "profile")
+    left_out = ("led-edges", "flicker")
+    differences = {name: complete.without(name) for name in left_out}
+    settings = SimulationSettings(0.0, "profile", dict.fromkeys(left_out, False))
+    shares = TimeShares.of(occ.render(plain, tolerance=0.0))
+    predicted = forecast(plain, settings, shares, None, None, differences).error
+    true = complete.error_of(set(complete.effects) - set(left_out))
+    assert predicted == pytest.approx(true, rel=0.3)
+
+
+def test_a_plan_of_effects_includes_these_and_no_other(scene: Scene) -> None:
+    assert plan_of_effects(scene, "image", ["jpeg", "vignetting"]).included == (
+        "vignetting", "jpeg",
+    )  # fmt: skip

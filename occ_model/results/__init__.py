@@ -6,6 +6,7 @@ from occ_model.results.effect_costs import (
     EffectCrop,
     EffectDifference,
     Forecast,
+    MeasuredCosts,
     TimeShares,
 )
 from occ_model.results.frame import Frame
@@ -36,6 +37,7 @@ __all__ = [
     "Limits",
     "Location",
     "Match",
+    "MeasuredCosts",
     "PhotoRow",
     "PhotoTable",
     "Plan",

@@ -1,7 +1,7 @@
 """What effects cost and change: their computing times, what leaving them out would change."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import fsum
 from typing import Self
 
@@ -90,14 +90,46 @@ class EffectDifference:
         Root mean square of the change of the observable, in levels of the stretched profile.
     change : ndarray of float64, shape (samples,)
         The change in some places, the same for all effects of a scene, with this root mean square.
-    crop
-        How the effect alone looks.
+    crop, icon
+        How the effect alone looks: at a size to look at closely, and that of a line of text.
     """
 
     effect: str
     error: float
     change: FloatArray
     crop: EffectCrop
+    icon: EffectCrop
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredCosts:
+    """What has been measured of a scene's effects, as far as it has been.
+
+    Parameters
+    ----------
+    picture
+        The times of the last picture.
+    others
+        Those of a picture with all effects, and of one with none: the first gives the times of
+        effects that the last picture leaves out, the second that of everything else where no effect
+        makes rows differ.
+    differences
+        What each effect changes, by its name.
+    errors
+        Errors measured as a whole, by the effects of the scene that are included.
+    """
+
+    picture: TimeShares
+    others: tuple[TimeShares, ...] = ()
+    differences: Mapping[str, EffectDifference] = field(default_factory=dict)
+    errors: Mapping[frozenset[str], float] = field(default_factory=dict)
+
+    def seconds_of(self, effect: str) -> float | None:
+        """Return an effect's time in the last picture or, if not in there, in another."""
+        for shares in (self.picture, *self.others):
+            if effect in shares.effects or effect in shares.together:
+                return shares.effects[shares.together.get(effect, effect)]
+        return None
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,8 +146,11 @@ class Forecast:
         Its expected error, root mean square in levels of the stretched profile: that of the changes
         of all effects left out, added up as if none influenced another. None where a change is not
         known yet.
+    is_measured
+        Whether the error was measured as a whole.
     """
 
     plan: Plan
     seconds: float | None
     error: float | None
+    is_measured: bool

@@ -5,7 +5,7 @@ the other, with all of them; the profile path with the image path; and reused no
 for each pixel. All errors are root mean squares in levels of the stretched profile.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from time import perf_counter
 from typing import TypeVar
@@ -26,7 +26,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.render import observe, render
-from occ_model.study.effect_differences import plan_of_effects, rms
+from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
 from occ_model.study.observation import panel_span
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
@@ -42,7 +42,11 @@ _ENOUGH_SECONDS = 0.05
 _REPEATS = 5
 
 
-def accuracy(scene: Scene, settings: SimulationSettings | None = None) -> Iterator[AccuracyPoint]:
+def accuracy(
+    scene: Scene,
+    settings: SimulationSettings | None = None,
+    complete: CompleteSimulation | None = None,
+) -> Iterator[AccuracyPoint]:
     """Measure the time and the error of each way to simulate a scene, point by point.
 
     Parameters
@@ -51,6 +55,9 @@ def accuracy(scene: Scene, settings: SimulationSettings | None = None) -> Iterat
         The scene.
     settings
         The current settings, by default ``SimulationSettings()``.
+    complete
+        The complete simulation of the scene, for the observable and the seed of the settings, where
+        it is there already.
 
     Raises
     ------
@@ -63,7 +70,7 @@ def accuracy(scene: Scene, settings: SimulationSettings | None = None) -> Iterat
     check_seed(settings.seed)
     check_size(scene.camera)
     chosen = plan(scene, settings.tolerance, settings.observable, settings.force)
-    return _points(scene, settings, chosen)
+    return _points(scene, settings, chosen, complete)
 
 
 def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int:
@@ -75,9 +82,15 @@ def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int
     return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + noise
 
 
-def _points(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
+def _points(
+    scene: Scene,
+    settings: SimulationSettings,
+    chosen: Plan,
+    complete: CompleteSimulation | None,
+) -> Iterator[AccuracyPoint]:
     yield from _integration(scene, chosen.stretch)
-    yield from _ladder(scene, settings, chosen)
+    complete = complete or CompleteSimulation(scene, settings.observable, settings.seed)
+    yield from _ladder(scene, settings, chosen, complete)
     yield from _paths(scene, settings, chosen)
     yield from _noise_sources(scene, settings, chosen.stretch)
 
@@ -103,32 +116,30 @@ def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
     return saturate(panel_values(scene, ColumnLight(lit, np.ones(1))))
 
 
-def _ladder(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
+def _ladder(
+    scene: Scene, settings: SimulationSettings, chosen: Plan, complete: CompleteSimulation
+) -> Iterator[AccuracyPoint]:
     """Switch the effects on one after the other, the largest bound first."""
-    complete = plan(scene, 0.0, settings.observable)
-    truth = _observed(scene, complete, settings)
-    by_bound = sorted(complete.decisions, key=lambda decision: -decision.bound)
-    steps = [decision.effect for decision in by_bound if decision.included]
+    by_bound = sorted(chosen.decisions, key=lambda decision: -decision.bound)
+    steps = [decision.effect for decision in by_bound if decision.effect in complete.effects]
     for count in range(len(steps) + 1):
-        name = f"+ {_label(complete, steps[count - 1])}" if count else "paper's model"
-        yield _rung(scene, name, frozenset(steps[:count]), settings, truth)
-    yield _rung(scene, "this plan", frozenset(chosen.included), settings, truth, current=True)
+        name = f"+ {_label(chosen, steps[count - 1])}" if count else "paper's model"
+        yield _rung(scene, name, steps[:count], settings, complete)
+    yield _rung(scene, "this plan", chosen.included, settings, complete, current=True)
 
 
 def _rung(
     scene: Scene,
     name: str,
-    effects: frozenset[str],
+    effects: Sequence[str],
     settings: SimulationSettings,
-    truth: Pixels,
+    complete: CompleteSimulation,
     *,
     current: bool = False,
 ) -> AccuracyPoint:
-    step = plan_of_effects(scene, settings.observable, effects)
-    difference = _observed(scene, step, settings) - truth
-    seconds, _ = timed(partial(_rendered, scene, effects, settings))
-    error = rms(difference) * step.stretch
-    return AccuracyPoint("effects", name, seconds, error, current, step.included)
+    error = complete.error_of(effects)
+    seconds, _ = timed(partial(_rendered, scene, frozenset(effects), settings))
+    return AccuracyPoint("effects", name, seconds, error, current, tuple(effects))
 
 
 def _label(chosen: Plan, effect: str) -> str:

@@ -1,6 +1,6 @@
 """Measure what leaving an effect out of the complete simulation changes, and what it looks like."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
-from occ_model.results import EffectCrop, EffectDifference, Plan
+from occ_model.results import EffectDifference, Plan
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer
-from occ_model.study.telling_crop import telling_crop
+from occ_model.study.telling_crop import ICON, telling_crop
 
 _SAMPLES = 2**16
 """Most places in which a change is kept."""
@@ -28,6 +28,8 @@ _MARGIN = 16
 class CompleteSimulation:
     """The simulation of a scene with all its effects, which others are compared with.
 
+    What has been compared once is known from then on.
+
     Parameters
     ----------
     scene
@@ -37,7 +39,7 @@ class CompleteSimulation:
     seed
         Seed of the noise, which is drawn for every pixel, each effect from its own stream.
     timer
-        Times each stage of the simulations.
+        Times each stage.
 
     Raises
     ------
@@ -49,38 +51,64 @@ class CompleteSimulation:
         self, scene: Scene, observable: Observable, seed: int = 1, timer: StageTimer | None = None
     ) -> None:
         self._scene, self._observable, self._seed = scene, observable, seed
-        self._timer = timer
         complete = plan(scene, 0.0, observable)
         self._stretch = complete.stretch
         self.effects = complete.included
         """The names of all effects of the scene."""
-        self._seen = self._simulated(self.effects, observable)
-        self._bare = self._simulated((), "image")
+        self._seen = self._simulated(self.effects, observable, timer)
+        self._bare = self._simulated((), "image", timer)
         size = self._seen.size
         self._places = np.arange(size) if size <= _SAMPLES else _some(size)
+        self._differences: dict[str, EffectDifference] = {}
+        self._errors = {frozenset(self.effects): 0.0}
 
-    def without(self, effect: str) -> EffectDifference:
+    @property
+    def errors(self) -> Mapping[frozenset[str], float]:
+        """The errors measured until now, by the effects of the scene that are included."""
+        return dict(self._errors)
+
+    def without(self, effect: str, timer: StageTimer | None = None) -> EffectDifference:
         """Measure what leaving out one of the effects changes."""
-        others = [name for name in self.effects if name != effect]
-        difference = (self._seen - self._simulated(others, self._observable)).ravel()
+        if effect not in self._differences:
+            self._differences[effect] = self._difference(effect, timer)
+        return self._differences[effect]
+
+    def error_of(self, effects: Iterable[str], timer: StageTimer | None = None) -> float:
+        """Measure the error of a simulation with these effects, in levels."""
+        included = frozenset(self.effects) & frozenset(effects)
+        if included not in self._errors:
+            seen = self._simulated(included, self._observable, timer)
+            self._errors[included] = rms(self._seen - seen) * self._stretch
+        return self._errors[included]
+
+    def _difference(self, effect: str, timer: StageTimer | None) -> EffectDifference:
+        others = frozenset(self.effects) - {effect}
+        difference = (self._seen - self._simulated(others, self._observable, timer)).ravel()
         error = rms(difference) * self._stretch
+        self._errors[others] = error
         change = difference[self._places].astype(np.float64) * self._stretch
         # Of a change that few pixels show, a sample may have more or less than its share.
         change *= error / max(rms(change), np.finfo(float).tiny)
-        return EffectDifference(effect, error, change, self._crop(effect))
+        alone, bare = self._alone(effect, timer)
+        crop, icon = telling_crop(alone, bare), telling_crop(alone, bare, ICON)
+        return EffectDifference(effect, error, change, crop, icon)
 
-    def _crop(self, effect: str) -> EffectCrop:
-        """Show the effect alone: beside all others, noise and file above all, many are not seen."""
-        alone, bare = self._simulated((effect,), "image"), self._bare
-        if rms(alone - bare) < _UNSEEN:  # it may move the panel's outline outwards
-            alone, bare = self._with_margin((effect,)), self._with_margin(())
-        return telling_crop(alone, bare)
+    def _alone(self, effect: str, timer: StageTimer | None) -> tuple[Pixels, Pixels]:
+        """Return the paper's model with one effect, and without it.
 
-    def _with_margin(self, effects: Iterable[str]) -> Pixels:
+        Beside all the others, noise and file above all, many effects could not be seen.
+        """
+        alone = self._simulated((effect,), "image", timer)
+        if rms(alone - self._bare) >= _UNSEEN:
+            return alone, self._bare
+        # It may move the panel's outline outwards.
+        return self._with_margin((effect,), timer), self._with_margin((), timer)
+
+    def _with_margin(self, effects: Iterable[str], timer: StageTimer | None) -> Pixels:
         """Return the camera's pixels of the panel and a little of its surroundings."""
         view = paper_view_of(self._scene)
         chosen = plan_of_effects(self._scene, "image", effects)
-        frame = render_plan(view, chosen, seed=self._seed, timer=self._timer)
+        frame = render_plan(view, chosen, seed=self._seed, timer=timer)
         rows, columns = (
             slice(max(0, first - length // _MARGIN), last + length // _MARGIN)
             for first, last, length in (
@@ -90,17 +118,11 @@ class CompleteSimulation:
         )
         return frame.camera_image[rows, columns].astype(np.float32)
 
-    def error_of(self, effects: Iterable[str]) -> float:
-        """Measure the error of a simulation with these effects, in levels."""
-        included = [name for name in self.effects if name in set(effects)]
-        if len(included) == len(self.effects):
-            return 0.0
-        seen = self._simulated(included, self._observable)
-        return rms(self._seen - seen) * self._stretch
-
-    def _simulated(self, effects: Iterable[str], observable: Observable) -> Pixels:
+    def _simulated(
+        self, effects: Iterable[str], observable: Observable, timer: StageTimer | None
+    ) -> Pixels:
         chosen = plan_of_effects(self._scene, observable, effects)
-        return observe(self._scene, chosen, seed=self._seed, timer=self._timer)
+        return observe(self._scene, chosen, seed=self._seed, timer=timer)
 
 
 def plan_of_effects(scene: Scene, observable: Observable, effects: Iterable[str]) -> Plan:

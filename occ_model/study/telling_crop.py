@@ -7,8 +7,11 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import WHITE
 from occ_model.results import EffectCrop
 
-ROWS, COLUMNS = 64, 112
-"""Size of a crop in pixels."""
+CROP = (64, 112)
+"""Rows and columns of a crop that is looked at closely."""
+
+ICON = (16, 40)
+"""Rows and columns of a crop in a line of a table."""
 
 _KEPT = 0.7
 """Share of a difference that averaging must keep for the averaged panel to show it."""
@@ -20,7 +23,7 @@ _MOST_AMPLIFIED = 256
 _MIDDLE = 128.0
 
 
-def telling_crop(with_effect: Pixels, without: Pixels) -> EffectCrop:
+def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
     """Choose the crop.
 
     A difference that varies slowly is shown on the whole panel, reduced by averaging areas. A fine
@@ -30,9 +33,11 @@ def telling_crop(with_effect: Pixels, without: Pixels) -> EffectCrop:
     ----------
     with_effect, without : ndarray of float32, shape (rows, columns)
         Grey levels of the panel's bounding rectangle in both pictures.
+    most
+        The largest size of the crop, rows and columns.
     """
     difference = with_effect - without
-    size = (min(ROWS, len(difference)), min(COLUMNS, difference.shape[1]))
+    size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))
     small = _averaged(difference, size)
     is_averaged = _rms(small) >= _KEPT * _rms(difference)
     if is_averaged:

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results import EffectDifference, TimeShares
+from occ_model.results import EffectDifference, MeasuredCosts, TimeShares
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable, SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
 from occ_model.study.forecast import forecast
-from occ_model.study.telling_crop import COLUMNS, ROWS, telling_crop
+from occ_model.study.telling_crop import CROP, telling_crop
 
 
 @pytest.fixture(scope="module")
@@ -50,10 +50,10 @@ def test_crops_stretch_both_pictures_alike_and_say_the_amplification() -> None:
     random = np.random.default_rng(5)
     one = random.uniform(40.0, 60.0, (300, 400)).astype(np.float32)
     other = one.copy()
-    checks = np.where(np.indices((ROWS, COLUMNS)).sum(axis=0) % 2, 3.0, -3.0)
-    other[100 : 100 + ROWS, 200 : 200 + COLUMNS] -= checks
+    checks = np.where(np.indices(CROP).sum(axis=0) % 2, 3.0, -3.0)
+    other[100:164, 200:312] -= checks
     crop = telling_crop(one, other)
-    assert crop.with_effect.shape == crop.without.shape == crop.difference.shape == (ROWS, COLUMNS)
+    assert crop.with_effect.shape == crop.without.shape == crop.difference.shape == CROP
     assert not crop.is_averaged
     np.testing.assert_allclose(crop.difference, 128 + checks * crop.amplification, atol=1)
     both = crop.with_effect.astype(int) - crop.without
@@ -87,7 +87,7 @@ def test_the_times_of_a_picture_add_up_to_the_pictures_time(scene: Scene, tolera
 def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
     settings = SimulationSettings(3.0, noise="reused")
     measured = TimeShares.of(occ.render(scene, tolerance=3.0, noise="reused"))
-    found = forecast(scene, settings, measured, None, None, {})
+    found = forecast(scene, settings, MeasuredCosts(measured))
     assert found.seconds == pytest.approx(measured.seconds, rel=1e-12)
 
 
@@ -97,15 +97,25 @@ def test_a_forecast_adds_what_is_switched_and_knows_what_it_does_not(
     complete = TimeShares.of(occ.render(scene, tolerance=0.0, noise="reused"))
     bare = TimeShares.of(occ.render(scene, tolerance=np.inf))
     off = SimulationSettings(0.0, force={"jpeg": False}, noise="reused")
-    found = forecast(scene, off, complete, None, None, differences)
+    found = forecast(scene, off, MeasuredCosts(complete, (), differences))
     assert found.error == pytest.approx(differences["jpeg"].error)
+    assert not found.is_measured
     assert found.seconds == pytest.approx(complete.seconds - complete.effects["jpeg"], rel=1e-12)
     none = replace(off, tolerance=np.inf, force={})
-    assert forecast(scene, none, complete, None, None, {}).seconds is None
-    assert forecast(scene, none, complete, None, None, {}).error is None
-    assert forecast(scene, none, complete, complete, bare, {}).seconds == pytest.approx(
-        bare.seconds, rel=1e-12
-    )
+    unknown = forecast(scene, none, MeasuredCosts(complete))
+    assert (unknown.seconds, unknown.error) == (None, None)
+    known = forecast(scene, none, MeasuredCosts(complete, (bare,)))
+    assert known.seconds == pytest.approx(bare.seconds, rel=1e-12)
+
+
+def test_a_forecast_takes_an_error_that_was_measured_as_a_whole(scene: Scene) -> None:
+    shares = TimeShares.of(occ.render(scene, tolerance=0.0))
+    off = SimulationSettings(0.0, force={"jpeg": False, "flicker": False})
+    included = frozenset(occ.plan(scene, 0.0, force=off.force).included)
+    found = forecast(scene, off, MeasuredCosts(shares, errors={included: 1.5}))
+    assert (found.error, found.is_measured) == (1.5, True)
+    found = forecast(scene, SimulationSettings(0.0), MeasuredCosts(shares))
+    assert (found.error, found.is_measured) == (0.0, True)
 
 
 def test_changes_that_do_not_influence_each_other_add_up(scene: Scene) -> None:
@@ -115,7 +125,7 @@ def test_changes_that_do_not_influence_each_other_add_up(scene: Scene) -> None:
     differences = {name: complete.without(name) for name in left_out}
     settings = SimulationSettings(0.0, "profile", dict.fromkeys(left_out, False))
     shares = TimeShares.of(occ.render(plain, tolerance=0.0))
-    predicted = forecast(plain, settings, shares, None, None, differences).error
+    predicted = forecast(plain, settings, MeasuredCosts(shares, (), differences)).error
     true = complete.error_of(set(complete.effects) - set(left_out))
     assert predicted == pytest.approx(true, rel=0.3)
 

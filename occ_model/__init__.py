@@ -26,6 +26,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         OutputError as OutputError,
         ParameterError as ParameterError,
         PhotoError as PhotoError,
+        PluginError as PluginError,
         PresetError as PresetError,
         ProjectionError as ProjectionError,
         SceneFileError as SceneFileError,
@@ -42,6 +43,9 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     )
     from occ_model.photo.stripes.find import find_stripes as find_stripes
     from occ_model.receiver.decode import decode as decode
+    from occ_model.receiver.decoder import Decoder as Decoder
+    from occ_model.receiver.decoders import decoders as decoders
+    from occ_model.receiver.read_payload import read_payload as read_payload
     from occ_model.results import (
         Alternative as Alternative,
         ChipReading as ChipReading,
@@ -76,7 +80,22 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.study.limits import limits as limits
     from occ_model.study.success_rate import success_rate as success_rate
     from occ_model.study.sweep.sweep import sweep as sweep
+    from occ_model.transmitter.framings.framing import (
+        Framed as Framed,
+        FrameFormat as FrameFormat,
+        Framing as Framing,
+    )
+    from occ_model.transmitter.framings.registry import framings as framings
+    from occ_model.transmitter.line_codes.line_code import (
+        Decoded as Decoded,
+        LineCode as LineCode,
+    )
+    from occ_model.transmitter.line_codes.registry import line_codes as line_codes
     from occ_model.transmitter.packet import packet as packet
+    from occ_model.transmitter.scheme import (
+        Scheme as Scheme,
+        scheme_of as scheme_of,
+    )
 
 # isort: on
 
@@ -88,9 +107,15 @@ _MODULES = {
     "Decision": "results",
     "DecodeInputError": "errors",
     "DecodeResult": "results",
+    "Decoded": "transmitter.line_codes.line_code",
+    "Decoder": "receiver.decoder",
     "Frame": "results",
+    "FrameFormat": "transmitter.framings.framing",
+    "Framed": "transmitter.framings.framing",
+    "Framing": "transmitter.framings.framing",
     "Lamp": "results",
     "Limits": "results",
+    "LineCode": "transmitter.line_codes.line_code",
     "Match": "results",
     "MatchError": "errors",
     "OccError": "errors",
@@ -100,11 +125,13 @@ _MODULES = {
     "PhotoError": "errors",
     "PhotoTable": "results",
     "Plan": "results",
+    "PluginError": "errors",
     "PresetError": "errors",
     "ProjectionError": "errors",
     "Region": "results",
     "Scene": "scene.scene",
     "SceneFileError": "errors",
+    "Scheme": "transmitter.scheme",
     "SimulationSettings": "scene.simulation_settings",
     "Stripes": "results",
     "SweepTable": "results",
@@ -114,10 +141,13 @@ _MODULES = {
     "column_profile": "camera.photometry",
     "compare": "photo.comparison",
     "decode": "receiver.decode",
+    "decoders": "receiver.decoders",
     "delete_preset": "scene.presets",
     "find_lamps": "photo.lamps.find",
     "find_stripes": "photo.stripes.find",
+    "framings": "transmitter.framings.registry",
     "limits": "study.limits",
+    "line_codes": "transmitter.line_codes.registry",
     "load_photo": "photo.reading.load",
     "load_preset": "scene.presets",
     "match_lamps": "photo.lamps.match",
@@ -129,8 +159,10 @@ _MODULES = {
     "plan": "effects.plan",
     "presets": "scene.presets",
     "read_chips": "photo.chips.read",
+    "read_payload": "receiver.read_payload",
     "render": "simulation.render",
     "save_preset": "scene.presets",
+    "scheme_of": "transmitter.scheme",
     "success_rate": "study.success_rate",
     "sweep": "study.sweep.sweep",
     "wilson_interval": "study.confidence",

@@ -73,6 +73,10 @@ class MatchError(OccError):
         return tuple(map(str, self.args))
 
 
+class PluginError(OccError):
+    """A plug-in cannot be imported, or does not do what it should."""
+
+
 class OutputError(OccError):
     """A result cannot be written to the file named."""
 

@@ -54,8 +54,8 @@ class CodeEntry(QWidget):
     def show_scene(self, scene: Scene) -> None:
         """Show the code of a scene without emitting a signal."""
         transmitter = scene.transmitter
-        # A raw pattern is sent in place of the code.
-        self.setEnabled(not transmitter.pattern)
+        # A raw pattern or a payload is sent in place of the code.
+        self.setEnabled(not transmitter.pattern and not transmitter.payload)
         if (transmitter.bits, transmitter.code) == (self._bits, self._code):
             return
         self._bits = transmitter.bits

@@ -21,8 +21,10 @@ from occ_model.scene.parameter_kinds import (
     Choice,
     Count,
     Declaration,
+    OpenChoice,
     Parameter,
     ParameterValue,
+    Payload,
     Quantity,
 )
 
@@ -153,9 +155,11 @@ class CountRow(ParameterRow):
 class ChoiceRow(ParameterRow):
     """A list of choices."""
 
-    def __init__(self, declared: Choice, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, declared: Choice, parent: QWidget | None = None, field: QComboBox | None = None
+    ) -> None:
         super().__init__(declared, parent)
-        self.field = QComboBox()
+        self.field = field or QComboBox()
         self.field.addItems(declared.choices)
         keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
@@ -165,15 +169,42 @@ class ChoiceRow(ParameterRow):
         self.field.setCurrentText(str(value))
 
 
-class PatternRow(ParameterRow):
-    """A text field for a pattern of chips."""
+class OpenChoiceBox(QComboBox):
+    """A list of choices that is completed before it opens."""
 
-    def __init__(self, declared: ChipPattern, parent: QWidget | None = None) -> None:
+    def __init__(self, declared: OpenChoice, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._declared = declared
+
+    def showPopup(self) -> None:  # noqa: N802 - Qt's name
+        """Open the list, with the plug-ins that are installed."""
+        for choice in self._declared.all_choices():
+            if self.findText(choice) < 0:
+                self.addItem(choice)
+        super().showPopup()
+
+
+class OpenChoiceRow(ChoiceRow):
+    """A list of the built-in choices and those of plug-ins."""
+
+    def __init__(self, declared: OpenChoice, parent: QWidget | None = None) -> None:
+        super().__init__(declared, parent, OpenChoiceBox(declared))
+
+    def _display(self, value: ParameterValue) -> None:
+        if self.field.findText(str(value)) < 0:  # a plug-in's
+            self.field.addItem(str(value))
+        super()._display(value)
+
+
+class PatternRow(ParameterRow):
+    """A text field for a pattern of chips or a payload."""
+
+    def __init__(self, declared: ChipPattern | Payload, parent: QWidget | None = None) -> None:
         super().__init__(declared, parent)
         self._declared = declared
         self._shown = ""
         self.field = QLineEdit()
-        self.field.setPlaceholderText(self.tr("empty: packets"))
+        self.field.setPlaceholderText(self.tr("empty: {what}").format(what=declared.empty))
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self._gestures.end)
@@ -207,9 +238,11 @@ def row_for(declared: Parameter) -> ParameterRow:
             return QuantityRow(declared)
         case Count():
             return CountRow(declared)
+        case OpenChoice():
+            return OpenChoiceRow(declared)
         case Choice():
             return ChoiceRow(declared)
-        case ChipPattern():
+        case ChipPattern() | Payload():
             return PatternRow(declared)
 
 

@@ -22,7 +22,6 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import enhanced_band_profile
 from occ_model.simulation.render import render_with
-from occ_model.transmitter.packet import bits_of
 
 _PAINT_TIME = 0.004
 """Seconds between the delivery of a picture and its decoding, for the window to paint it."""
@@ -69,7 +68,7 @@ def _snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     except occ.BandModelUndefined as reason:
         undefined = str(reason)
     transmitter = scene.transmitter
-    sent = () if transmitter.pattern else bits_of(transmitter.code, transmitter.bits)
+    sent = () if transmitter.pattern else transmitter.payload_bits
     chip_columns = transmitter.switching_period / scene.camera.readout_time
     left, top = frame.corners.min(axis=0).tolist()
     return Snapshot(

@@ -19,8 +19,9 @@ from occ_model.results import Match, Region, Stripes
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Lens, Scene
-from occ_model.transmitter import line_code
-from occ_model.transmitter.packet import HEADER, code_of, packet_length, sent_chips
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.line_codes import differential_manchester
+from occ_model.transmitter.packet import code_of, packet_length, sent_chips
 
 ESTIMATES = ("readout_time", "switching_frequency")
 """The parameters of which one is estimated and the other one is known."""
@@ -191,7 +192,9 @@ def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
             packet = np.roll(chips, -turned)
             if tuple(packet[: len(HEADER)]) != HEADER:
                 continue
-            read, violations = line_code.decode(packet[len(HEADER) :], level=HEADER[-1])
+            read, violations = differential_manchester.decode(
+                packet[len(HEADER) :], level=HEADER[-1]
+            )
             sent = scene.replace(pattern="", code=code_of(read.tolist()))
             if not violations and np.array_equal(sent_chips(sent.transmitter), packet):
                 return sent, turned

@@ -106,6 +106,9 @@ class DecodeResult:
     bits : ndarray of uint8
         The bits read, the first sent first; empty where none were read. They can be present with a
         failure, when the chips break the line code.
+    payload
+        The bits read as the scene writes its payload, as text, hex digits or bits; empty where the
+        scene sends a code.
     region
         The rectangle of the image that was read.
     location
@@ -147,6 +150,7 @@ class DecodeResult:
     failure: str | None = None
     code: int | None = None
     bits: ByteArray = field(default_factory=_nothing)
+    payload: str = ""
     region: Region | None = None
     location: Location | None = None
     signal: FloatArray | None = None

@@ -1,4 +1,4 @@
-"""Kinds of parameter: quantities, counts, choices, chip patterns; each checks and reads a value.
+"""Kinds of parameter: quantities, counts, choices, patterns, payloads; each checks a value.
 
 Values are in SI units; a unit says how they are shown (:mod:`occ_model.scene.units`).
 """
@@ -9,6 +9,8 @@ from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
 from occ_model.errors import ParameterError, shown
+from occ_model.plugins import plugin_names
+from occ_model.scene.payload import PAYLOADS, canonical
 from occ_model.scene.units import LONGEST_TEXT, Unit
 
 ParameterValue: TypeAlias = float | int | str
@@ -217,21 +219,79 @@ class Choice(Declaration):
 
 
 @dataclass(frozen=True, slots=True)
-class ChipPattern(Declaration):
-    """A string of 0 and 1, or nothing."""
+class OpenChoice(Choice):
+    """One of a few words, or the name of a plug-in.
+
+    ``choices`` are the built-in ones. Plug-ins of the entry point ``group`` are looked up when a
+    value is none of these.
+    """
+
+    group: str
+
+    @property
+    def allowed(self) -> str:
+        """The built-in words."""
+        return f"{', '.join(self.choices)}, or a plug-in's name"
+
+    def all_choices(self) -> tuple[str, ...]:
+        """Return the built-in words and the names of the plug-ins that are installed."""
+        return tuple(dict.fromkeys((*self.choices, *plugin_names(self.group))))
+
+    def check(self, value: object) -> str:
+        """Return ``value``, or raise :class:`ParameterError`."""
+        if isinstance(value, str) and (value in self.choices or value in self.all_choices()):
+            return value
+        raise self.refuse(f"is {shown(value)}", ", ".join(self.all_choices()))
+
+
+@dataclass(frozen=True, slots=True)
+class Payload(Declaration):
+    """What is sent: a text, bytes or bits; or nothing."""
 
     default: str
+    empty: str = "the code"
+    """What is sent where there is no payload."""
 
     @property
     def allowed(self) -> str:
         """What is allowed, in words."""
-        return f"nothing, or up to {MAX_PATTERN_CHIPS} characters 0 and 1"
+        return f"nothing, or {PAYLOADS}"
+
+    def check(self, value: object) -> str:
+        """Return ``value`` in its shortest form, or raise :class:`ParameterError`."""
+        try:
+            return canonical(value)
+        except ValueError as problem:
+            raise self.refuse(str(problem), self.allowed) from None
+
+    def parse(self, text: str) -> str:
+        """Read a payload."""
+        return self.check(text)
+
+    def format(self, value: str) -> str:
+        """Write a value."""
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class ChipPattern(Declaration):
+    """A string of 0 and 1, or nothing."""
+
+    default: str
+    most: int = MAX_PATTERN_CHIPS
+    empty: str = "packets"
+    """What is sent where there is no pattern."""
+
+    @property
+    def allowed(self) -> str:
+        """What is allowed, in words."""
+        return f"nothing, or up to {self.most} characters 0 and 1"
 
     def check(self, value: object) -> str:
         """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or set(value) - {"0", "1"}:
             raise self.refuse(f"is {shown(value)}", self.allowed)
-        if len(value) > MAX_PATTERN_CHIPS:
+        if len(value) > self.most:
             raise self.refuse(f"has {len(value)} chips", self.allowed)
         return value
 
@@ -244,4 +304,4 @@ class ChipPattern(Declaration):
         return value
 
 
-Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern
+Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload

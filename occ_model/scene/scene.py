@@ -9,6 +9,7 @@ from occ_model.errors import ParameterError, SceneFileError, one_line, shown
 from occ_model.scene import toml_format
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS, parameter_named
+from occ_model.scene.payload import bits_of_payload
 
 _DIAGONAL_35MM = 0.04327
 """Diagonal of a 24 mm x 36 mm picture in metres, to which equivalent focal lengths refer."""
@@ -37,6 +38,11 @@ class Transmitter(_Checked):
 
     code: int = _declared("code")
     bits: int = _declared("bits")
+    payload: str = _declared("payload")
+    line_code: str = _declared("line_code")
+    framing: str = _declared("framing")
+    preamble: str = _declared("preamble")
+    error_correction: str = _declared("error_correction")
     pattern: str = _declared("pattern")
     switching_frequency: float = _declared("switching_frequency")
     luminance: float = _declared("luminance")
@@ -52,6 +58,13 @@ class Transmitter(_Checked):
                 f"code is {self.code}; allowed with {self.bits} bits: 0 to {2**self.bits - 1}.",
                 parameters=("code", "bits"),
             )
+
+    @property
+    def payload_bits(self) -> tuple[int, ...]:
+        """The bits that are sent, first sent first: the payload's, or the code's without one."""
+        if self.payload:
+            return bits_of_payload(self.payload)
+        return tuple(self.code >> place & 1 for place in reversed(range(self.bits)))
 
     @property
     def switching_period(self) -> float:

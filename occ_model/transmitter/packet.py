@@ -1,4 +1,4 @@
-"""The packet: a header and line-coded bits, sent repeatedly."""
+"""The packet: what is sent repeatedly, by the paper's scheme or any other."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -7,14 +7,9 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.scene.scene import Scene, Transmitter
-from occ_model.transmitter import line_code
-
-HEADER = (1, 1, 1, 0)
-"""The header: three ones, which no line-coded data contain, and a zero.
-
-The paper names only the three ones. Without the zero the code 0 and the code with only its first
-bit set would send the same endless chip sequence.
-"""
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.line_codes import differential_manchester
+from occ_model.transmitter.scheme import scheme_named
 
 
 def bits_of(code: int, bits: int) -> tuple[int, ...]:
@@ -31,7 +26,7 @@ def code_of(bits: Iterable[int]) -> int:
 
 
 def packet_length(bits: int) -> int:
-    """Count the chips of a packet."""
+    """Count the chips of a packet of the paper's scheme."""
     return len(HEADER) + 2 * bits
 
 
@@ -41,29 +36,50 @@ def sent_chips(transmitter: Transmitter) -> ByteArray:
     Returns
     -------
     ndarray of uint8, shape (chips,), read-only
+
+    Raises
+    ------
+    ParameterError
+        Line code and framing do not go together, or a package is missing.
+    PluginError
+        A plug-in fails.
     """
-    return _sent_chips(transmitter.code, transmitter.bits, transmitter.pattern)
+    if transmitter.pattern:
+        return _pattern_chips(transmitter.pattern)
+    return _payload_chips(
+        transmitter.payload_bits,
+        transmitter.line_code,
+        transmitter.framing,
+        transmitter.preamble,
+        transmitter.error_correction,
+    )
+
+
+@lru_cache(maxsize=64)
+def _pattern_chips(pattern: str) -> ByteArray:
+    chips = np.frombuffer(pattern.encode("ascii"), dtype=np.uint8) - np.uint8(ord("0"))
+    chips.flags.writeable = False
+    return chips
 
 
 @lru_cache(maxsize=256)
-def _sent_chips(code: int, bits: int, pattern: str) -> ByteArray:
-    if pattern:
-        chips = np.frombuffer(pattern.encode("ascii"), dtype=np.uint8) - np.uint8(ord("0"))
-    else:
-        chips = packets(np.array([code]), bits)[0]
+def _payload_chips(
+    bits: tuple[int, ...], line_code: str, framing: str, preamble: str, correction: str
+) -> ByteArray:
+    chips = scheme_named(line_code, framing, preamble, correction, len(bits)).encode(bits)
     chips.flags.writeable = False
     return chips
 
 
 def packets(codes: IndexArray, bits: int) -> ByteArray:
-    """Return the packets of some codes.
+    """Return the packets of some codes by the paper's scheme.
 
     Returns
     -------
     ndarray of uint8, shape (codes, chips)
     """
     places = np.arange(bits)[::-1]
-    data = line_code.encode(codes[:, None] >> places & 1, level=HEADER[-1])
+    data = differential_manchester.encode(codes[:, None] >> places & 1, level=HEADER[-1])
     header = np.broadcast_to(np.array(HEADER, dtype=np.uint8), (len(codes), len(HEADER)))
     return np.concatenate([header, data], axis=1)
 
@@ -74,6 +90,7 @@ def packet(scene: Scene) -> ByteArray:
     Returns
     -------
     ndarray of uint8, shape (chips,), read-only
-        The header, a zero and two chips a bit; or the raw pattern where the scene has one.
+        Of the paper's scheme the header, a zero and two chips a bit; or the raw pattern where the
+        scene has one.
     """
     return sent_chips(scene.transmitter)

@@ -7,12 +7,13 @@ from typing import TypeVar
 import numpy as np
 import pytest
 from hypothesis import strategies as st
+from payloads import PAYLOADS
 
 import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, decades, signed_decades, within
 from occ_model.effects.registry import NAMES
-from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable
@@ -27,6 +28,8 @@ def quantities(name: str) -> st.SearchStrategy[float | int | str]:
         return st.sampled_from(declared.choices)
     if isinstance(declared, ChipPattern):
         return PATTERNS
+    if isinstance(declared, Payload):
+        return PAYLOADS
     if isinstance(declared, Count):
         return st.integers(declared.low, declared.high)
     low, high, default = declared.low, declared.high, declared.default

@@ -17,7 +17,8 @@ from occ_model.study.paper_grid import (
     point_scene,
 )
 from occ_model.study.sweep.sweep import run_sweep
-from occ_model.transmitter.packet import HEADER, packet_length
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.packet import packet_length
 
 
 @cache

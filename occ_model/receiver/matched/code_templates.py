@@ -7,7 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.transmitter.packet import HEADER, packet_length, packets
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.packet import packet_length, packets
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 BINS_PER_CHIP = 8

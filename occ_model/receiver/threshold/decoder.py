@@ -6,11 +6,12 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.read_payload import read_payload
 from occ_model.receiver.signal import otsu_threshold, why_flat
-from occ_model.receiver.threshold.framing import read_packet
 from occ_model.receiver.threshold.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.scheme import scheme_of
 
 _SHORTEST_CHIP = 1.0
 """Columns of a chip below which run lengths do not give numbers of chips."""
@@ -20,16 +21,17 @@ _FEWEST_RUNS = 3
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the code from a signal; of the scene only the number of bits is known.
+    """Read the payload from a signal; of the scene scheme and number of bits are known.
 
-    For a raw pattern, whose runs have no scale, the length of a chip is known too.
+    For a raw pattern, whose runs have no scale, and for other schemes than the paper's the length
+    of a chip is known too.
 
     Parameters
     ----------
     signal : ndarray of float64, shape (columns,)
         Mean grey level of each column.
     scene
-        Its transmitter says how many bits a code has, or that no packets are sent.
+        Its transmitter says by which scheme how many bits are sent, or that no packets are.
 
     Returns
     -------
@@ -49,28 +51,21 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
             "come closer or raise the frequency.",
         )
+    knows_length = scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers
+    if knows_length and _nominal_length(scene) < _SHORTEST_CHIP:
+        return replace(
+            result,
+            failure=f"A chip lasts {_nominal_length(scene):.2g} columns: runs of columns cannot "
+            "tell how many chips they hold.",
+        )
     if scene.transmitter.pattern:
         return _read_pattern(result, runs, whole, scene)
     read = _read_chips(result, runs, whole, scene)
-    framed = read_packet(read.chips, scene.transmitter.bits)
-    return replace(
-        read,
-        headers=framed.headers,
-        bits=framed.bits,
-        code=framed.code,
-        failure=framed.failure,
-    )
+    return read_payload(read, scene)
 
 
 def _read_pattern(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
     """Read the chips of a raw pattern, which holds no code."""
-    nominal = scene.transmitter.switching_period / scene.camera.readout_time
-    if nominal < _SHORTEST_CHIP:
-        return replace(
-            result,
-            failure=f"A chip lasts {nominal:.2g} columns: runs of columns cannot tell how many "
-            "chips they hold.",
-        )
     read = _read_chips(result, runs, whole, scene)
     return replace(
         read,
@@ -82,8 +77,8 @@ def _read_pattern(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -
 def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
     """Convert runs to chips; of the first and last run only the part in the image counts."""
     histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
-    if scene.transmitter.pattern:
-        fit = fit_pattern(whole, scene.transmitter.switching_period / scene.camera.readout_time)
+    if scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers:
+        fit = fit_pattern(whole, _nominal_length(scene))
     else:
         fit = fit_chips(whole, histograms)
     counts = fit.chips_in(runs)
@@ -98,6 +93,11 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> 
         chips=np.repeat(runs.values, counts),
         chip_starts=chip_starts,
     )
+
+
+def _nominal_length(scene: Scene) -> float:
+    """Return the columns that are read out while one chip lasts."""
+    return scene.transmitter.switching_period / scene.camera.readout_time
 
 
 DECODER = Decoder("threshold", "The paper's: threshold and run lengths", read_signal)

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 from occ_model.errors import ParameterError, shown
-from occ_model.scene.parameter_kinds import Count, Parameter, Quantity
+from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Quantity
 from occ_model.scene.parameters.camera import CAMERA, LENS, SENSOR
 from occ_model.scene.parameters.light import SURROUNDINGS, TRANSMITTER
 from occ_model.scene.parameters.pose_receiver_model import MODEL, POSE, RECEIVER
@@ -59,4 +59,18 @@ def quantity(name: str) -> Quantity:
     declared = PARAMETERS[name]
     if not isinstance(declared, Quantity):
         raise TypeError(f"{name} is no quantity")
+    return declared
+
+
+def open_choice(name: str) -> OpenChoice:
+    """Return the declaration of a parameter that is a choice which plug-ins extend.
+
+    Raises
+    ------
+    TypeError
+        It is of another kind.
+    """
+    declared = PARAMETERS[name]
+    if not isinstance(declared, OpenChoice):
+        raise TypeError(f"{name} is no choice that plug-ins extend")
     return declared

@@ -2,15 +2,68 @@
 
 import math
 
-from occ_model.scene.parameter_kinds import ChipPattern, Count, Parameter, Quantity
+from occ_model import plugins
+from occ_model.scene.parameter_kinds import (
+    ChipPattern,
+    Choice,
+    Count,
+    OpenChoice,
+    Parameter,
+    Payload,
+    Quantity,
+)
 from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND
 
 MAX_BITS = 16
+
+MAX_PREAMBLE_CHIPS = 64
 
 # fmt: off
 TRANSMITTER: tuple[Parameter, ...] = (
     Count("code", "Code", "", "The number sent, from 0 to 2^bits - 1.", 0, 2**MAX_BITS - 1, 718),
     Count("bits", "Bits", "", "How many bits the code has.", 2, MAX_BITS, 10),
+    Payload(
+        "payload",
+        "Payload",
+        "",
+        "Text, bytes or bits that are sent in place of the code; empty: the code.",
+        "",
+    ),
+    OpenChoice(
+        "line_code",
+        "Line code",
+        "",
+        "The rule that turns bits into chips.",
+        ("differential-manchester", "manchester", "nrz", "4b6b", "8b10b", "fsk"),
+        "differential-manchester",
+        group=plugins.LINE_CODES,
+    ),
+    OpenChoice(
+        "framing",
+        "Framing",
+        "",
+        "How the chips show where a payload starts, and whether it was read rightly.",
+        ("paper", "preamble", "c-ook", "raw"),
+        "paper",
+        group=plugins.FRAMINGS,
+    ),
+    ChipPattern(
+        "preamble",
+        "Preamble",
+        "",
+        "Chips that start a frame of the framings preamble and raw; empty: the line code's own.",
+        "",
+        most=MAX_PREAMBLE_CHIPS,
+        empty="the line code's own",
+    ),
+    Choice(
+        "error_correction",
+        "Error correction",
+        "",
+        "Bytes added to the payload, by which wrong ones are corrected.",
+        ("none", "reed-solomon"),
+        "none",
+    ),
     ChipPattern(
         "pattern",
         "Raw chip pattern",

@@ -7,15 +7,31 @@ from pytestqt.qtbot import QtBot
 from occ_gui.scene.parameter_rows import (
     ChoiceRow,
     CountRow,
+    OpenChoiceRow,
     PatternRow,
     QuantityRow,
     explain,
     row_for,
 )
-from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, ParameterValue, Quantity
+from occ_model.scene.parameter_kinds import (
+    ChipPattern,
+    Choice,
+    Count,
+    OpenChoice,
+    ParameterValue,
+    Payload,
+    Quantity,
+)
 from occ_model.scene.parameters import PARAMETERS
 
-KINDS = {Quantity: QuantityRow, Count: CountRow, Choice: ChoiceRow, ChipPattern: PatternRow}
+KINDS = {
+    Quantity: QuantityRow,
+    Count: CountRow,
+    Choice: ChoiceRow,
+    OpenChoice: OpenChoiceRow,
+    ChipPattern: PatternRow,
+    Payload: PatternRow,
+}
 
 
 class Told:
@@ -48,6 +64,11 @@ def test_showing_a_value_tells_nothing(qtbot: QtBot, name: str) -> None:
     declared = PARAMETERS[name]
     others: dict[str, ParameterValue] = {
         "pattern": "0110",
+        "preamble": "0110",
+        "payload": "text:A",
+        "line_code": "4b6b",
+        "framing": "raw",
+        "error_correction": "reed-solomon",
         "averaging": "light",
         "enhancement": "none",
         "band_reading": "charitable",

@@ -8,10 +8,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from payloads import PAYLOADS
 
 import occ_model.scene.scene
 from occ_model.errors import ParameterError
-from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Parameter, Quantity
+from occ_model.scene.parameter_kinds import (
+    ChipPattern,
+    Choice,
+    Count,
+    Parameter,
+    Payload,
+    Quantity,
+)
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene, group_of
 
@@ -27,6 +35,8 @@ def values(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
             return st.sampled_from(parameter.choices)
         case ChipPattern():
             return st.text("01", max_size=40)
+        case Payload():
+            return PAYLOADS
 
 
 # A code must fit its bits: the law of that has tests of its own.
@@ -86,6 +96,8 @@ def test_scenes_that_differ_in_one_parameter_are_not_equal(parameter: Parameter)
             other = parameter.choices[-1]
         case ChipPattern():
             other = "01"
+        case Payload():
+            other = "text:A"
     assert Scene().replace(**{parameter.name: other}) != Scene()
 
 

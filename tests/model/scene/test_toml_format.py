@@ -3,9 +3,10 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from payloads import PAYLOADS
 
 from occ_model.errors import OccError, ParameterError, SceneFileError
-from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Quantity
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import GROUPS, Scene
@@ -26,6 +27,8 @@ def scenes(draw: st.DrawFn) -> Scene:
                 changes[name] = draw(st.sampled_from(parameter.choices))
             case ChipPattern():
                 changes[name] = draw(st.text("01", max_size=40))
+            case Payload():
+                changes[name] = draw(PAYLOADS)
     declared = PARAMETERS["bits"]
     assert isinstance(declared, Count)
     fewest = max(declared.low, int(changes["code"]).bit_length())

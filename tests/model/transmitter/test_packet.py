@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
-from occ_model.transmitter import line_code
-from occ_model.transmitter.packet import HEADER, bits_of, code_of, packet_length, sent_chips
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.line_codes import differential_manchester
+from occ_model.transmitter.packet import bits_of, code_of, packet_length, sent_chips
 
 BITS = 10
 CODES = range(2**BITS)
@@ -68,7 +69,7 @@ def test_no_two_codes_make_the_same_endless_sequence() -> None:
 def test_with_three_ones_alone_codes_0_and_512_would_be_the_same() -> None:
     sequences: dict[bytes, list[int]] = {}
     for code in CODES:
-        data = line_code.encode(bits_of(code, BITS), level=1)
+        data = differential_manchester.encode(bits_of(code, BITS), level=1)
         sequences.setdefault(endless([1, 1, 1, *data.tolist()]), []).append(code)
     assert [codes for codes in sequences.values() if len(codes) > 1] == [[0, 512]]
 

@@ -1,4 +1,4 @@
-"""The line code: differential Manchester, in the convention of IEEE 802.5.
+"""Differential Manchester, the paper's line code, in the convention of IEEE 802.5.
 
 Every bit is two chips with a transition between them. A bit 0 has a transition at its start as
 well, a bit 1 has none. A run of equal chips is therefore never longer than two.
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from occ_model.arrays import ByteArray
+from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, no_whole_blocks
 
 
 def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
@@ -53,3 +54,33 @@ def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
     before = np.concatenate([[np.uint8(level)], second[:-1]])
     bits = (first == before).astype(np.uint8)
     return bits, np.flatnonzero(first == second).tolist()
+
+
+def no_transitions(violations: list[int], bits: int) -> str | None:
+    """Return the sentence about bits without a transition in their middle, None without any."""
+    if not violations:
+        return None
+    return (
+        f"Bit {violations[0] + 1} of {bits} has no transition in its middle: "
+        f"{len(violations)} of {bits} bits break the line code."
+    )
+
+
+def _decode(chips: ByteArray, level: int) -> Decoded:
+    if len(chips) % 2:
+        return no_whole_blocks(len(chips), 2)
+    bits, violations = decode(chips, level)
+    return Decoded(bits, tuple(violations), no_transitions(violations, len(bits)))
+
+
+LINE_CODE = LineCode(
+    "differential-manchester",
+    "Differential Manchester (IEEE 802.5, the paper's)",
+    block_bits=1,
+    block_chips=2,
+    longest_run=2,
+    disparity=0,
+    finds_wrong_chip=True,
+    encode=encode,
+    decode=_decode,
+)

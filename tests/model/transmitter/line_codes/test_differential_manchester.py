@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from occ_model.transmitter.line_code import decode, encode
+from occ_model.transmitter.line_codes.differential_manchester import decode, encode
 
 BITS = 10
 

@@ -1,0 +1,96 @@
+"""Plug-ins: what installed packages offer under an entry point, read when first asked for."""
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, TypeVar
+
+from occ_model.errors import PluginError, one_line
+
+if TYPE_CHECKING:  # its import is slow, and most scenes ask for no plug-in
+    from importlib.metadata import EntryPoint
+
+LINE_CODES = "occ_explorer.line_codes"
+FRAMINGS = "occ_explorer.framings"
+DECODERS = "occ_explorer.decoders"
+
+_Kind = TypeVar("_Kind")
+
+FAULTS = (Exception, SystemExit)
+"""What a plug-in may raise that does not end the program."""
+
+
+@lru_cache(maxsize=8)
+def _found(group: str) -> "dict[str, EntryPoint]":
+    """Find the entry points of a group, the first of each name."""
+    from importlib.metadata import entry_points
+
+    try:
+        offered = tuple(entry_points(group=group))
+    except Exception:  # noqa: BLE001 - a package's description may be damaged in any way
+        return {}
+    found: dict[str, EntryPoint] = {}
+    for entry in offered:
+        found.setdefault(entry.name, entry)
+    return found
+
+
+def plugin_names(group: str) -> tuple[str, ...]:
+    """Return the names that plug-ins offer in a group, without importing any of them."""
+    return tuple(_found(group))
+
+
+def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
+    """Import what a plug-in offers.
+
+    Parameters
+    ----------
+    group
+        The entry point.
+    name
+        The plug-in's name in it, which the object must have as well.
+    kind
+        The type that the object must have.
+
+    Raises
+    ------
+    PluginError
+        There is no such plug-in, its import fails, or it is something else.
+    """
+    entry = _found(group).get(name)
+    if entry is None:
+        raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")
+    try:
+        offered = entry.load()
+    except FAULTS as error:
+        raise PluginError(f"{described(group, name)} cannot be imported: {reason(error)}") from None
+    if not isinstance(offered, kind):
+        raise PluginError(
+            f"{described(group, name)} is a {type(offered).__name__}, not a {kind.__name__}."
+        )
+    own = getattr(offered, "name", None)
+    if own != name:
+        raise PluginError(f"{described(group, name)} calls itself {one_line(str(own))!r}.")
+    return offered
+
+
+def described(group: str, name: str) -> str:
+    """Name a plug-in and the package that it comes from, as the start of a sentence."""
+    entry = _found(group).get(name)
+    package = entry.dist.name if entry is not None and entry.dist is not None else "?"
+    return f"The plug-in {one_line(name)!r} of the package {one_line(str(package))!r}"
+
+
+def reason(error: BaseException) -> str:
+    """Write an exception of a plug-in as the end of a sentence."""
+    try:
+        text = one_line(str(error))
+    except FAULTS:
+        text = "it gives no reason"
+    return f"{type(error).__name__}: {text}."
+
+
+def forget_plugins(*caches: Callable[[], None]) -> None:
+    """Look for plug-ins anew when they are next asked for; ``caches`` are cleared as well."""
+    _found.cache_clear()
+    for clear in caches:
+        clear()

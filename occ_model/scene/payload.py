@@ -1,0 +1,92 @@
+"""Payloads as texts: ``text:HELLO``, ``hex:48656c6c6f`` and ``bits:0100100001``.
+
+The word before the colon says how the payload is written, and how one that is received is shown.
+"""
+
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+
+from occ_model.errors import shown
+
+MAX_PAYLOAD_BITS = 4096
+
+PAYLOADS = f"text:HELLO (UTF-8), hex:48656c6c6f or bits:0100100001, of 1 to {MAX_PAYLOAD_BITS} bits"
+"""The forms of a payload, in words."""
+
+_UNREADABLE = "?"
+"""In place of bytes that are no text."""
+
+
+def canonical(value: object) -> str:
+    """Return a payload in its shortest form: no spaces between digits, small letters in hex.
+
+    Raises
+    ------
+    ValueError
+        It is no payload; the message is the part of a sentence that says why.
+    """
+    if value == "" and isinstance(value, str):
+        return ""
+    if not isinstance(value, str):
+        raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
+    if len(value) > 4 * MAX_PAYLOAD_BITS:
+        raise ValueError(f"is a text of {len(value):,} characters")
+    form, _, content = value.partition(":")
+    if form != "text":
+        content = "".join(content.split()).lower()
+    if not _is_content(form, content):
+        raise ValueError(f"is {shown(value)}")
+    text = f"{form}:{content}"
+    count = len(bits_of_payload(text))
+    if not 1 <= count <= MAX_PAYLOAD_BITS:
+        raise ValueError(f"has {count:,} bits")
+    return text
+
+
+def _is_content(form: str, content: str) -> bool:
+    match form:
+        case "text":
+            # Half of a pair of surrogates is no character.
+            return not any("\ud800" <= letter <= "\udfff" for letter in content)
+        case "hex":
+            return re.fullmatch("(?:[0-9a-f]{2})*", content) is not None
+        case "bits":
+            return not set(content) - {"0", "1"}
+    return False
+
+
+@lru_cache(maxsize=64)
+def bits_of_payload(payload: str) -> tuple[int, ...]:
+    """Return the bits of a payload in its canonical form, each byte's most significant first."""
+    form, _, content = payload.partition(":")
+    if form == "bits":
+        return tuple(map(int, content))
+    octets = bytes.fromhex(content) if form == "hex" else content.encode("utf-8")
+    return tuple(octet >> place & 1 for octet in octets for place in range(7, -1, -1))
+
+
+def payload_of_bits(bits: Sequence[int], form: str) -> str:
+    """Write bits in a form: ``text``, ``hex`` or ``bits``, without the form's name.
+
+    Bits after the last whole byte are left out of a text and of hex. Bytes that are no text are
+    written as question marks, and so are characters that cannot be shown.
+    """
+    if form == "bits":
+        return "".join(str(int(bit)) for bit in bits)
+    whole = len(bits) // 8 * 8
+    octets = bytes(
+        sum(int(bit) << 7 - place for place, bit in enumerate(bits[start : start + 8]))
+        for start in range(0, whole, 8)
+    )
+    if form == "hex":
+        return octets.hex()
+    text = octets.decode("utf-8", errors="replace")
+    return "".join(
+        letter if letter.isprintable() and letter != "\ufffd" else _UNREADABLE for letter in text
+    )
+
+
+def form_of(payload: str) -> str:
+    """Return how a payload is written: ``text``, ``hex`` or ``bits``."""
+    return payload.partition(":")[0]

@@ -1,0 +1,80 @@
+"""Error correction by a Reed-Solomon code over GF(256), by the package ``reedsolo``."""
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.errors import ParameterError
+
+if TYPE_CHECKING:  # an optional package
+    from reedsolo import RSCodec
+
+PARITY_BYTES = 4
+"""Bytes added to each block; half as many wrong bytes are corrected."""
+
+_BLOCK_BYTES = 255 - PARITY_BYTES
+"""Most bytes of the payload in a block."""
+
+
+def protected_bits(bits: int) -> int:
+    """Count the bits of a payload with its parity."""
+    octets = -(-bits // 8)
+    return 8 * (octets + PARITY_BYTES * -(-octets // _BLOCK_BYTES))
+
+
+def protect(bits: ByteArray) -> ByteArray:
+    """Add the parity to a payload, which is filled up with zeros to whole bytes.
+
+    Returns
+    -------
+    ndarray of uint8, shape (protected_bits,)
+
+    Raises
+    ------
+    ParameterError
+        The package ``reedsolo`` is not installed.
+    """
+    sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
+    return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))
+
+
+def correct(bits: ByteArray, count: int) -> ByteArray | None:
+    """Correct a payload with its parity.
+
+    Parameters
+    ----------
+    bits : ndarray of uint8, shape (protected_bits,)
+        As received.
+    count
+        Bits of the payload.
+
+    Returns
+    -------
+    ndarray of uint8, shape (count,), or None
+        None where too many bytes are wrong.
+    """
+    codec = _codec()
+    from reedsolo import ReedSolomonError
+
+    try:
+        right, _, _ = codec.decode(bytearray(np.packbits(bits).tobytes()))
+    except ReedSolomonError:
+        return None
+    payload = np.unpackbits(np.frombuffer(bytes(right), dtype=np.uint8))
+    # What fills the last byte is known to be 0.
+    return None if payload[count:].any() else payload[:count]
+
+
+@lru_cache(maxsize=1)
+def _codec() -> "RSCodec":
+    try:
+        from reedsolo import RSCodec
+    except ImportError:
+        raise ParameterError(
+            "error_correction is 'reed-solomon', which needs the package reedsolo; install it with "
+            "pip install 'occ-explorer[ecc]'.",
+            parameters=("error_correction",),
+        ) from None
+    return RSCodec(PARITY_BYTES)

@@ -1,0 +1,1 @@
+"""Framings: how chips show where a payload starts, one file a framing."""

@@ -1,0 +1,135 @@
+"""The interface of a framing."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.errors import ParameterError
+from occ_model.transmitter.line_codes.line_code import LineCode
+
+BARKER = (1, 1, 1, 1, 1, 0, 0, 1, 1, 0, 1, 0, 1)
+"""Barker code of 13 chips: the preamble of a line code that limits no run.
+
+Its autocorrelation is at most 1 beside the peak of 13 (R. H. Barker, 1953).
+"""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Framed:
+    """What a framing reads from chips.
+
+    Parameters
+    ----------
+    headers
+        Where headers start among the chips.
+    bits : ndarray of uint8
+        The bits read, empty where none were. They can be present with a failure, when the chips
+        break the line code or a check.
+    failure
+        None, or a sentence that says why no payload was read.
+    """
+
+    headers: tuple[int, ...]
+    bits: ByteArray
+    failure: str | None = None
+
+    @classmethod
+    def nothing(cls, failure: str, headers: tuple[int, ...] = ()) -> "Framed":
+        """Make a result without bits."""
+        return cls(headers, np.empty(0, dtype=np.uint8), failure)
+
+
+@dataclass(frozen=True, slots=True)
+class FrameFormat:
+    """What transmitter and receiver have agreed on.
+
+    Parameters
+    ----------
+    line_code
+        The line code.
+    preamble
+        Chips that start a frame, as a text; empty: the line code's own.
+    bits
+        Number of bits that a framing carries.
+    """
+
+    line_code: LineCode
+    preamble: str
+    bits: int
+
+
+@dataclass(frozen=True, slots=True)
+class Framing:
+    """A rule by which chips show where a payload starts.
+
+    Parameters
+    ----------
+    name
+        The identifier, as in a scene file.
+    title
+        A short description.
+    checks
+        Whether it checks the payload itself, whatever the line code finds.
+    encode
+        Turns bits into one period of the chips sent, which is sent repeatedly.
+    decode
+        Turns chips, of any part of what is sent, into a :class:`Framed`.
+    """
+
+    name: str
+    title: str
+    checks: bool
+    encode: Callable[[ByteArray, FrameFormat], ByteArray]
+    decode: Callable[[ByteArray, FrameFormat], Framed]
+
+
+def run_preamble(line_code: LineCode) -> ByteArray:
+    """Return a preamble that no payload contains: a run longer than any of the line code.
+
+    With a longest run of n it is a run of n + 1 ones between as many zeros, so it is balanced: of
+    Manchester 0 111 00 and of 4B6B 00 11111 000, which are those of C-OOK in IEEE 802.15.7-2018.
+
+    Raises
+    ------
+    ParameterError
+        The line code limits no run.
+    """
+    if line_code.longest_run is None:
+        raise ParameterError(
+            f"line_code is '{line_code.name}', which limits no run: no preamble differs from all "
+            "its payloads; allowed with this framing: a line code with a longest run.",
+            parameters=("line_code", "framing"),
+        )
+    ones = line_code.longest_run + 1
+    before = ones // 2
+    return np.repeat(np.array([0, 1, 0], dtype=np.uint8), [before, ones, ones - before])
+
+
+def preamble_of(form: FrameFormat) -> ByteArray:
+    """Return the preamble given, else the line code's own."""
+    if form.preamble:
+        return np.array([int(chip) for chip in form.preamble], dtype=np.uint8)
+    if form.line_code.longest_run is None:
+        return np.array(BARKER, dtype=np.uint8)
+    return run_preamble(form.line_code)
+
+
+def is_unique(preamble: ByteArray, line_code: LineCode) -> bool:
+    """Whether a preamble has a run inside that is longer than any of a payload."""
+    if line_code.longest_run is None:
+        return False
+    edges = np.flatnonzero(np.diff(preamble.astype(np.int8)))
+    return bool((np.diff(edges) > line_code.longest_run).any())
+
+
+def find_preambles(chips: ByteArray, preamble: ByteArray) -> tuple[int, ...]:
+    """Find all places at which a preamble starts."""
+    count = len(chips) - len(preamble) + 1
+    if count < 1:
+        return ()
+    fits = np.ones(count, dtype=bool)
+    for place, chip in enumerate(preamble.tolist()):
+        fits &= chips[place : place + count] == chip
+    return tuple(np.flatnonzero(fits).tolist())

@@ -1,0 +1,79 @@
+"""The paper's framing: the header 1 1 1 0, and the line-coded payload up to the next header."""
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
+from occ_model.transmitter.framings.preamble import read_after
+from occ_model.transmitter.framings.repeated_frame import read_repeated
+
+HEADER = (1, 1, 1, 0)
+"""The header: three ones, which no data of a code with runs of two contain, and a zero.
+
+The paper names only the three ones. Without the zero the code 0 and the code with only its first
+bit set would send the same endless chip sequence.
+"""
+
+_HEADER_ONES = sum(HEADER)
+
+
+def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
+    data = form.line_code.encode(bits, HEADER[-1])
+    return np.concatenate([np.array(HEADER, dtype=np.uint8), data])
+
+
+def find_headers(chips: ByteArray) -> tuple[int, ...]:
+    """Find where headers start: the last three ones of every run of three or more.
+
+    A run of ones may be one longer than the header, when the data before it end in a one.
+    """
+    edges = np.diff(np.concatenate([[0], chips.astype(np.int8), [0]]))
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    return tuple((ends[ends - starts >= _HEADER_ONES] - _HEADER_ONES).tolist())
+
+
+def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
+    """Read the packet between the first two headers, as the paper does.
+
+    Where data may contain a header, all packets are tried that fit.
+    """
+    length = len(HEADER) + form.line_code.chips_for(form.bits)
+    if form.line_code.longest_run is None or form.line_code.longest_run >= _HEADER_ONES:
+        header = np.array(HEADER, dtype=np.uint8)
+        return read_repeated(
+            chips,
+            header,
+            length,
+            unique=False,
+            read=lambda data: read_after(data, HEADER[-1], form),
+        )
+    headers = find_headers(chips)
+    if len(headers) < 2:
+        return Framed.nothing(_too_few(len(headers), len(chips), length), headers)
+    first, second = headers[:2]
+    if second - first != length:
+        return Framed.nothing(
+            f"The first two headers are {second - first} chips apart, a packet of "
+            f"{form.bits} bits has {length}: some chips were misread.",
+            headers,
+        )
+    read = read_after(chips[first + len(HEADER) : second], HEADER[-1], form)
+    return Framed(headers, read.bits, read.failure)
+
+
+def _too_few(headers: int, chips: int, packet: int) -> str:
+    found = "One header" if headers else "No header"
+    if chips < 2 * packet:
+        return (
+            f"{found} found, two needed: {chips} of {2 * packet} chips fit the panel's image; "
+            "come closer or raise the frequency."
+        )
+    return (
+        f"{found} found among {chips} chips, two needed: the stripes show no runs as long as a "
+        "header's."
+    )
+
+
+FRAMING = Framing(
+    "paper", "The paper's header 1 1 1 0", checks=False, encode=_encode, decode=_decode
+)

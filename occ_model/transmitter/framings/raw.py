@@ -1,0 +1,89 @@
+"""A raw frame: preamble, number of bits, payload and a check sum.
+
+The number of bits is one byte up to 127, else two with the first bit set. The check sum is CRC-16
+of ITU-T V.41, x^16 + x^12 + x^5 + 1, over both, started with ones; it finds any error within 16
+bits and all but 1 of 65,536 others. A receiver needs to know nothing but preamble and line code.
+"""
+
+import binascii
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.transmitter.framings.framing import (
+    Framed,
+    FrameFormat,
+    Framing,
+    is_unique,
+    preamble_of,
+)
+from occ_model.transmitter.framings.repeated_frame import read_repeated
+
+_CRC_BITS = 16
+_SHORT = 8
+_LONG = 16
+
+
+def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
+    preamble = preamble_of(form)
+    body = np.concatenate([_length_field(len(bits)), np.asarray(bits, dtype=np.uint8)])
+    frame = np.concatenate([body, _check_sum(body)])
+    return np.concatenate([preamble, form.line_code.encode(frame, int(preamble[-1]))])
+
+
+def _length_field(bits: int) -> ByteArray:
+    if bits < 1 << _SHORT - 1:
+        return _binary(bits, _SHORT)
+    return _binary(bits | 1 << _LONG - 1, _LONG)
+
+
+def _binary(number: int, places: int) -> ByteArray:
+    return np.array([number >> place & 1 for place in reversed(range(places))], dtype=np.uint8)
+
+
+def _check_sum(body: ByteArray) -> ByteArray:
+    return _binary(binascii.crc_hqx(np.packbits(body).tobytes(), 0xFFFF), _CRC_BITS)
+
+
+def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
+    preamble = preamble_of(form)
+    frame_bits = len(_length_field(form.bits)) + form.bits + _CRC_BITS
+    return read_repeated(
+        chips,
+        preamble,
+        len(preamble) + form.line_code.chips_for(frame_bits),
+        unique=is_unique(preamble, form.line_code),
+        read=lambda data: _read(data, int(preamble[-1]), form),
+    )
+
+
+def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:
+    """Read the frame that starts the chips, of whatever length it says."""
+    code = form.line_code
+    head = code.decode(data[: code.chips_for(_LONG)], level).bits
+    if len(head) < _LONG:
+        return Framed.nothing("The frame ends within its number of bits.")
+    is_long = bool(head[0])
+    start = _LONG if is_long else _SHORT
+    count = int("".join(map(str, head[is_long:start].tolist())), 2)
+    whole = start + count + _CRC_BITS
+    if code.chips_for(whole) > len(data):
+        return Framed.nothing(
+            f"The frame says that it holds {count} bits, for which {len(data)} chips are too few: "
+            "some chips were misread."
+        )
+    read = code.decode(data[: code.chips_for(whole)], level).bits
+    body, check = read[: start + count], read[start + count : whole]
+    bits = body[start:]
+    if not np.array_equal(_check_sum(body), check):
+        return Framed((), bits, "The check sum (CRC-16) does not fit: some chips were misread.")
+    return Framed((), bits)
+
+
+FRAMING = Framing(
+    "raw",
+    "Preamble, number of bits, payload, CRC-16",
+    checks=True,
+    encode=_encode,
+    decode=_decode,
+)

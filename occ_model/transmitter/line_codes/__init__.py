@@ -1,0 +1,1 @@
+"""Line codes: bits to chips and back, one file a code."""

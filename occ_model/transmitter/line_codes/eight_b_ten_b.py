@@ -1,0 +1,148 @@
+"""8B10B with running disparity.
+
+The tables are those of A. X. Widmer and P. A. Franaszek, A DC-balanced, partitioned-block, 8B/10B
+transmission code, IBM J. Res. Develop. 27:440 (1983), as in IEEE 802.3, clause 36. A byte HGFEDCBA
+is sent as abcdei fghj: EDCBA by a code of six chips, HGF by one of four. A word has as many ones as
+zeros, or two more or two fewer; the running disparity, +1 or -1 between words, chooses between a
+word and its complement. It is -1 before the first byte. Bits are read into bytes with the most
+significant first.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.transmitter.line_codes.line_code import (
+    Decoded,
+    LineCode,
+    no_whole_blocks,
+    numbers,
+    padded,
+)
+
+# Of a running disparity of -1, by EDCBA and by HGF.
+_SIX = tuple(
+    f"{word:06b}"
+    for word in (
+        0b100111, 0b011101, 0b101101, 0b110001, 0b110101, 0b101001, 0b011001, 0b111000,
+        0b111001, 0b100101, 0b010101, 0b110100, 0b001101, 0b101100, 0b011100, 0b010111,
+        0b011011, 0b100011, 0b010011, 0b110010, 0b001011, 0b101010, 0b011010, 0b111010,
+        0b110011, 0b100110, 0b010110, 0b110110, 0b001110, 0b101110, 0b011110, 0b101011,
+    )
+)  # fmt: skip
+_FOUR = ("1011", "1001", "0101", "1100", "1101", "1010", "0110", "1110")
+
+_ALTERNATE = "0111"
+"""In place of HGF = 111 where it would make a run of five with the six chips before it."""
+
+_ALTERNATE_AFTER = {-1: (17, 18, 20), 1: (11, 13, 14)}
+"""EDCBA before which the alternate is sent, by the running disparity between six and four chips."""
+
+_COMPLEMENT = str.maketrans("01", "10")
+
+_K28 = "001111"
+
+_CONTROL = {"K28.1": (_K28, "1001"), "K28.5": (_K28, "1010"), "K28.7": (_K28, "1000")}
+"""The control words that hold a comma, which no data do, of a running disparity of -1."""
+
+
+def _disparity(word: str) -> int:
+    return 2 * word.count("1") - len(word)
+
+
+def _chosen(word: str, disparity: int) -> str:
+    """Return a word or its complement, as the running disparity asks for."""
+    # Two balanced words have two forms as well: they would make long runs otherwise.
+    has_two = _disparity(word) != 0 or word in ("111000", "1100")
+    return word.translate(_COMPLEMENT) if has_two and disparity > 0 else word
+
+
+def encode_byte(byte: int, disparity: int) -> tuple[str, int]:
+    """Return the ten chips of a byte, and the running disparity after them.
+
+    Parameters
+    ----------
+    byte
+        From 0 to 255.
+    disparity
+        The running disparity before it, -1 or 1.
+    """
+    low, high = byte & 31, byte >> 5
+    six = _chosen(_SIX[low], disparity)
+    disparity += _disparity(six)
+    alternate = high == 7 and low in _ALTERNATE_AFTER[disparity]
+    four = _chosen(_ALTERNATE if alternate else _FOUR[high], disparity)
+    return six + four, disparity + _disparity(four)
+
+
+def control_word(name: str, disparity: int = -1) -> str:
+    """Return the ten chips of a control word: K28.1, K28.5 or K28.7."""
+    six, four = _CONTROL[name]
+    return six + four if disparity < 0 else (six + four).translate(_COMPLEMENT)
+
+
+@lru_cache(maxsize=1)
+def _words() -> tuple[ByteArray, ByteArray]:
+    """Return all words by running disparity before (-1, 1) and byte, and the disparity after."""
+    both = [[encode_byte(byte, disparity) for byte in range(256)] for disparity in (-1, 1)]
+    words = np.array([[[*map(int, word)] for word, _ in row] for row in both], dtype=np.uint8)
+    after = np.array([[int(end > 0) for _, end in row] for row in both], dtype=np.uint8)
+    return words, after
+
+
+def _encode(bits: ByteArray, _level: int) -> ByteArray:
+    words, after = _words()
+    state, sent = 0, []
+    for byte in numbers(padded(bits, 8)).tolist():
+        sent.append(words[state, byte])
+        state = int(after[state, byte])
+    return np.concatenate(sent) if sent else np.empty(0, dtype=np.uint8)
+
+
+def _decode(chips: ByteArray, _level: int) -> Decoded:
+    """Read each word as the nearest one of the present running disparity."""
+    if len(chips) % 10:
+        return no_whole_blocks(len(chips), 10)
+    words, after = _words()
+    # The distance of every word seen from every byte's, for both disparities.
+    seen = chips.reshape(-1, 10).astype(np.int32)
+    ones = words.astype(np.int32)
+    distances = (
+        seen.sum(axis=1)[:, None, None]
+        + ones.sum(axis=2)
+        - 2 * np.tensordot(seen, ones, axes=([1], [2]))
+    )
+    state, values, wrong = 0, [], []
+    for place, distance in enumerate(distances):
+        byte = int(distance[state].argmin())
+        if distance[state, byte]:
+            wrong.append(place)
+            other = 1 - state
+            # A word of the other disparity is right in itself: an earlier error shows here.
+            if not distance[other].min():
+                state, byte = other, int(distance[other].argmin())
+        values.append(byte)
+        state = int(after[state, byte])
+    bits = np.unpackbits(np.array(values, dtype=np.uint8))
+    if not wrong:
+        return Decoded(bits)
+    failure = (
+        f"Word {wrong[0] + 1} of {len(seen)} is no 8B10B word of its running disparity: "
+        f"{len(wrong)} of {len(seen)} words break the line code."
+    )
+    return Decoded(bits, tuple(8 * place for place in wrong), failure)
+
+
+LINE_CODE = LineCode(
+    "8b10b",
+    "8B10B with running disparity (IEEE 802.3)",
+    block_bits=8,
+    block_chips=10,
+    longest_run=5,
+    disparity=2,
+    # An error may turn a balanced word into another of disparity 2, and no later word betrays it.
+    finds_wrong_chip=False,
+    encode=_encode,
+    decode=_decode,
+)

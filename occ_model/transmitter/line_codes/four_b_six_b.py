@@ -1,0 +1,28 @@
+"""4B6B, the run-length limited code of IEEE 802.15.7 for VPPM and C-OOK.
+
+The table is that of IEEE 802.15.7-2018, 10.5.1 (4B6B encoding). Every word has three ones, so all
+words are equally bright and any single wrong chip makes a word that is not in the table.
+"""
+
+from occ_model.transmitter.line_codes.line_code import LineCode
+from occ_model.transmitter.line_codes.word_table import WordTable, words_of
+
+WORDS = words_of(
+    "001110 001101 010011 010110 010101 100011 100110 100101 "
+    "011001 011010 011100 110001 110010 101001 101010 101100"
+)
+"""The words of the numbers 0 to 15."""
+
+_TABLE = WordTable(WORDS, "4B6B word")
+
+LINE_CODE = LineCode(
+    "4b6b",
+    "4B6B (IEEE 802.15.7)",
+    block_bits=4,
+    block_chips=6,
+    longest_run=4,
+    disparity=0,
+    finds_wrong_chip=True,
+    encode=_TABLE.encode,
+    decode=_TABLE.decode,
+)

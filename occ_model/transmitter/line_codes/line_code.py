@@ -1,0 +1,127 @@
+"""The interface of a line code, and the properties that it declares."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+
+VISIBLE_LIMIT = 200.0
+"""Frequency in Hz below which people may see light flicker.
+
+IEEE 802.15.7-2018, 4.4.3.1: light that changes within the maximum flickering time period of 5 ms
+is generally considered safe.
+"""
+
+
+def _nothing() -> ByteArray:
+    return np.empty(0, dtype=np.uint8)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Decoded:
+    """The bits that chips stand for.
+
+    Parameters
+    ----------
+    bits : ndarray of uint8
+        The bits, first sent first, the padding of the last block included; the likeliest ones where
+        chips break the code, and none where the number of chips does.
+    violations
+        The bits at which the chips break the code.
+    failure
+        None, or a sentence that says where the chips break the code.
+    """
+
+    bits: ByteArray = field(default_factory=_nothing)
+    violations: tuple[int, ...] = ()
+    failure: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LineCode:
+    """A rule that turns bits into chips, with the properties that it promises.
+
+    A code works in blocks: ``block_bits`` bits become ``block_chips`` chips. The last block is
+    filled up with zeros.
+
+    Parameters
+    ----------
+    name
+        The identifier, as in a scene file.
+    title
+        A short description.
+    block_bits, block_chips
+        Bits and chips of a block.
+    longest_run
+        Most equal chips in a row, in any payload; None where there is no limit.
+    disparity
+        Largest difference of the numbers of ones and zeros in any payload, in chips; None where
+        there is no limit. 0: every payload is as bright as any other.
+    finds_wrong_chip
+        Whether any single wrong chip of any payload is found or harmless.
+    encode
+        Turns bits, shape (bits,), into chips; its second argument is the chip before the first.
+    decode
+        Turns chips, shape (chips,), into a :class:`Decoded`; its second argument is the same.
+    """
+
+    name: str
+    title: str
+    block_bits: int
+    block_chips: int
+    longest_run: int | None
+    disparity: int | None
+    finds_wrong_chip: bool
+    encode: Callable[[ByteArray, int], ByteArray]
+    decode: Callable[[ByteArray, int], Decoded]
+
+    @property
+    def chips_a_bit(self) -> Fraction:
+        """Chips sent for each bit of a whole block."""
+        return Fraction(self.block_chips, self.block_bits)
+
+    @property
+    def overhead(self) -> Fraction:
+        """Share of the chips that carry no bit."""
+        return 1 - 1 / self.chips_a_bit
+
+    def chips_for(self, bits: int) -> int:
+        """Count the chips of a number of bits, the padding of the last block included."""
+        return -(-bits // self.block_bits) * self.block_chips
+
+    def lowest_frequency(self, switching_frequency: float) -> float:
+        """Return the frequency of the slowest square wave in the code, f / (2 longest run), in Hz.
+
+        The repetition of a packet may be slower still: f / chips of the packet.
+        """
+        if self.longest_run is None:
+            return 0.0
+        return switching_frequency / (2 * self.longest_run)
+
+    @property
+    def least_switching_frequency(self) -> float | None:
+        """Switching frequency, in Hz, from which no run of chips lasts long enough to be seen.
+
+        None where runs have no limit. See :data:`VISIBLE_LIMIT`.
+        """
+        return None if self.longest_run is None else VISIBLE_LIMIT * 2 * self.longest_run
+
+
+def padded(bits: ByteArray, block: int) -> ByteArray:
+    """Fill bits up with zeros to whole blocks, shape (blocks, block)."""
+    missing = -len(bits) % block
+    return np.pad(np.asarray(bits, dtype=np.uint8), (0, missing)).reshape(-1, block)
+
+
+def numbers(blocks: ByteArray) -> ByteArray:
+    """Read each row of bits, at most eight, most significant first, as a number."""
+    places = np.arange(blocks.shape[1])[::-1]
+    return np.asarray((blocks.astype(np.int64) << places).sum(axis=1), dtype=np.uint8)
+
+
+def no_whole_blocks(count: int, block: int) -> Decoded:
+    """Refuse chips that are no whole number of blocks."""
+    return Decoded(failure=f"{count} chips are no whole number of blocks of {block} chips.")

@@ -1,0 +1,33 @@
+"""Manchester in the convention of IEEE 802.15.7: 0 is sent as 0 1, and 1 as 1 0."""
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.transmitter.line_codes.differential_manchester import no_transitions
+from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, no_whole_blocks
+
+
+def _encode(bits: ByteArray, _level: int) -> ByteArray:
+    bits = np.asarray(bits, dtype=np.uint8)
+    return np.stack([bits, 1 - bits], axis=-1).reshape(-1)
+
+
+def _decode(chips: ByteArray, _level: int) -> Decoded:
+    if len(chips) % 2:
+        return no_whole_blocks(len(chips), 2)
+    bits, second = chips[0::2], chips[1::2]
+    violations = np.flatnonzero(bits == second).tolist()
+    return Decoded(bits.copy(), tuple(violations), no_transitions(violations, len(bits)))
+
+
+LINE_CODE = LineCode(
+    "manchester",
+    "Manchester (IEEE 802.15.7)",
+    block_bits=1,
+    block_chips=2,
+    longest_run=2,
+    disparity=0,
+    finds_wrong_chip=True,
+    encode=_encode,
+    decode=_decode,
+)

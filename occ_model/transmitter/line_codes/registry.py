@@ -1,0 +1,99 @@
+"""The line codes by name: the built-in ones and those of plug-ins."""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model import plugins
+from occ_model.arrays import ByteArray
+from occ_model.errors import PluginError
+from occ_model.scene.parameters import open_choice
+from occ_model.transmitter.line_codes import (
+    differential_manchester,
+    eight_b_ten_b,
+    four_b_six_b,
+    fsk,
+    manchester,
+    nrz,
+)
+from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
+
+LINE_CODES: dict[str, LineCode] = {
+    module.LINE_CODE.name: module.LINE_CODE
+    for module in (differential_manchester, manchester, nrz, four_b_six_b, eight_b_ten_b, fsk)
+}
+"""The built-in line codes by name."""
+
+
+def line_codes() -> tuple[str, ...]:
+    """Return the names of all line codes, those of plug-ins last."""
+    return open_choice("line_code").all_choices()
+
+
+@lru_cache(maxsize=64)
+def line_code_named(name: str) -> LineCode:
+    """Find a line code.
+
+    Raises
+    ------
+    ParameterError
+        There is none of that name.
+    PluginError
+        It is a plug-in that cannot be used.
+    """
+    open_choice("line_code").check(name)
+    if name in LINE_CODES:
+        return LINE_CODES[name]
+    return _guarded(plugins.load_plugin(plugins.LINE_CODES, name, LineCode))
+
+
+def _guarded(offered: LineCode) -> LineCode:
+    """Return a plug-in's line code whose faults become sentences."""
+    who = plugins.described(plugins.LINE_CODES, offered.name)
+    for label, count in (("block_bits", offered.block_bits), ("block_chips", offered.block_chips)):
+        if not isinstance(count, int) or count < 1:
+            raise PluginError(f"{who} declares {label} = {count!r}; allowed: from 1.")
+
+    def encode(bits: ByteArray, level: int) -> ByteArray:
+        try:
+            chips = np.asarray(offered.encode(bits, level))
+        except plugins.FAULTS as error:
+            raise PluginError(f"{who} cannot encode: {plugins.reason(error)}") from None
+        return checked_chips(chips, who, offered.chips_for(len(bits)))
+
+    def decode(chips: ByteArray, level: int) -> Decoded:
+        try:
+            read = offered.decode(chips, level)
+        except plugins.FAULTS as error:
+            return Decoded(failure=f"{who} cannot decode: {plugins.reason(error)}")
+        if not isinstance(read, Decoded) or not is_bits(read.bits):
+            return Decoded(failure=f"{who} gives no bits, but a {type(read).__name__}.")
+        return read
+
+    return replace(offered, encode=encode, decode=decode)
+
+
+def is_bits(values: object) -> bool:
+    """Whether values are an array of zeros and ones of one dimension."""
+    return (
+        isinstance(values, np.ndarray)
+        and values.ndim == 1
+        and values.dtype.kind in "biu"
+        and bool(np.isin(values, (0, 1)).all())
+    )
+
+
+def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArray:
+    """Return a plug-in's chips as bytes.
+
+    Raises
+    ------
+    PluginError
+        They are no zeros and ones, or not as many as they should be.
+    """
+    if not isinstance(chips, np.ndarray) or not is_bits(chips) or not chips.size:
+        raise PluginError(f"{who} gives no chips, which are zeros and ones.")
+    if count is not None and len(chips) != count:
+        raise PluginError(f"{who} gives {len(chips)} chips in place of {count}.")
+    return chips.astype(np.uint8)

@@ -1,0 +1,137 @@
+"""A scheme: line code, framing and error correction together, the one way from bits to chips."""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from occ_model.arrays import ByteArray
+from occ_model.scene.scene import Transmitter
+from occ_model.transmitter import error_correction
+from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
+from occ_model.transmitter.framings.registry import framing_named
+from occ_model.transmitter.line_codes.line_code import LineCode
+from occ_model.transmitter.line_codes.registry import line_code_named
+
+_PAPERS = ("differential-manchester", "paper", "none")
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Turns payloads of one length into chips and back.
+
+    Parameters
+    ----------
+    line_code, framing
+        What it is made of.
+    preamble
+        Chips that start a frame, as a text; empty: the line code's own.
+    correction
+        ``"none"`` or ``"reed-solomon"``.
+    bits
+        Bits of a payload.
+    """
+
+    line_code: LineCode
+    framing: Framing
+    preamble: str
+    correction: str
+    bits: int
+
+    @property
+    def is_papers(self) -> bool:
+        """Whether it is the paper's: differential Manchester after the header 1 1 1 0."""
+        return (self.line_code.name, self.framing.name, self.correction) == _PAPERS
+
+    @cached_property
+    def length(self) -> int:
+        """Chips of one period, which are the same for all payloads."""
+        return len(self.encode(np.zeros(self.bits, dtype=np.uint8)))
+
+    @property
+    def chips_a_bit(self) -> float:
+        """Chips sent for each bit of the payload, all overhead included."""
+        return self.length / self.bits
+
+    def encode(self, bits: ArrayLike) -> ByteArray:
+        """Turn a payload into one period of the chips sent.
+
+        Parameters
+        ----------
+        bits : array_like of int, shape (bits,)
+            The payload.
+
+        Returns
+        -------
+        ndarray of uint8, shape (length,)
+
+        Raises
+        ------
+        ParameterError
+            Line code and framing do not go together, or a package is missing.
+        PluginError
+            A plug-in fails.
+        """
+        payload = np.asarray(bits, dtype=np.uint8)
+        if self.correction != "none":
+            payload = error_correction.protect(payload)
+        return self.framing.encode(payload, self._form)
+
+    def decode(self, chips: ByteArray) -> Framed:
+        """Read the payload from chips that show any part of what is sent repeatedly.
+
+        Parameters
+        ----------
+        chips : ndarray of uint8
+            The chips, first sent first.
+
+        Returns
+        -------
+        Framed
+            With ``bits`` bits, or a sentence that says why not.
+        """
+        read = self.framing.decode(chips, self._form)
+        if self.correction == "none" or len(read.bits) != self._form.bits:
+            return read
+        payload = error_correction.correct(read.bits, self.bits)
+        if payload is None:
+            return Framed(
+                read.headers,
+                read.bits[: self.bits],
+                f"More than {error_correction.PARITY_BYTES // 2} bytes of a block are wrong: the "
+                "error correction cannot tell which.",
+            )
+        return Framed(read.headers, payload)
+
+    @cached_property
+    def _form(self) -> FrameFormat:
+        bits = self.bits
+        if self.correction != "none":
+            bits = error_correction.protected_bits(bits)
+        return FrameFormat(self.line_code, self.preamble, bits)
+
+
+def scheme_of(transmitter: Transmitter) -> Scheme:
+    """Return the scheme of a transmitter; it does not depend on what the payload is.
+
+    Raises
+    ------
+    ParameterError
+        There is no such line code or framing.
+    PluginError
+        One is a plug-in that cannot be used.
+    """
+    return scheme_named(
+        transmitter.line_code,
+        transmitter.framing,
+        transmitter.preamble,
+        transmitter.error_correction,
+        len(transmitter.payload_bits),
+    )
+
+
+@lru_cache(maxsize=256)
+def scheme_named(line_code: str, framing: str, preamble: str, correction: str, bits: int) -> Scheme:
+    """Return the scheme of these names for payloads of some bits; errors as :func:`scheme_of`."""
+    return Scheme(line_code_named(line_code), framing_named(framing), preamble, correction, bits)

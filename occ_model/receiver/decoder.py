@@ -21,8 +21,12 @@ class Decoder:
     read
         Reads a signal, the mean grey level of each column, shape (columns,), with the parameters of
         a scene that a receiver knows. The caller adds the region to the result.
+    is_quick
+        Whether it reads in a few milliseconds and imports nothing slow, so that every picture of a
+        live view can be read with it.
     """
 
     name: str
     title: str
     read: Callable[[FloatArray, Scene], DecodeResult]
+    is_quick: bool = True

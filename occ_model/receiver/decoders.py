@@ -8,6 +8,7 @@ from occ_model import plugins
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError, PluginError, shown
 from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.equalizer.decoder import DECODER as EQUALIZER
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
 from occ_model.receiver.sequence.decoder import DECODER as SEQUENCE
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
@@ -18,13 +19,18 @@ from occ_model.transmitter.line_codes.registry import is_bits
 PAPER_DECODER = THRESHOLD.name
 """The name of the paper's decoder, which is the default."""
 
-DECODERS: dict[str, Decoder] = {decoder.name: decoder for decoder in (THRESHOLD, MATCHED, SEQUENCE)}
+DECODERS: dict[str, Decoder] = {
+    decoder.name: decoder for decoder in (THRESHOLD, MATCHED, EQUALIZER, SEQUENCE)
+}
 """The built-in decoders by name."""
 
 
 def decoders() -> tuple[str, ...]:
     """Return the names of all decoders, those of plug-ins last."""
     return tuple(dict.fromkeys((*DECODERS, *plugins.plugin_names(plugins.DECODERS))))
+
+QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_quick)
+"""The names of the decoders that every picture of the window is read with."""
 
 
 def decoder_named(name: str) -> Decoder:

@@ -138,6 +138,8 @@ class DecodeResult:
         The signal folded over one packet.
     model : ndarray of float64, shape (bins,)
         The best code's forward model, beside ``folded``.
+    equalized : ndarray of float64, shape as ``signal``
+        The light with the exposure undone, 255 being white: what ``threshold`` refers to.
     light : ndarray of float64, shape as ``signal``
         The light of each column in shares of full light, the camera's tone curve undone.
     light_model : ndarray of float64, shape as ``signal``
@@ -165,6 +167,7 @@ class DecodeResult:
     confidence: float | None = None
     folded: FloatArray | None = None
     model: FloatArray | None = None
+    equalized: FloatArray | None = None
     light: FloatArray | None = None
     light_model: FloatArray | None = None
     bit_likelihoods: FloatArray | None = None

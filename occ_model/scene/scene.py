@@ -152,6 +152,7 @@ class Receiver(_Checked):
     """Settings of the receiver."""
 
     bright_fraction: float = _declared("bright_fraction")
+    equalizer: str = _declared("equalizer")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

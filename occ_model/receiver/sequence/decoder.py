@@ -29,8 +29,11 @@ from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import HEADER, code_of, packet_length
 
-_IMPROVEMENTS = 2
-"""How often the fit is improved from the chips that were detected."""
+_IMPROVEMENTS = 4
+"""Most times that the fit is improved from the chips that were detected."""
+
+_SETTLED = 0.95
+"""Share of the noise before an improvement above which no other one is tried."""
 
 _LEAST_CERTAINTY = 0.9
 """Least probability that all bits are right, of a code that is read."""
@@ -124,7 +127,9 @@ def _fit(
             # The chips found have a distribution of light of their own, nearer to the picture's.
             light = replace(light, values=by_rank(signal, fit.model))
             rows = replace(rows, light=light.values)
-        fit = detect(rows, *improve(rows, fit), trellis)
+        before, fit = fit, detect(rows, *improve(rows, fit), trellis)
+        if fit.noise > _SETTLED * before.noise:
+            break
     return fit, light
 
 
@@ -132,9 +137,8 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
     """Add the chips and the fit to a result."""
     share = fit.brightness.lit_share(light.values)
     count = len(share)
-    starts = (fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase) / (
-        fit.timing.step
-    )
+    places = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
+    starts = np.asarray(places / fit.timing.step, dtype=np.float64)
     about, model = share - share.mean(), fit.model - fit.model.mean()
     energy = math.sqrt(float(about @ about) * float(model @ model))
     seen = (starts > -1.0 / fit.timing.step) & (starts < count)
@@ -171,4 +175,4 @@ def _framed(result: DecodeResult, fit: Fit, bits: int) -> DecodeResult:
     return replace(result, code=code_of(packet.bits))
 
 
-DECODER = Decoder("sequence", "Sequence: the most likely chips", read_signal)
+DECODER = Decoder("sequence", "Sequence: the most likely chips", read_signal, is_quick=False)

@@ -19,7 +19,7 @@ from occ_model.receiver.sequence.trellis import NO_STATE, Trellis
 _NEVER = 1e30
 """Distance of a state that cannot be reached."""
 
-_SURVIVAL = 8
+_SURVIVAL = 5
 """Memories of a trellis after which the paths that survive have one beginning."""
 
 _LONGEST_PART = 128
@@ -145,12 +145,12 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
 def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts, start: FloatArray) -> FloatArray:
     """Return the least distance of the ways to each state, shape (chips, states, parts)."""
     least = np.empty((len(costs), trellis.states, costs.shape[-1]))
-    now = np.zeros(least.shape[1:])
+    now, ways = np.zeros(least.shape[1:]), np.empty(costs.shape[1:])
     for step, cost in enumerate(costs):
         if step == parts.overlap:
             now[:, 0] += start
-        np.add(now[trellis.before], cost).min(axis=0, out=least[step])
-        now = least[step]
+        np.add(now.take(trellis.before, axis=0, out=ways, mode="wrap"), cost, out=ways)
+        now = np.minimum.reduce(ways, axis=0, out=least[step])
     return least
 
 
@@ -159,9 +159,11 @@ def _add_backward(trellis: Trellis, costs: FloatArray, forward: FloatArray) -> F
     now = np.zeros(forward.shape[1:])
     ways = np.empty((costs.shape[1] * costs.shape[2] + 1, costs.shape[-1]))
     ways[NO_STATE] = _NEVER
+    on, into = np.empty((*trellis.after.shape, costs.shape[-1])), ways[:-1].reshape(costs.shape[1:])
     for step in range(len(costs) - 2, -1, -1):
-        np.add(costs[step + 1], now, out=ways[:-1].reshape(costs.shape[1:]))
-        now = ways[trellis.after].min(axis=0)
+        np.add(costs[step + 1], now, out=into)
+        ways.take(trellis.after, axis=0, out=on, mode="wrap")
+        np.minimum.reduce(on, axis=0, out=now)
         forward[step] += now
     return forward
 
@@ -171,7 +173,8 @@ def _decided(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[Byt
 
     def margins(of_states: FloatArray, age: int) -> FloatArray:
         lit = trellis.chips[:, age] == 1
-        return of_states[..., ~lit, :].min(axis=-2) - of_states[..., lit, :].min(axis=-2)
+        dark = of_states[..., ~lit, :].min(axis=-2)
+        return np.asarray(dark - of_states[..., lit, :].min(axis=-2))
 
     inner = distance[parts.overlap : parts.overlap + parts.core]
     # The first state also holds the chips before its own.

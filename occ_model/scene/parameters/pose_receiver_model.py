@@ -63,6 +63,14 @@ RECEIVER: tuple[Parameter, ...] = (
         "Share of the image's pixels, the brightest, that mark the panel for the decoder.",
         unit=NONE, low=1e-4, high=0.5, slider=(0.01, 0.2), scale="log", default=0.05,
     ),
+    Choice(
+        "equalizer",
+        "Equalizer",
+        "",
+        "How the equalizer undoes the exposure: with the least error, or as if without noise.",
+        ("mmse", "zero-forcing"),
+        "mmse",
+    ),
 )
 
 MODEL: tuple[Parameter, ...] = (

@@ -1,0 +1,123 @@
+"""Undo the exposure: a moving average of the light, t / t_r columns long.
+
+The exposure is a filter with the response sinc(F t), which has nulls: there the light leaves
+nothing but noise. The Wiener filter H* / (|H|^2 + N / S) divides by the response H where the
+light's spectrum S is above the noise's N, and gives nothing where it is below: it has the least
+mean square error (MMSE). Without the noise it is the inverse 1 / H (zero-forcing), which amplifies
+the noise beside a null without limit.
+"""
+
+import math
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+
+MMSE, ZERO_FORCING = "mmse", "zero-forcing"
+"""The ways to undo an exposure."""
+
+_NONE = 1e-6
+"""Noise over light that zero-forcing takes for none: at a null it would divide by zero."""
+
+_BESIDE_NULLS = 0.25
+"""Share of the spectrum, where the exposure passes least, that the noise is measured in."""
+
+_FLOOR = 1e-3
+"""Least of a chip's spectrum, relative to its largest; at its own nulls it is 0."""
+
+_TAPER = 4.0
+"""Exposures over which the signal fades out at either end, before the spectrum repeats it."""
+
+
+def box(columns: float) -> FloatArray:
+    """Return a moving average over a number of columns, as an impulse response about its middle.
+
+    Returns
+    -------
+    ndarray of float64, an odd number of columns
+        Their sum is 1. A column that is covered in part counts as much.
+    """
+    reach = max(0, math.ceil((columns - 1.0) / 2.0))
+    covered = np.clip(columns / 2.0 - np.abs(np.arange(-reach, reach + 1)) + 0.5, 0.0, 1.0)
+    return np.asarray(covered / covered.sum())
+
+
+def response(columns: float, length: int) -> FloatArray:
+    """Return the frequency response of :func:`box` at the frequencies of a spectrum.
+
+    Parameters
+    ----------
+    columns
+        Length of the box.
+    length
+        Columns of the signal that the spectrum is of.
+
+    Returns
+    -------
+    ndarray of float64, shape (length // 2 + 1,)
+        Real, as the box is even.
+    """
+    taps = box(columns)
+    circle = np.zeros(length)
+    np.add.at(circle, np.arange(len(taps)) - len(taps) // 2, taps)
+    return np.asarray(np.fft.rfft(circle).real)
+
+
+def undo_exposure(
+    light: FloatArray, exposure: float, chip: float, method: str = MMSE
+) -> FloatArray:
+    """Return the light before it was averaged over the exposure.
+
+    Parameters
+    ----------
+    light : ndarray of float64, shape (columns,)
+        Proportional to light.
+    exposure
+        Exposure time in columns, t / t_r.
+    chip
+        Length of a chip in columns, whose spectrum the light has.
+    method
+        ``"mmse"`` or ``"zero-forcing"``.
+
+    Returns
+    -------
+    ndarray of float64, shape as ``light``
+        At each column the light in the middle of its exposure.
+    """
+    from skimage.restoration import wiener  # slow to import, and for this decoder alone
+
+    mean = float(light.mean())
+    faded, margin = _faded(light - mean, math.ceil(_TAPER * exposure))
+    passed = response(exposure, len(faded))
+    frequency = np.arange(len(passed)) / len(faded)
+    if method == ZERO_FORCING:
+        noise, spectrum = _NONE, np.ones_like(passed)
+    else:
+        spectrum = np.sinc(frequency * chip) ** 2 + _FLOOR
+        noise = _noise_over_light(faded, light, passed, spectrum)
+    # Complex: scikit-image takes it for a response, not for an impulse response.
+    shape = (1.0 / np.sqrt(spectrum)).astype(np.complex128)
+    undone = wiener(faded, box(exposure), noise, reg=shape, clip=False)
+    return np.asarray(undone[margin : margin + len(light)] + mean, dtype=np.float64)
+
+
+def _faded(signal: FloatArray, margin: int) -> tuple[FloatArray, int]:
+    """Continue a signal beyond both ends, where it fades out: a spectrum repeats it endlessly."""
+    fade = 0.5 - 0.5 * np.cos(np.pi * (np.arange(margin) + 0.5) / margin)
+    return np.concatenate([signal[0] * fade, signal, signal[-1] * fade[::-1]]), margin
+
+
+def _noise_over_light(
+    faded: FloatArray, light: FloatArray, passed: FloatArray, spectrum: FloatArray
+) -> float:
+    """Measure the noise's power beside the nulls, relative to the light's at low frequencies.
+
+    What the signal has there cannot be light of chips. It is the noise, the rounding, an error of
+    the tone curve, and what the ends of the picture cut off.
+    """
+    power = np.abs(np.fft.rfft(faded)) ** 2 / len(faded)
+    count = max(1, int(_BESIDE_NULLS * len(power)))
+    beside = np.argpartition(np.abs(passed), count - 1)[:count]
+    noise = float(power[beside].mean())
+    variance = max(float(light.var()) - noise, noise * _FLOOR)
+    return noise / (variance / float(np.mean(spectrum * passed**2)))

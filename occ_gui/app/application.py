@@ -30,6 +30,7 @@ from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.story.story_view import StoryView
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
@@ -69,10 +70,11 @@ class Application(QObject):
         self.controls = ControlPanel([], effects)
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
         self.accuracy, self.photo = AccuracyView(), PhotoView()
+        self.story = StoryView(self.image)
         self.detection = MapView(tuple(DECODERS))
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(
-            self.controls, self.image, self.profile, self.decode, self.photo, self.accuracy,
+            self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
         )  # fmt: skip
         self.messages = StatusMessages(self.window, self.controls)
@@ -89,7 +91,7 @@ class Application(QObject):
         # The profile is last: it is drawn with the earlier results and the comparison.
         first = (self.image, self.learning, self.photo_wiring.comparison)
         self.simulation.picture_ready.connect(self.image.show_picture)
-        self.simulation.show_in([*first, self.profile, self.decode, self.accuracy])
+        self.simulation.show_in([*first, self.profile, self.decode, self.story, self.accuracy])
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
@@ -97,6 +99,7 @@ class Application(QObject):
             self.store, self.settings, self.detection, self.slider_strips
         )
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
+        self.outdated.mark_verdict(self.story.verdict)
         self.outdated.mark_picture(self.image.simulation)
         self.outdated.mark_results(self.profile, self.decode, self.accuracy.effects)
         self.learning.exposure_made.connect(self.outdated.mark_results)
@@ -131,6 +134,8 @@ class Application(QObject):
         self.store.refused_for.connect(self.messages.show_refusal_for)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
         self.simulation.failed_for.connect(self.messages.show_failure)
+        self.simulation.failed.connect(self.story.verdict.show_failure)
+        self.simulation.submitted.connect(self.story.verdict.end_failure)
         self.simulation.failed.connect(self.learning.pins.give_up)
         for speaker in (self.presets, self.files, self.present):
             speaker.status_message.connect(self.window.say)
@@ -195,6 +200,7 @@ class Application(QObject):
         self.slider_strips.set_shown(self.preferences.slider_strips)
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
+        self.decode.decoder_chosen.connect(self.story.verdict.choose_decoder)
 
     @property
     def is_idle(self) -> bool:

@@ -39,7 +39,7 @@ class OutdatedPanes(QObject):
         self, simulation: SimulationController, verdict: VerdictPane, parent: QObject
     ) -> None:
         super().__init__(parent)
-        self._simulation, self._verdict = simulation, verdict
+        self._simulation, self._verdicts = simulation, [verdict]
         self._ages = simulation.ages
         self._pictured: SimulationRequest | None = None
         self._decoded: SimulationRequest | None = None
@@ -58,6 +58,11 @@ class OutdatedPanes(QObject):
     def is_idle(self) -> bool:
         """Whether no verdict waits for the end of a movement."""
         return not self._settling.isActive()
+
+    def mark_verdict(self, pane: VerdictPane) -> None:
+        """Tell from now on another pane of the verdict whether it is of an earlier scene."""
+        self._verdicts.append(pane)
+        self._update()
 
     def mark_picture(self, pane: QWidget) -> None:
         """Mark from now on a pane of the picture, which is there before it is decoded."""
@@ -99,7 +104,8 @@ class OutdatedPanes(QObject):
         if self._decoded is None:
             return
         is_present, rest = self._decoded == self._ages.present, self._ages.rest()
-        self._verdict.show_outdated(not is_present or rest > 0.0)
+        for verdict in self._verdicts:
+            verdict.show_outdated(not is_present or rest > 0.0)
         if is_present and rest > 0.0:
             self._settling.start(int(1e3 * rest) + 1)
         else:

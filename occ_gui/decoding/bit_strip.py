@@ -6,6 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from occ_gui.decoding.verdict import wrong_places
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 
@@ -59,8 +60,7 @@ class BitStrip(QWidget):
 
     def wrong_places(self) -> list[int]:
         """Return the indices of the received bits that differ from the sent ones."""
-        pairs = zip(self._sent, self._received, strict=False)
-        return [place for place, (sent, received) in enumerate(pairs) if sent != received]
+        return wrong_places(self._sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the size of two rows of cells."""

@@ -7,8 +7,12 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
+from occ_gui.decoding.verdict import is_right, verdict_on
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.state_look import State
 from occ_model.results import DecodeResult, Location
+
+_MARKS = {State.GOOD: "✓ ", State.NEUTRAL: ""}
 
 _STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "confidence")
 
@@ -108,7 +112,7 @@ class DecodeView(QWidget):
 
     def _mark_tabs(self, results: Iterable[DecodeResult]) -> None:
         for place, result in enumerate(results):
-            mark = "✓" if self._is_right(result) else "✗"
+            mark = "✓" if is_right(result, self._sent) else "✗"
             mark = "…" if self._is_outdated else mark
             self.decoders.setTabText(place, f"{result.decoder} {mark}")
 
@@ -139,28 +143,17 @@ class DecodeView(QWidget):
         self.signal.show_result(decoded, snapshot.packet_columns)
         self.run_lengths.show_result(decoded)
 
-    def _is_right(self, decoded: DecodeResult) -> bool:
-        sent = self._snapshot.sent if self._snapshot is not None else ()
-        return decoded.code is not None and tuple(decoded.bits.tolist()) == sent
-
     def _verdict(self, decoded: DecodeResult) -> str:
-        verdict = self._reading(decoded)
+        verdict = verdict_on(decoded, self._sent)
+        mark = _MARKS.get(verdict.state, "✗ ")
+        text = f"{mark}{verdict.title}"
         if self._is_outdated:
-            return self.tr("Earlier scene: {verdict}").format(verdict=verdict)
-        return verdict
+            return self.tr("Earlier scene: {verdict}").format(verdict=text)
+        return text
 
-    def _reading(self, decoded: DecodeResult) -> str:
-        sent = self._snapshot.sent if self._snapshot is not None else ()
-        if not sent:
-            return self.tr("No code is sent")
-        if decoded.code is None:
-            return self.tr("✗ No code read")
-        wrong = len(self.strip.wrong_places())
-        if wrong:
-            return self.tr("✗ Code {code} read, {wrong} of {bits} bits wrong").format(
-                code=decoded.code, wrong=wrong, bits=len(sent)
-            )
-        return self.tr("✓ Code {code} read, all bits right").format(code=decoded.code)
+    @property
+    def _sent(self) -> tuple[int, ...]:
+        return () if self._snapshot is None else self._snapshot.sent
 
     def _bright(self, location: Location) -> str:
         return self.tr("{level}; contours: {contours}, grown by {growth} px").format(

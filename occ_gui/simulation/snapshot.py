@@ -1,9 +1,10 @@
 """Snapshot: the results of one simulation, and the request for it."""
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from occ_model.arrays import FloatArray
-from occ_model.results import DecodeResult, Frame
+from occ_model.results import DecodeResult, Frame, Plan
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -75,6 +76,40 @@ class Snapshot:
     called_for: tuple[str, ...] = ()
 
     @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self.request.scene
+
+    @property
+    def plan(self) -> Plan:
+        """The effects that were simulated."""
+        return self.frame.plan
+
+    @property
+    def profile(self) -> FloatArray:
+        """Mean of the panel's pixels in each column, before the receiver's enhancement."""
+        return self.frame.profile
+
+    @property
+    def signal(self) -> FloatArray:
+        """The same after the receiver's enhancement."""
+        return self.frame.signal
+
+    @property
+    def corners(self) -> FloatArray:
+        """The panel's corners in the picture, each as (column, row)."""
+        return self.frame.corners
+
+    @property
+    def results(self) -> tuple[DecodeResult, ...]:
+        """The result of every decoder, the paper's first."""
+        return (self.decoded, *self.others)
+
+    @property
     def simulation_seconds(self) -> float:
         """Computing time of the picture."""
         return sum(self.frame.timings.values())
+
+
+Reading: TypeAlias = Snapshot
+"""What is read of a scene."""

@@ -10,9 +10,9 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.photo.photo_view import PhotoView
-from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.window.menus import Menus
@@ -29,7 +29,7 @@ class MainWindow(QMainWindow):
 
     Parameters
     ----------
-    controls, image, profile, decode, photo, accuracy, detection
+    controls, story, profile, decode, photo, accuracy, detection
         The panes.
     undo_stack
         The steps that the edit menu undoes and redoes.
@@ -47,7 +47,7 @@ class MainWindow(QMainWindow):
     def __init__(  # noqa: PLR0913, PLR0917 - one a pane
         self,
         controls: ControlPanel,
-        image: ImageView,
+        story: StoryView,
         profile: ProfileView,
         decode: DecodeView,
         photo: PhotoView,
@@ -60,7 +60,7 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(self.tr("Optical Camera Communication"))
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
-        self.setCentralWidget(image)
+        self.setCentralWidget(story)
         self.docks = self._make_docks(controls, decode, photo, profile, accuracy, detection)
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
         self.docks["map"].visibilityChanged.connect(detection.set_seen)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.scene.scene import Scene
 
 
@@ -98,6 +98,36 @@ class ExposureWindow:
         ends = np.minimum(self.edges[1:], self.end)
         seen = (self.lit == 1) & (ends > begins)
         return np.stack([begins[seen], ends[seen]], axis=1)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LightCurve:
+    """The light of the LED over the columns that begin their exposures meanwhile.
+
+    Parameters
+    ----------
+    columns, light : ndarray of float64, shape (knots,)
+        The light, 0 to 1, which is linear from each knot to the next; two knots lie at the same
+        column where it jumps.
+    edges : ndarray of float64, shape (chips + 1,)
+        The column at which each chip starts, and at which the last one ends.
+    lit : ndarray of uint8, shape (chips,)
+        Whether the LED is on in each.
+    places : ndarray of int64, shape (chips,)
+        The number of each chip within the period sent, from 0.
+    """
+
+    columns: FloatArray
+    light: FloatArray
+    edges: FloatArray
+    lit: ByteArray
+    places: IndexArray
+
+    def chip_at(self, column: float) -> int | None:
+        """Return the index of the chip that is sent at a column, None outside the curve."""
+        if not self.edges[0] <= column < self.edges[-1]:
+            return None
+        return int(np.searchsorted(self.edges, column, side="right")) - 1
 
 
 @dataclass(frozen=True, slots=True)

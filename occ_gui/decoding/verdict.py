@@ -1,0 +1,71 @@
+"""Verdict on a decoder's result: the code read, compared with the one sent, in words."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.widgets.state_look import State
+from occ_model.results import DecodeResult
+
+_CLAUSE_END = re.compile(r"[:;,.](?= |$)")
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What a decoder's result is worth.
+
+    Parameters
+    ----------
+    state
+        Good where all bits are right, doubtful where some are, bad where none is or no code was
+        read, neutral where none is sent.
+    title
+        The verdict in a few words.
+    reason
+        The decoder's sentence that says why no code was read, else empty.
+    """
+
+    state: State
+    title: str
+    reason: str = ""
+
+    @property
+    def heading(self) -> str:
+        """The verdict in one line, with the beginning of the reason where there is one."""
+        if not self.reason or self.state is State.NEUTRAL:
+            return self.title
+        cause = _CLAUSE_END.split(self.reason, maxsplit=1)[0]
+        return _tr("No code: {cause}").format(cause=cause[:1].lower() + cause[1:])
+
+
+def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
+    """Return the indices of the received bits that differ from the sent ones."""
+    pairs = zip(sent, received, strict=False)
+    return [place for place, (one, other) in enumerate(pairs) if one != other]
+
+
+def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
+    """Return whether a code was read, and it is the one sent."""
+    return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
+
+
+def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
+    """Compare what a decoder read with the bits sent; these are empty for a raw pattern."""
+    if not sent:
+        return Verdict(State.NEUTRAL, _tr("No code is sent"), decoded.failure or "")
+    if decoded.code is None:
+        return Verdict(State.BAD, _tr("No code read"), decoded.failure or "")
+    if is_right(decoded, sent):
+        title = _tr("Code {code} read, all bits right").format(code=decoded.code)
+        return Verdict(State.GOOD, title)
+    wrong = len(wrong_places(sent, decoded.bits.tolist()))
+    title = _tr("Code {code} read, {wrong} of {bits} bits wrong").format(
+        code=decoded.code, wrong=wrong, bits=len(sent)
+    )
+    return Verdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("Verdict", text)

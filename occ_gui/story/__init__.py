@@ -1,0 +1,1 @@
+"""The story of one picture: light, stripes, profile and code over one axis of columns."""

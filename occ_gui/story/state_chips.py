@@ -1,0 +1,231 @@
+"""State chips: short labels of what holds for a result, such as where the band model ends."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+from PySide6.QtCore import QCoreApplication, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+
+from occ_gui.decoding.verdict import is_right
+from occ_gui.scene.forced_effects import switch_text
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.plain_text import in_tool_tip
+from occ_gui.widgets.state_look import State, colours_of, draw_state
+
+_ICON = 14
+_GAP = 6
+_MORE_WIDTH = 40
+_PADDING = 8
+
+_MOST_FORCED = 2
+"""Effects switched by hand that have a chip each; more share one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chip:
+    """A short label.
+
+    Parameters
+    ----------
+    key
+        What it is about.
+    text
+        A few words, as HTML with ``sub`` only.
+    meaning
+        A sentence.
+    state
+        Its colours and its icon; a neutral one has no icon.
+    """
+
+    key: str
+    text: str
+    meaning: str
+    state: State = State.NEUTRAL
+
+
+def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
+    """Return what holds for the results, beside the verdict on one decoder's."""
+    return (
+        _ratio(reading),
+        *_band_model(reading),
+        *_other_decoders(reading, decoder),
+        *_by_hand(reading),
+        *_left_out(reading),
+    )
+
+
+def computing() -> Chip:
+    """Return the label of results that are not there yet."""
+    return Chip("computing", _tr("computing"), _tr("The results are computed."), State.WAITING)
+
+
+def _ratio(reading: Reading) -> Chip:
+    scene = reading.scene
+    ratio = scene.camera.exposure_time / scene.transmitter.switching_period
+    meaning = _tr(
+        "The exposure time over the time that a chip lasts. Above 1 no column sees one chip alone."
+    )
+    return Chip("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
+
+
+def _band_model(reading: Reading) -> list[Chip]:
+    if not reading.band_undefined:
+        return []
+    return [Chip("band", _tr("band model ends here"), reading.band_undefined)]
+
+
+def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
+    results = {result.decoder: result for result in reading.results}
+    right = [name for name, result in results.items() if is_right(result, reading.sent)]
+    names = ", ".join(name for name in right if name != decoder)
+    if not reading.sent or not names:
+        return []
+    text = _tr("also read: {names}") if decoder in right else _tr("read by: {names}")
+    meaning = _tr("Other decoders that read the code from the same signal, all bits right.")
+    return [Chip("others", text.format(names=names), meaning, State.GOOD)]
+
+
+def _by_hand(reading: Reading) -> list[Chip]:
+    decisions = reading.plan.decisions
+    labels = {decision.effect: decision.label for decision in decisions}
+    texts = [switch_text(d.effect, d.included, labels) for d in decisions if d.forced]
+    meaning = _tr("The plan would decide by the tolerance; this was decided by hand.")
+    if len(texts) > _MOST_FORCED:
+        text = _tr("{count} effects by hand").format(count=len(texts))
+        return [Chip("forced", text, "\n".join([*texts, meaning]), State.DOUBTFUL)]
+    return [Chip("forced", text, meaning, State.DOUBTFUL) for text in texts]
+
+
+def _left_out(reading: Reading) -> list[Chip]:
+    if not reading.called_for:
+        return []
+    meaning = _tr("This picture leaves out what map and strips take in: {effects}.").format(
+        effects=", ".join(reading.called_for)
+    )
+    return [Chip("left out", _tr("effects left out"), meaning, State.DOUBTFUL)]
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("StateChips", text)
+
+
+class ChipLabel(QLabel):
+    """A chip as a rounded label with the icon of its state."""
+
+    def __init__(self, chip: Chip, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.chip = chip
+        has_icon = chip.state is not State.NEUTRAL
+        left = _PADDING + (_ICON + 4 if has_icon else 0)
+        self.setContentsMargins(left, 2, _PADDING, 2)
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.setTextFormat(Qt.TextFormat.RichText)
+        self.setText(chip.text)
+        self.setAccessibleName(plain_text_of(chip.text))
+        self.setToolTip(in_tool_tip(chip.meaning))
+        self.setAccessibleDescription(chip.meaning)
+        palette = QPalette(self.palette())
+        palette.setColor(QPalette.ColorRole.WindowText, colours_of(chip.state, palette).ink)
+        self.setPalette(palette)
+
+    @guarded
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the rounded area, the icon and the text."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        colours = colours_of(self.chip.state, self.palette())
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(colours.paper)
+        place = QRectF(self.rect())
+        painter.drawRoundedRect(place, place.height() / 2, place.height() / 2)
+        if self.chip.state is not State.NEUTRAL:
+            top = (place.height() - _ICON) / 2
+            draw_state(painter, QRectF(_PADDING, top, _ICON, _ICON), self.chip.state, colours)
+        painter.end()
+        super().paintEvent(event)
+
+
+class ChipRow(QWidget):
+    """Chips in a row at the right; those that do not fit are counted by the last one."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.chips: tuple[Chip, ...] = ()
+        self._labels: list[ChipLabel] = []
+        self._more: ChipLabel | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def show_chips(self, chips: Sequence[Chip]) -> None:
+        """Show these chips in place of the previous ones."""
+        if tuple(chips) == self.chips:
+            return
+        self.chips = tuple(chips)
+        kept = {label.chip: label for label in self._labels}
+        self._labels = [
+            kept.pop(chip) if chip in kept else ChipLabel(chip, self) for chip in self.chips
+        ]
+        for label in kept.values():
+            _remove(label)
+        self._place()
+        self.updateGeometry()
+
+    def renew(self) -> None:
+        """Make all labels anew, as for another theme."""
+        chips = self.chips
+        self.show_chips(())
+        self.show_chips(chips)
+
+    def _place(self) -> None:
+        """Place the labels from the right, the last ones only where there is room for them."""
+        if self._more is not None:
+            _remove(self._more)
+            self._more = None
+        widths = [label.sizeHint().width() for label in self._labels]
+        fitting = len(widths)
+        if sum(widths) + _GAP * (fitting - 1) > self.width():
+            room = self.width() - _MORE_WIDTH
+            ends = accumulate(width + _GAP for width in widths)
+            fitting = sum(end <= room for end in ends)
+        hidden = self._labels[fitting:]
+        shown = self._labels[:fitting]
+        if hidden:
+            meaning = "\n".join(plain_text_of(label.chip.text) for label in hidden)
+            self._more = ChipLabel(Chip("more", f"+ {len(hidden)}", meaning), self)
+            shown = [*shown, self._more]
+        for label in hidden:
+            label.hide()
+        right = self.width()
+        for label in reversed(shown):
+            size = label.sizeHint()
+            label.setGeometry(right - size.width(), 0, size.width(), self.height())
+            label.show()
+            right -= size.width() + _GAP
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Show as many chips as fit."""
+        super().resizeEvent(event)
+        self._place()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of all chips."""
+        hints = [label.sizeHint() for label in self._labels]
+        width = sum(hint.width() + _GAP for hint in hints)
+        return QSize(width, self.fontMetrics().height() + 6)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the width of the chip that counts the others."""
+        return QSize(_MORE_WIDTH, self.sizeHint().height())
+
+
+def plain_text_of(html: str) -> str:
+    """Return the text of a chip without its markup."""
+    return html.replace("<sub>", "_").replace("</sub>", "")
+
+
+def _remove(label: ChipLabel) -> None:
+    label.hide()
+    label.setParent(None)
+    label.deleteLater()

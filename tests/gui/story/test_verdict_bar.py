@@ -1,0 +1,159 @@
+"""The verdict bar says in words and by shape what each decoder's result is worth."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.simulation.controller import simulate
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.story.state_chips import ChipLabel
+from occ_gui.story.verdict_bar import VerdictBar
+from occ_gui.widgets.contrast import contrast
+from occ_gui.widgets.state_look import State, colours_of
+from occ_gui.window.theme import palette_of
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+SnapshotOf = Callable[..., Snapshot]
+
+
+@pytest.fixture
+def bar(qtbot: QtBot) -> VerdictBar:
+    bar = VerdictBar()
+    qtbot.addWidget(bar)
+    bar.resize(900, 60)
+    return bar
+
+
+def texts(bar: VerdictBar) -> dict[str, str]:
+    return {chip.key: chip.text for chip in bar.chips.chips}
+
+
+def sent_to(snapshot: Snapshot, **changes: Any) -> Snapshot:
+    return replace(snapshot, decoded=replace(snapshot.decoded, **changes))
+
+
+def test_a_code_read_is_good_and_names_the_code(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    assert bar.state is State.WAITING
+    bar.show_reading(snapshot_of())
+    assert bar.state is State.GOOD
+    assert bar.title.text() == "Code 718 read, all bits right"
+    assert "each column sees 1 or 2 chips." in bar.accessibleDescription()
+
+
+@pytest.mark.parametrize(
+    ("reason", "cause"),
+    [
+        ("No header found, two needed: 9 of 48 chips fit.", "no header found"),
+        ("No stripes: the signal spans only 0.5 grey levels.", "no stripes"),
+        ("A chip lasts 0.5 columns: runs cannot tell.", "a chip lasts 0.5 columns"),
+        ("No panel found.", "no panel found"),
+    ],
+)
+def test_no_code_is_bad_and_says_why(
+    bar: VerdictBar, snapshot_of: SnapshotOf, reason: str, cause: str
+) -> None:
+    none = np.empty(0, dtype=np.uint8)
+    bar.show_reading(sent_to(snapshot_of(), code=None, bits=none, failure=reason))
+    assert bar.state is State.BAD
+    assert bar.title.text() == f"No code: {cause}"
+    assert reason in bar.accessibleDescription()
+
+
+def test_a_code_with_wrong_bits_is_doubtful(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of()
+    bits = snapshot.decoded.bits.copy()
+    bits[[2, 5]] ^= 1
+    bar.show_reading(sent_to(snapshot, code=1, bits=bits))
+    assert (bar.state, bar.title.text()) == (State.DOUBTFUL, "Code 1 read, 2 of 10 bits wrong")
+    bar.show_reading(sent_to(snapshot, code=1, bits=1 - snapshot.decoded.bits))
+    assert bar.state is State.BAD
+
+
+def test_a_raw_pattern_is_neither_good_nor_bad(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    bar.show_reading(snapshot_of(pattern="010100010110001001000"))
+    assert (bar.state, bar.title.text()) == (State.NEUTRAL, "No code is sent")
+    assert "raw chip pattern" in bar.accessibleDescription()
+
+
+def test_an_outdated_verdict_is_not_the_present_one(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    bar.show_reading(snapshot_of())
+    bar.show_outdated(True)
+    assert bar.state is State.WAITING
+    assert bar.title.text() == "Earlier scene: Code 718 read, all bits right"
+    assert texts(bar)["computing"] == "computing"
+    bar.show_outdated(False)
+    assert bar.state is State.GOOD
+    assert "computing" not in texts(bar)
+
+
+def test_a_scene_without_a_picture_has_no_verdict(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    bar.show_reading(snapshot_of())
+    bar.show_failure("The panel is behind the camera.")
+    assert (bar.state, bar.title.text()) == (State.BAD, "No picture of this scene")
+    assert "behind the camera" in bar.accessibleDescription()
+    assert not bar.chips.chips
+    bar.show_reading(snapshot_of())
+    assert bar.state is State.GOOD
+
+
+def test_the_chips_say_where_the_band_model_ends(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    bar.show_reading(snapshot_of())
+    assert texts(bar)["ratio"] == "t / t<sub>LED</sub> = 0.68"
+    assert "band" not in texts(bar)
+    bar.show_reading(snapshot_of(exposure_time=136e-6))
+    assert texts(bar)["ratio"] == "t / t<sub>LED</sub> = 1.36"
+    assert texts(bar)["band"] == "band model ends here"
+    assert "each column sees 2 or 3 chips; the band model ends" in bar.accessibleDescription()
+
+
+def test_each_effect_by_hand_is_named_until_they_are_many(
+    bar: VerdictBar, small_scene: Scene
+) -> None:
+    for force, wanted in (
+        ({"jpeg": False}, ["JPEG off by hand"]),
+        ({"jpeg": False, "flicker": False, "defocus": False}, ["3 effects by hand"]),
+    ):
+        bar.show_reading(simulate(small_scene, SimulationSettings(force=force)))
+        assert [chip.text for chip in bar.chips.chips if chip.key == "forced"] == wanted
+        assert all(c.state is State.DOUBTFUL for c in bar.chips.chips if c.key == "forced")
+
+
+def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene: Scene) -> None:
+    scene = small_scene.replace(exposure_time=136e-6, switching_frequency=20e3)
+    snapshot = simulate(scene)
+    assert snapshot.decoded.code is None
+    assert occ.decode(snapshot.frame.image, scene, decoder="matched").code == 718
+    bar.show_reading(snapshot)
+    assert bar.state is State.BAD
+    assert texts(bar)["others"] == "read by: matched"
+    bar.choose_decoder("matched")
+    assert bar.state is State.GOOD
+    assert "others" not in texts(bar)
+
+
+@pytest.mark.parametrize("width", [900, 400, 230, 120])
+def test_chips_that_do_not_fit_are_counted(bar: VerdictBar, small_scene: Scene, width: int) -> None:
+    bar.show()
+    bar.show_reading(simulate(small_scene.replace(exposure_time=136e-6)))
+    row = bar.chips
+    row.resize(width, 22)
+    shown = [label for label in row.findChildren(ChipLabel) if not label.isHidden()]
+    assert all(label.x() >= 0 for label in shown)
+    hidden = len(row.chips) - sum(label.chip in row.chips for label in shown)
+    assert (hidden == 0) == (width == 900)
+    assert any(label.chip.text == f"+ {hidden}" for label in shown) == (hidden > 0)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_text_on_each_state_can_be_read(theme: str) -> None:
+    for state in State:
+        colours = colours_of(state, palette_of(theme))
+        assert contrast(colours.ink, colours.paper) >= 4.5

@@ -1,0 +1,90 @@
+"""The light over the columns is the light that the exposure integral sees."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.errors import ParameterError
+from occ_model.results.teaching import LightCurve
+from occ_model.scene.scene import Scene
+from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
+
+CHANGES: tuple[dict[str, Any], ...] = (
+    {},
+    {"start_time": 1.2345e5},
+    {"switching_frequency": 3.3e3, "start_time": -7e-4},
+    {"switching_frequency": 47e3},
+    {"pattern": "010100010110001001000"},
+)
+
+
+def scene_with(**changes: Any) -> Scene:
+    return occ.load_preset("phone-136us").replace(columns=400, **changes)
+
+
+def mean_light(curve: LightCurve, first: float, last: float) -> float:
+    """Average a curve exactly: it is linear between its knots."""
+    areas = np.diff(curve.columns) * (curve.light[1:] + curve.light[:-1]) / 2
+    integral = np.concatenate([[0.0], np.cumsum(areas)])
+    at_first, at_last = np.interp([first, last], curve.columns, integral)
+    return float(at_last - at_first) / (last - first)
+
+
+@pytest.mark.parametrize("changes", CHANGES)
+def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> None:
+    scene = scene_with(**changes)
+    width = scene.camera.exposure_time / scene.camera.readout_time
+    curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000)
+    assert curve is not None
+    share = occ.on_time(scene) / scene.camera.exposure_time
+    found = [mean_light(curve, i + 0.0, i + width) for i in range(400)]
+    np.testing.assert_allclose(found, share, atol=1e-7)
+
+
+@pytest.mark.parametrize("edge", [5e-6, 60e-6, 250e-6])
+def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
+    scene = scene_with(edge_time=edge)
+    width = scene.camera.exposure_time / scene.camera.readout_time
+    curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000, edged=True)
+    sharp = light_over_columns(scene, -100.0, 400.0 + width, 10_000)
+    assert curve is not None
+    assert sharp is not None
+    lag = edge / scene.camera.readout_time
+    for x in np.linspace(0.0, 400.0, 37).tolist():
+        value = float(np.interp(x, curve.columns, curve.light))
+        assert value == pytest.approx(mean_light(sharp, x - lag, x), abs=1e-9)
+
+
+def test_each_chip_is_the_one_sent_at_its_place() -> None:
+    scene = scene_with()
+    curve = light_over_columns(scene, 10.3, 380.2, 10_000)
+    assert curve is not None
+    np.testing.assert_array_equal(curve.lit, occ.packet(scene)[curve.places])
+    assert curve.edges[0] <= 10.3
+    assert curve.edges[-1] > 380.2
+    middles = (curve.edges[:-1] + curve.edges[1:]) / 2
+    assert [curve.chip_at(x) for x in middles.tolist()] == list(range(len(curve.lit)))
+    assert curve.chip_at(curve.edges[-1]) is None
+
+
+def test_too_many_chips_are_not_given() -> None:
+    scene = scene_with(switching_frequency=1e9)
+    assert light_over_columns(scene, 0.0, 399.0, 2000) is None
+
+
+def test_columns_out_of_order_are_refused() -> None:
+    with pytest.raises(ParameterError, match="columns end at 3"):
+        light_over_columns(scene_with(), 5.0, 3.0, 100)
+
+
+@pytest.mark.parametrize("chips", [0.3, 1.0, 1.36, 2.0, 4.5])
+def test_an_exposure_sees_parts_of_so_many_chips(chips: float) -> None:
+    scene = scene_with(exposure_time=chips * 2**-13, switching_frequency=2.0**13)
+    fewest = chips_in_exposure(scene)
+    seen = set()
+    for start in np.linspace(0.0, 1.0, 50, endpoint=False).tolist():
+        seen.add(int(np.ceil(start + chips) - np.floor(start)))
+    assert seen <= {fewest, fewest + 1}
+    assert fewest in seen

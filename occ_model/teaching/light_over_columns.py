@@ -61,7 +61,9 @@ def light_over_columns(
     # In Python's integers: the first chip's number can exceed an array's.
     numbers = (start - before) % len(chips) + np.arange(stop - start + before)
     lit = chips[numbers % len(chips)]
-    edges: FloatArray = first + (np.arange(stop - start + 1) - float(begin - start)) / float(step)
+    edges: FloatArray = first + (
+        np.arange(stop - start + 1, dtype=np.float64) - float(begin - start)
+    ) / float(step)
     columns, light = _curve(lit.astype(np.float64), before, float(edge))
     return LightCurve(
         columns=first + (columns - float(begin - start)) / float(step),

@@ -1,0 +1,79 @@
+"""Header and bits lie where the decoder read them, and the threshold where it parts columns."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.results import DecodeResult, Frame
+from occ_model.teaching.light_over_columns import light_over_columns
+from occ_model.teaching.packet_fields import (
+    packet_fields,
+    received_edges,
+    received_fields,
+    threshold_levels,
+)
+from occ_model.transmitter import line_code
+from occ_model.transmitter.packet import HEADER
+
+
+def read(**changes: object) -> tuple[Frame, DecodeResult]:
+    scene = occ.load_preset("phone-68us").replace(rows=300, **changes)
+    frame = occ.render(scene, tolerance=np.inf)
+    return frame, occ.decode(frame.image, scene)
+
+
+@pytest.mark.parametrize("exposure", [68e-6, 136e-6])
+def test_the_fields_received_hold_header_and_bits(exposure: float) -> None:
+    frame, result = read(exposure_time=exposure)
+    fields = received_fields(result, frame.scene)
+    header, *bits = fields
+    assert header.bit is None
+    assert tuple(result.chips[header.first : header.last]) == HEADER
+    assert [field.bit for field in bits] == list(range(10))
+    chips = np.concatenate([result.chips[field.first : field.last] for field in bits])
+    decoded, violations = line_code.decode(chips, level=HEADER[-1])
+    assert not violations
+    np.testing.assert_array_equal(decoded, result.bits)
+
+
+def test_the_fields_sent_cover_the_packet_once() -> None:
+    scene = occ.load_preset("phone-68us")
+    fields = packet_fields(scene)
+    chips = [chip for field in fields for chip in range(field.first, field.last)]
+    assert chips == list(range(len(occ.packet(scene))))
+    assert packet_fields(scene.replace(pattern="0100101")) == ()
+
+
+def test_a_result_without_chips_has_no_places() -> None:
+    frame, _ = read()
+    result = occ.decode(frame.image, frame.scene, decoder="matched")
+    assert received_fields(result, frame.scene) == ()
+    assert received_edges(result) is None
+
+
+@pytest.mark.parametrize("exposure", [20e-6, 68e-6, 136e-6])
+def test_a_chip_received_was_sent_in_the_middle_of_its_exposures(exposure: float) -> None:
+    frame, result = read(exposure_time=exposure)
+    edges = received_edges(result)
+    assert edges is not None
+    assert len(edges) == len(result.chips) + 1
+    late = exposure / frame.scene.camera.readout_time / 2
+    curve = light_over_columns(frame.scene, 0.0, len(frame.profile) + 2 * late, 10_000)
+    assert curve is not None
+    middles = (edges[1:-2] + edges[2:-1]) / 2 + late
+    sent = [curve.lit[curve.chip_at(x) or 0] for x in middles.tolist()]
+    np.testing.assert_array_equal(sent, result.chips[1:-1])
+
+
+def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
+    frame, result = read()
+    levels = threshold_levels(frame.profile, result)
+    assert levels is not None
+    assert result.region is not None
+    assert result.signal is not None
+    part = frame.profile[result.region.first_column : result.region.last_column]
+    assert levels[0] < levels[1]
+    middle = sum(levels) / 2
+    np.testing.assert_array_equal(part > middle, result.signal > result.threshold)
+    low, high = threshold_levels(frame.signal, result) or (0.0, 0.0)
+    assert low <= (result.threshold or 0.0) <= high

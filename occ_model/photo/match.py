@@ -115,9 +115,10 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     blinks = sent == "read" or is_single_pulse(sent_chips(scene.transmitter))
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
     hypotheses = _hypotheses(candidates, sent, report)
-    found = _chosen(judge, hypotheses, stripes, sent)
+    chosen = _chosen(judge, hypotheses, stripes, sent)
+    found = candidates.polished(chosen)
     other = candidates.nearest_other(found)
-    others = [one for one in (*hypotheses, other) if one is not None and one is not found]
+    others = [one for one in (*hypotheses, other) if one is not None and one is not chosen]
     verdict = judge.verdict(found, [one for one in others if not is_turned(one, found)])
     report(0.9)
     match = described(photo, _at_rate(scene, found), estimate, stripes, found.explanation)
@@ -190,7 +191,7 @@ def _hypotheses(
 
 def _read(candidates: Candidates, as_sent: Hypothesis | None, sent: str) -> list[Hypothesis]:
     """Fit what is read; of a single pulse whose frequency is given only the duty can be another."""
-    read = candidates.read()
+    read = candidates.read(as_sent)
     chips = sent_chips(candidates.scene.transmitter)
     if sent == "read" or chips.min() == chips.max() or not is_single_pulse(chips):
         return read

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, pulse
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import Explanation, explain
+from occ_model.photo.fit.best_timing import Explanation, explain, polished
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.least_squares import StripeFit, Tone
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, canonical, read_patterns
@@ -19,6 +19,9 @@ from occ_model.transmitter.packet import sent_chips
 
 _NEAR = np.arange(-4, 5) / 8.0
 """Shifts of the last chip, in chips, of the steps that are tried near a known step."""
+
+_EXPLAINED = 0.98
+"""Correlation from which chips need not be fitted again at the period of the stripes."""
 
 _DUTIES = 50
 """Parts of a period of which a pulse takes up a whole number."""
@@ -59,13 +62,19 @@ class Candidates:
         chips = sent_chips(self.scene.transmitter)
         return self._fitted("what the scene sends", chips, bits=0.0, was_read=False)
 
-    def read(self) -> list[Hypothesis]:
-        """Suppose the chips that are read from the stripes, in each way of reading them."""
+    def read(self, as_sent: Hypothesis | None = None) -> list[Hypothesis]:
+        """Suppose the chips that are read from the stripes, in each way of reading them.
+
+        Those that a given hypothesis explains well already are left out.
+        """
         period = self.stripes.period
         if period is None:
             return []
         stripes = self.stripes
         read = read_patterns(stripes.profile, stripes.flattened, period, self.check)
+        if as_sent is not None and as_sent.fit.correlation >= _EXPLAINED:
+            known = canonical(as_sent.chips)
+            read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
         found = [
             self._fitted(
                 f"{self._named(one.chips)} read from the photo",
@@ -99,6 +108,11 @@ class Candidates:
                 if fitted is not None:
                     found[on] = fitted
         return min(found.values(), key=self._power, default=None)
+
+    def polished(self, found: Hypothesis) -> Hypothesis:
+        """Refine the fits of the hypothesis that was chosen."""
+        explanation = polished(self.stripes, found.explanation)
+        return replace(found, explanation=explanation, fit=self.chosen(explanation))
 
     def _dimmed(self, on: int, period: float, chips_sent: int) -> Hypothesis | None:
         if not 0 < on < _DUTIES:

@@ -23,6 +23,14 @@ _PROMISING = 0.85
 _BEST, _SHORTEST = 4, 4
 """Numbers of candidates that are fitted: the best ones, and those of the shortest exposures."""
 
+_ROUGH_ROUNDS = 4
+"""Steps after which fits are compared, to finish the promising ones."""
+
+_HOPELESS = 4.0
+"""Ratio to the least residual from which a rough fit is not finished."""
+
+_MOST_FINISHED = 6
+
 _AROUND = (0.85, 0.93, 1.07, 1.15)
 """Factors by which an exposure is changed to fit it again."""
 
@@ -128,12 +136,30 @@ def explain(
     best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
     if best is None:
         return None
-    model, fits, camera = best
-    polished = _distinct([_polished(model, fit, with_gamma) for fit in _as_good(fits)])
-    if not polished:
-        return None
+    fits, camera = best
     timings = tuple(fit.timing for fit in fits)
-    return Explanation(chips, tuple(_as_good(polished)), camera, timings)
+    return Explanation(chips, tuple(_as_good(fits)), camera, timings)
+
+
+def polished(stripes: Stripes, explanation: Explanation) -> Explanation:
+    """Fit an explanation again from exposures near those of its fits, where they stay the answer.
+
+    Parameters
+    ----------
+    stripes
+        The stripes.
+    explanation
+        Its fits hold an estimate of gamma, or none of them does.
+    """
+    with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
+    step = explanation.fits[0].timing.step
+    model = _model(stripes, explanation.chips, explanation.camera, step)
+    fits = _distinct([_polished(model, fit, with_gamma) for fit in explanation.fits])
+    return replace(explanation, fits=tuple(_as_good(fits))) if fits else explanation
+
+
+def _model(stripes: Stripes, chips: ByteArray, camera: CameraTone, step: float) -> StripeModel:
+    return StripeModel(stripes.profile, Waveform(chips), camera.tone, step, camera.rank_resolution)
 
 
 def _best_of_cameras(
@@ -142,19 +168,31 @@ def _best_of_cameras(
     cameras: Sequence[CameraTone],
     starts: Sequence[Timing],
     with_gamma: bool,
-) -> tuple[StripeModel, list[StripeFit], CameraTone] | None:
+) -> tuple[list[StripeFit], CameraTone] | None:
     """Fit each camera's response from several timings; give the one with the least residual."""
-    best: tuple[StripeModel, list[StripeFit], CameraTone] | None = None
+    best: tuple[list[StripeFit], CameraTone] | None = None
     for camera in sorted(cameras, key=lambda one: one.enhancement == "equalization"):
-        if best is not None and best[1][0].correlation > _most_before(camera):
+        if best is not None and best[0][0].correlation > _most_before(camera):
             continue
-        model = StripeModel(
-            stripes.profile, Waveform(chips), camera.tone, starts[0].step, camera.rank_resolution
-        )
-        fits = _distinct([model.fit(start, with_gamma) for start in starts])
-        if fits and (best is None or fits[0].residual < _share(camera) * best[1][0].residual):
-            best = model, fits, camera
+        model = _model(stripes, chips, camera, starts[0].step)
+        if best is None or camera.enhancement == "equalization":
+            fits = _fits(model, starts, with_gamma)
+        else:
+            # Which quantity is averaged changes the best timings little.
+            fits = _distinct([model.fit(fit.timing, with_gamma) for fit in best[0]])
+        if fits and (best is None or fits[0].residual < _share(camera) * best[0][0].residual):
+            best = fits, camera
     return best
+
+
+def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> list[StripeFit]:
+    """Fit from several timings: roughly from all of them, to the end from the promising ones."""
+    rough = [model.fit(start, with_gamma, rounds=_ROUGH_ROUNDS) for start in starts]
+    # What needs darker than black so far may come to need none.
+    rough.sort(key=lambda fit: (not fit.is_possible, fit.residual))
+    good = [fit for fit in rough if fit.residual <= _HOPELESS * rough[0].residual]
+    apart = _apart(good)[:_MOST_FINISHED]
+    return _distinct([model.fit(fit.timing, with_gamma) for fit in apart])
 
 
 def _most_before(camera: CameraTone) -> float:
@@ -191,8 +229,13 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
 
 def _distinct(fits: Sequence[StripeFit]) -> list[StripeFit]:
     """Keep the best possible fit of each exposure, in order of the residual."""
+    return _apart(sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual))
+
+
+def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
+    """Keep the first fit of each exposure."""
     kept: list[StripeFit] = []
-    for fit in sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual):
+    for fit in fits:
         exposures = [other.timing.exposure for other in kept]
         if all(abs(fit.timing.exposure - other) > _SAME_EXPOSURE for other in exposures):
             kept.append(fit)

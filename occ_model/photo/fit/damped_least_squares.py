@@ -6,7 +6,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-_DIFFERENCE = 0.02
+DIFFERENCE = 0.02
 """Change of the scaled parameters for finite differences."""
 
 _NO_GAIN = 0.05
@@ -16,7 +16,10 @@ _TRIES = 6
 
 
 def minimized(
-    residual: Callable[[FloatArray], FloatArray], first: FloatArray, rounds: int
+    residual: Callable[[FloatArray], FloatArray],
+    first: FloatArray,
+    rounds: int,
+    share: float = 0.0,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Minimize a sum of squares (Levenberg and Marquardt).
 
@@ -31,6 +34,8 @@ def minimized(
         The first guess.
     rounds
         Largest number of steps.
+    share
+        Where the noise is not known: share of the sum of squares whose decrease does not matter.
 
     Returns
     -------
@@ -55,7 +60,7 @@ def minimized(
         if gain <= 0.0:
             break
         slopes = _slopes(residual, here, value)
-        if gain < _NO_GAIN:
+        if gain < (share * float(value @ value) if share else _NO_GAIN):
             break
     return here, value, slopes
 
@@ -63,5 +68,5 @@ def minimized(
 def _slopes(
     residual: Callable[[FloatArray], FloatArray], here: FloatArray, value: FloatArray
 ) -> FloatArray:
-    steps = _DIFFERENCE * np.eye(len(here))
-    return np.stack([(residual(here + step) - value) / _DIFFERENCE for step in steps], axis=1)
+    steps = DIFFERENCE * np.eye(len(here))
+    return np.stack([(residual(here + step) - value) / DIFFERENCE for step in steps], axis=1)

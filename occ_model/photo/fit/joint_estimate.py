@@ -129,7 +129,7 @@ def refined(stripes: Stripes, cells: Cells, explanation: Explanation, gamma: flo
         found = [_with_step_of(mode, explanation) for mode in found]
     fits = [_stripe_fit(model, mode, gamma, with_gamma) for mode in found]
     if fits[0].correlation < explanation.correlation - _CONTRADICTED:
-        return Refined(explanation.fits, (_CONTRADICTION,))
+        return Refined(explanation.fits, (_CONTRADICTION, *_doubts(seen)))
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
     return Refined(tuple(possible), tuple(_doubts(seen)))

@@ -10,6 +10,7 @@ normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,7 +20,6 @@ from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
-from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
 
@@ -116,9 +116,8 @@ class JointModel:
         self._columns, self._step, self._gamma = columns, step, gamma
         self._values_blurred = values_blurred
         freedom = int(np.clip(step * columns / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
-        shapes = smooth_shapes(columns, freedom)
-        self._light = BlurredLight(chips, columns)
-        self._parts = [LitProfile.of(profile, shapes) for profile in profiles]
+        light = BlurredLight(chips, columns)
+        self._parts = [LitProfile(profile, freedom) for profile in profiles]
         width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK / step))
         self._block = np.concatenate(
             [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
@@ -133,6 +132,9 @@ class JointModel:
             [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
         )
         self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
+        # A fit's slopes change the timing, or the tone curve: what stays need not be found again.
+        self._lit = lru_cache(maxsize=4)(light.lit_fraction)
+        self._table = lru_cache(maxsize=4)(lambda *bends: ToneCurve(*bends).table())
 
     def start(self, timing: Timing) -> FloatArray:
         """Give the parameters of a timing, and what is usual."""
@@ -206,7 +208,7 @@ class JointModel:
         seen = self._seen(values)
         for number, part in enumerate(self._parts):
             residual = part.residual(seen)[: part.data.size]
-            deviation = deviation_of(residual, part.slope, part.shapes.shape[1])
+            deviation = deviation_of(residual, part.slope, part.freedom)
             whole = np.zeros(self._columns)
             whole[part.kept] = residual / deviation
             deviation *= math.sqrt(correlated_columns(whole))
@@ -226,10 +228,10 @@ class JointModel:
         timing = Timing(step, exposure, middle, self._gamma)
         sharp = None
         if self._values_blurred:
-            sharp = self._light.lit_fraction(timing, 0.0, longer)
+            sharp = self._lit(timing, 0.0, longer)
         return Seen(
-            self._light.lit_fraction(timing, blur, longer),
-            ToneCurve(self._gamma * math.exp(gamma), offset, shoulder, contrast).table(),
+            self._lit(timing, blur, longer),
+            self._table(self._gamma * math.exp(gamma), offset, shoulder, contrast),
             sharp,
             blur_kernel(blur),
         )

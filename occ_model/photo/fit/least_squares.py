@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
@@ -31,6 +32,10 @@ Tone = Callable[[FloatArray, float], FloatArray]
 _FULL = WHITE - 0.5
 _LEAST_KEPT = 0.4
 """Share of unsaturated columns from which the saturated ones are left out of the fit."""
+
+_MOST_ROUNDS = 25
+_NO_GAIN = 1e-6
+"""Share of the sum of squares whose decrease does not matter."""
 
 _UNSEEN = 1e-4
 """Regularization of the covariance: a parameter on which no column depends gets a standard
@@ -138,10 +143,12 @@ class StripeModel:
         tone = self._tone(lit, timing.gamma)
         kept = tone[self._kept]
         once, twice = self._products(kept), self._products(kept**2)
-        products = np.block([[self._of_ones, once], [once, twice]])
-        # Where the response hardly varies the levels are undetermined: keep them small.
-        products[np.diag_indices_from(products)] += 1e-9 * len(kept)
         freedom = self._shapes.shape[1]
+        products = np.empty((2 * freedom, 2 * freedom))
+        products[:freedom, :freedom], products[freedom:, freedom:] = self._of_ones, twice
+        products[:freedom, freedom:] = products[freedom:, :freedom] = once
+        # Where the response hardly varies the levels are undetermined: keep them small.
+        products.flat[:: 2 * freedom + 1] += 1e-9 * len(kept)
         of_lit = self._kept_shapes[:freedom] @ (kept * self._kept_profile)
         weights = np.linalg.solve(products, np.concatenate([self._of_profile, of_lit]))
         low, swing = self._shapes @ weights[:freedom], self._shapes @ weights[freedom:]
@@ -158,7 +165,13 @@ class StripeModel:
         up, down = place[:, None] + place, np.abs(place[:, None] - place)
         return np.asarray(0.5 * (sums[up] + sums[down]))
 
-    def fit(self, start: Timing, with_gamma: bool = False, spread: float = 0.0) -> StripeFit:
+    def fit(
+        self,
+        start: Timing,
+        with_gamma: bool = False,
+        spread: float = 0.0,
+        rounds: int = _MOST_ROUNDS,
+    ) -> StripeFit:
         """Fit the timing from a first guess.
 
         Parameters
@@ -169,43 +182,34 @@ class StripeModel:
             Whether gamma is fitted too.
         spread
             Above 0: the exposure is held fixed, uniformly likely within as many chips either way.
+        rounds
+            Largest number of steps.
         """
-        # Imported only when a photo is matched: it is slow.
-        from scipy.optimize import least_squares
-
         columns = len(self._profile)
         gamma = PARAMETERS["gamma"]
         assert isinstance(gamma, Quantity)  # noqa: S101 - it is one
         low = np.array([0.5 * start.step, _SHORTEST, -np.inf, gamma.low])
         high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
-        # Away from the bounds, so that finite differences stay within them.
-        inside = np.array([0.0, 10.0 * _SHORTEST, 0.0, 0.05])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
-        first = np.clip(first, low + inside, high - inside)
         if not with_gamma:
-            first[3] = start.gamma
+            low[3] = high[3] = start.gamma
         free = np.flatnonzero([True, spread == 0.0, True, with_gamma])
-        scale = np.array([0.1 / columns, 0.1, 0.1, 0.3])[free]
-        change = self._change * np.array([1.0 / columns, 1.0, 1.0, 1.0])[free]
+        scale = (self._change / DIFFERENCE * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
 
         def timing_of(scaled: FloatArray) -> Timing:
             values = first.copy()
-            values[free] = scaled * scale
-            return Timing(*values.tolist())
+            values[free] += scaled * scale
+            return Timing(*np.clip(values, low, high).tolist())
 
-        def residual(scaled: FloatArray) -> FloatArray:
-            return self._profile - self.levels(timing_of(scaled))[2]
-
-        found = least_squares(
-            residual,
-            first[free] / scale,
-            bounds=(low[free] / scale, high[free] / scale),
-            diff_step=change / np.maximum(np.abs(first[free]), 1e-12),
-            xtol=1e-7, ftol=1e-7, gtol=1e-9, max_nfev=40,
-        )  # fmt: skip
+        found, residual, slopes = minimized(
+            lambda scaled: self._profile - self.levels(timing_of(scaled))[2],
+            np.zeros(len(free)),
+            rounds,
+            _NO_GAIN,
+        )
         covariance = np.zeros((4, 4))
-        covariance[np.ix_(free, free)] = _covariance(found.jac, found.fun) * np.outer(scale, scale)
-        timing = timing_of(found.x)
+        covariance[np.ix_(free, free)] = _covariance(slopes, residual) * np.outer(scale, scale)
+        timing = timing_of(found)
         covariance[1, 1] += spread**2 / 3.0 + _blur_deviation(timing) ** 2
         return self.described(timing, covariance)
 

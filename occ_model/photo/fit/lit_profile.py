@@ -6,14 +6,15 @@ a search need not know them (variable projection: Golub and Pereyra, SIAM J. Num
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.fit.tone_curve import ToneTable
+from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
 _PRECISE = 0.02
@@ -30,51 +31,85 @@ class Seen:
     kernel: FloatArray
 
 
-@dataclass(frozen=True, eq=False, slots=True)
 class LitProfile:
-    """A profile's columns that are not clipped, and those that are, with the levels' shapes."""
+    """A profile's columns that are not clipped, and those that are, with the levels' shapes.
 
-    kept: NDArray[np.int64]
-    data: FloatArray
-    slope: FloatArray
-    shapes: FloatArray
-    clipped: NDArray[np.int64]
+    Parameters
+    ----------
+    profile
+        The profile.
+    freedom
+        Number of Chebyshev polynomials of which either level is a combination.
+    """
 
-    @classmethod
-    def of(cls, profile: EvenProfile, shapes: FloatArray) -> "LitProfile":
-        """Take the columns that tell something from a profile; the shapes are its levels'."""
-        kept, clipped = np.flatnonzero(profile.kept), np.flatnonzero(profile.clipped)
+    def __init__(self, profile: EvenProfile, freedom: int) -> None:
+        self.kept, self.clipped = np.flatnonzero(profile.kept), np.flatnonzero(profile.clipped)
+        self.data = profile.values[self.kept]
         slope = np.abs(np.gradient(profile.values))
-        slope = cv2.dilate(slope[None], np.ones((1, 3), np.uint8))[0]
-        return cls(kept, profile.values[kept], slope[kept], shapes, clipped)
+        self.slope = cv2.dilate(slope[None], np.ones((1, 3), np.uint8))[0][self.kept]
+        self.freedom = freedom
+        shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
+        self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
+        self._kept_shapes = np.ascontiguousarray(shapes[self.kept].T)
+        self._clipped_shapes = shapes[self.clipped, :freedom]
+        place = np.arange(freedom)
+        self._up, self._down = place[:, None] + place, np.abs(place[:, None] - place)
+        # A fit's slopes need the same tone curve again and again.
+        self._weighted = lru_cache(maxsize=4)(self._weighted_by)
 
     def residual(self, seen: Seen) -> FloatArray:
         """Give data less model in grey levels: of the kept columns, then of the clipped ones."""
-        table, lit = seen.table, seen.lit
-        light, weight = table.light_of(self.data), table.slope_at(self.data)
-        shapes = self.shapes[self.kept]
-        parts = np.hstack([shapes, shapes * lit[self.kept, None]])
-        weighted = parts * weight[:, None]
-        products = weighted.T @ weighted
-        sums = weighted.T @ (weight * light)
-        levels = _solved(products, sums)
+        light, weight, once, of_light = self._weighted(seen.table)
+        lit = seen.lit[self.kept]
+        products = self._block(once, weight * lit, lit)
+        own = self._kept_shapes[: self.freedom]
+        sums = np.concatenate([of_light, own @ (weight * lit * light)])
         if self.clipped.size:
-            return self._with_clipped(seen, parts, products, sums, levels)
+            levels, short = self._with_clipped(seen, products, sums)
+        else:
+            levels, short = _solved(products, sums), np.zeros(0)
         if seen.sharp is None:
-            return self.data - table.value_of(parts @ levels)
-        return self._blurred(seen, levels)
+            residual = self.data - seen.table.value_of(self._light(own, lit, levels))
+        else:
+            residual = self._blurred(seen, seen.sharp, levels)
+        return np.concatenate([residual, short])
+
+    def _weighted_by(
+        self, table: ToneTable
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Give the data's light, its weight, and the sums with it that need no lit fractions."""
+        light, weight = table.light_of(self.data), table.slope_at(self.data) ** 2
+        of_light = self._kept_shapes[: self.freedom] @ (weight * light)
+        return light, weight, self._products(weight), of_light
+
+    def _light(self, shapes: FloatArray, lit: FloatArray, levels: FloatArray) -> FloatArray:
+        return np.asarray(levels[: self.freedom] @ shapes + lit * (levels[self.freedom :] @ shapes))
+
+    def _products(self, weight: FloatArray) -> FloatArray:
+        """Give the weighted sums over the kept columns of the products of any two shapes.
+
+        Of Chebyshev polynomials the product is half the sum of two others,
+        T_i T_j = (T_(i+j) + T_|i-j|) / 2: all products follow from one sum for each polynomial.
+        """
+        sums = self._kept_shapes @ weight
+        return np.asarray(0.5 * (sums[self._up] + sums[self._down]))
+
+    def _block(self, dark: FloatArray, weight: FloatArray, lit: FloatArray) -> FloatArray:
+        """Give the matrix of the normal equations of both levels."""
+        count = self.freedom
+        products = np.empty((2 * count, 2 * count))
+        products[:count, :count] = dark
+        products[:count, count:] = products[count:, :count] = self._products(weight)
+        products[count:, count:] = self._products(weight * lit)
+        return products
 
     def _with_clipped(
-        self,
-        seen: Seen,
-        parts: FloatArray,
-        products: FloatArray,
-        sums: FloatArray,
-        levels: FloatArray,
-    ) -> FloatArray:
-        table, lit = seen.table, seen.lit
-        beyond = self.shapes[self.clipped]
-        beyond = np.hstack([beyond, beyond * lit[self.clipped, None]])
+        self, seen: Seen, products: FloatArray, sums: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Give the levels, and by how many grey levels they leave clipped columns below white."""
+        table, lit = seen.table, seen.lit[self.clipped]
+        beyond = np.hstack([self._clipped_shapes, self._clipped_shapes * lit[:, None]])
+        levels = _solved(products, sums)
         white, slope = float(table.light_of(np.array([WHITE]))[0]), WHITE * float(table.slope[-1])
         for _ in range(2):
             dark = beyond[beyond @ levels < white]
@@ -83,39 +118,40 @@ class LitProfile:
             levels = _solved(
                 products + slope**2 * dark.T @ dark, sums + slope**2 * white * dark.sum(0)
             )
-        short = np.maximum(white - beyond @ levels, 0.0) * slope
-        if seen.sharp is None:
-            return np.concatenate([self.data - table.value_of(parts @ levels), short])
-        return np.concatenate([self._blurred(seen, levels), short])
+        return levels, np.maximum(white - beyond @ levels, 0.0) * slope
 
-    def _blurred(self, seen: Seen, levels: FloatArray) -> FloatArray:
+    def _blurred(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
         """Give the residual of the kept columns where pixel values are blurred.
 
-        The levels, found as if light were blurred, are corrected by a Gauss-Newton step.
+        The levels, found as if light were blurred, are corrected by a Gauss-Newton step; their
+        shapes are so smooth that blur does not change them.
         """
-        assert seen.sharp is not None  # noqa: S101 - the caller has looked
-        table = seen.table
-        parts = np.hstack([self.shapes, self.shapes * seen.sharp[:, None]])
-        light = parts @ levels
-        slopes = _convolved(parts * table.slope_of(light)[:, None], seen.kernel)[self.kept]
+        light = self._light(self._shapes, sharp, levels)
+        steep = seen.table.slope_of(light)
+        dark = _convolved(steep, seen.kernel)[self.kept]
+        lit = _convolved(steep * sharp, seen.kernel)[self.kept]
         residual = self._less_blurred(seen, light)
-        levels = levels + _solved(slopes.T @ slopes, slopes.T @ residual)
-        return self._less_blurred(seen, parts @ levels)
+        products = self._block(self._products(dark**2), dark * lit, lit / dark)
+        own = self._kept_shapes[: self.freedom]
+        sums = np.concatenate([own @ (dark * residual), own @ (lit * residual)])
+        levels = levels + _solved(products, sums)
+        return self._less_blurred(seen, self._light(self._shapes, sharp, levels))
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
         """Give the kept columns' data less the blurred values of light."""
-        model = _convolved(seen.table.value_of(light)[:, None], seen.kernel)
-        return np.asarray(self.data - model[self.kept, 0])
+        return np.asarray(
+            self.data - _convolved(seen.table.value_of(light), seen.kernel)[self.kept]
+        )
 
 
 def _convolved(values: FloatArray, kernel: FloatArray) -> FloatArray:
-    blurred = cv2.filter2D(values, -1, kernel[:, None], borderType=cv2.BORDER_REPLICATE)
-    return np.asarray(blurred, dtype=np.float64).reshape(values.shape)
+    blurred = cv2.filter2D(values[None], -1, kernel[None], borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(blurred[0], dtype=np.float64)
 
 
 def _solved(products: FloatArray, sums: FloatArray) -> FloatArray:
     regular = products.copy()
-    regular[np.diag_indices_from(regular)] += 1e-9 * float(np.trace(products))
+    regular.flat[:: len(regular) + 1] += 1e-9 * float(np.trace(products))
     return np.asarray(np.linalg.solve(regular, sums))
 
 

@@ -29,6 +29,7 @@ def decoders() -> tuple[str, ...]:
     """Return the names of all decoders, those of plug-ins last."""
     return tuple(dict.fromkeys((*DECODERS, *plugins.plugin_names(plugins.DECODERS))))
 
+
 QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_quick)
 """The names of the decoders that every picture of the window is read with."""
 

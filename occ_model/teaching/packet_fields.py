@@ -7,7 +7,8 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.transmitter.packet import HEADER, packet_length, packets, sent_chips
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.packet import packet_length, packets, sent_chips
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,8 @@ def random_scene(random: np.random.Generator) -> Scene:
         name: declared.at(float(random.random()))
         for name, declared in PARAMETERS.items()
         if isinstance(declared, Quantity)
-    } | {
+    }
+    changes |= {
         "rows": int(random.integers(100, 600)),
         "columns": int(random.integers(60, 300)),
         "code": int(random.integers(1024)),

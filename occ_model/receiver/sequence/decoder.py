@@ -27,7 +27,8 @@ from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import HEADER, code_of, packet_length
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.packet import code_of, packet_length
 
 _IMPROVEMENTS = 4
 """Most times that the fit is improved from the chips that were detected."""

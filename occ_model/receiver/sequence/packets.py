@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.packet import HEADER, packet_length
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.packet import packet_length
 
 _SURE = 700.0
 """Log-likelihood ratio above which its exponential is not told from infinity."""

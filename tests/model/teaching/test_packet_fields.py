@@ -12,11 +12,11 @@ from occ_model.teaching.packet_fields import (
     received_fields,
     threshold_levels,
 )
-from occ_model.transmitter import line_code
-from occ_model.transmitter.packet import HEADER
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.line_codes import differential_manchester
 
 
-def read(**changes: object) -> tuple[Frame, DecodeResult]:
+def read(**changes: float) -> tuple[Frame, DecodeResult]:
     scene = occ.load_preset("phone-68us").replace(rows=300, **changes)
     frame = occ.render(scene, tolerance=np.inf)
     return frame, occ.decode(frame.image, scene)
@@ -31,7 +31,7 @@ def test_the_fields_received_hold_header_and_bits(exposure: float) -> None:
     assert tuple(result.chips[header.first : header.last]) == HEADER
     assert [field.bit for field in bits] == list(range(10))
     chips = np.concatenate([result.chips[field.first : field.last] for field in bits])
-    decoded, violations = line_code.decode(chips, level=HEADER[-1])
+    decoded, violations = differential_manchester.decode(chips, level=HEADER[-1])
     assert not violations
     np.testing.assert_array_equal(decoded, result.bits)
 
@@ -71,9 +71,10 @@ def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
     assert levels is not None
     assert result.region is not None
     assert result.signal is not None
+    assert result.threshold is not None
     part = frame.profile[result.region.first_column : result.region.last_column]
     assert levels[0] < levels[1]
     middle = sum(levels) / 2
     np.testing.assert_array_equal(part > middle, result.signal > result.threshold)
     low, high = threshold_levels(frame.signal, result) or (0.0, 0.0)
-    assert low <= (result.threshold or 0.0) <= high
+    assert low <= result.threshold <= high

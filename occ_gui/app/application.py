@@ -34,7 +34,7 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -71,7 +71,7 @@ class Application(QObject):
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
         self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.story = StoryView(self.image)
-        self.detection = MapView(tuple(DECODERS))
+        self.detection = MapView(QUICK_DECODERS)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(
             self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,
@@ -88,10 +88,11 @@ class Application(QObject):
         self.learning = LearningPanes(
             self.window, self.store, self.photos, self.image, self.profile
         )
-        # The profile is last: it is drawn with the earlier results and the comparison.
-        first = (self.image, self.learning, self.photo_wiring.comparison)
         self.simulation.picture_ready.connect(self.image.show_picture)
-        self.simulation.show_in([*first, self.profile, self.decode, self.story, self.accuracy])
+        # The profile follows what is drawn in it: the results before, and the comparison.
+        comparison = self.photo_wiring.comparison
+        readers = (self.image, comparison, self.profile, self.decode, self.story)
+        self.simulation.show_in([self.image, self.learning, self.accuracy], readers)
         self.study = AccuracyController(
             self.store, self.settings, self.simulation, self.accuracy.plot
         )
@@ -101,7 +102,8 @@ class Application(QObject):
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
         self.outdated.mark_verdict(self.story.verdict)
         self.outdated.mark_picture(self.image.simulation)
-        self.outdated.mark_results(self.profile, self.decode, self.accuracy.effects)
+        self.outdated.mark_readings(self.profile, self.decode)
+        self.outdated.mark_results(self.accuracy.effects)
         self.learning.exposure_made.connect(self.outdated.mark_results)
         # Before the session is written.
         self.window.closing.connect(self._end_lesson)
@@ -205,7 +207,7 @@ class Application(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all requested results are shown."""
-        parts = (self.simulation.runner, self.outdated, self.photo_wiring, self.desktop)
+        parts = (self.simulation, self.outdated, self.photo_wiring, self.desktop)
         return all(part.is_idle for part in parts)
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:

@@ -37,7 +37,7 @@ from occ_gui.window.main_window import MainWindow
 from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_gui.window.theme import ThemeController
 from occ_model.photo.reading.load import Photo
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
@@ -86,7 +86,7 @@ class Desktop(QObject):
         window, preferences = parts.window, parts.preferences
         comparison = parts.photo_wiring.comparison.comparison
         self.figures = Figures(
-            parts.settings, comparison, parts.profile, parts.accuracy.plot, tuple(DECODERS)
+            parts.settings, comparison, parts.profile, parts.accuracy.plot, QUICK_DECODERS
         )
         self.figures.add_map(lambda: parts.detection_map.map.full)
         window.menus.add_figures(self.figures.titles)

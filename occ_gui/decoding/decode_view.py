@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.decoding.verdict import is_right, verdict_on
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.state_look import State
 from occ_model.results import DecodeResult, Location
 
@@ -25,7 +25,8 @@ class DecodeView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._snapshot: Snapshot | None = None
+        self._reading: Reading | None = None
+        self._early: Reading | None = None
         self._is_outdated = False
         self.decoders = QTabBar()
         self.decoders.setDrawBase(False)
@@ -38,6 +39,10 @@ class DecodeView(QWidget):
         font = self.verdict.font()
         font.setBold(True)
         self.verdict.setFont(font)
+        self.origin = QLabel()
+        self.origin.setWordWrap(True)
+        self.origin.setTextFormat(Qt.TextFormat.PlainText)
+        self.origin.setAccessibleName(self.tr("What the code was read from"))
         self.strip = BitStrip()
         self.reason = QLabel()
         self.reason.setWordWrap(True)
@@ -52,14 +57,17 @@ class DecodeView(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)
-        for widget in (self.decoders, self.verdict, self.strip, self.reason, self.left_out):
+        for widget in (
+            self.decoders, self.verdict, self.origin, self.strip, self.reason, self.left_out,
+        ):  # fmt: skip
             layout.addWidget(widget)
         layout.addLayout(self._make_form())
         layout.addWidget(self.signal, 1)
         layout.addWidget(self.run_lengths, 1)
         layout.addStretch()
         # Before the first result these are empty.
-        for part in (self.strip, self.reason, self.left_out, self.signal, self.run_lengths):
+        empty = (self.origin, self.strip, self.reason, self.left_out)
+        for part in (*empty, self.signal, self.run_lengths):
             part.hide()
         for step in self._steps.values():
             self._form.setRowVisible(step, False)
@@ -81,34 +89,39 @@ class DecodeView(QWidget):
             form.addRow(title, self._steps[name])
         return form
 
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the previous ones."""
-        self._snapshot = snapshot
-        results = (snapshot.decoded, *snapshot.others)
+    def show_reading(self, reading: Reading) -> None:
+        """Show this reading in place of the previous one."""
+        before = self._reading
+        if before is not None and before.request == reading.request:
+            self._early = before if before.source != reading.source else self._early
+        else:
+            self._early = None
+        self._reading = reading
         with QSignalBlocker(self.decoders):
-            while self.decoders.count() < len(results):
+            while self.decoders.count() < len(reading.results):
                 self.decoders.addTab("")
-            while self.decoders.count() > len(results):
+            while self.decoders.count() > len(reading.results):
                 self.decoders.removeTab(self.decoders.count() - 1)
-        self._mark_tabs(results)
-        self.strip.setVisible(bool(snapshot.sent))
-        self.left_out.setVisible(bool(snapshot.called_for))
+        self._mark_tabs(reading.results)
+        self.origin.show()
+        self.strip.setVisible(bool(reading.sent))
+        self.left_out.setVisible(bool(reading.called_for))
         self.left_out.setText(
             self.tr("This picture leaves out what map and strips take in: {effects}.").format(
-                effects=", ".join(snapshot.called_for)
+                effects=", ".join(reading.called_for)
             )
         )
         self._show_chosen()
 
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the results are of an earlier scene; they are not the present verdict."""
-        snapshot = self._snapshot
-        if snapshot is None or outdated == self._is_outdated:
+        reading = self._reading
+        if reading is None or outdated == self._is_outdated:
             return
         self._is_outdated = outdated
         self.strip.show_outdated(outdated)
-        self._mark_tabs((snapshot.decoded, *snapshot.others))
-        self.verdict.setText(self._verdict(self._chosen(snapshot)))
+        self._mark_tabs(reading.results)
+        self.verdict.setText(self._verdict(self._chosen(reading)))
 
     def _mark_tabs(self, results: Iterable[DecodeResult]) -> None:
         for place, result in enumerate(results):
@@ -116,46 +129,71 @@ class DecodeView(QWidget):
             mark = "…" if self._is_outdated else mark
             self.decoders.setTabText(place, f"{result.decoder} {mark}")
 
-    def _chosen(self, snapshot: Snapshot) -> DecodeResult:
-        return (snapshot.decoded, *snapshot.others)[max(0, self.decoders.currentIndex())]
+    def _chosen(self, reading: Reading) -> DecodeResult:
+        return reading.results[max(0, self.decoders.currentIndex())]
 
     def decoder(self) -> str:
         """Return the name of the decoder whose result is shown; empty before the first result."""
-        return "" if self._snapshot is None else self._chosen(self._snapshot).decoder
+        return "" if self._reading is None else self._chosen(self._reading).decoder
 
     def _choose(self) -> None:
         self._show_chosen()
-        if self._snapshot is not None:
-            self.decoder_chosen.emit(self._chosen(self._snapshot).decoder)
+        if self._reading is not None:
+            self.decoder_chosen.emit(self._chosen(self._reading).decoder)
 
     def _show_chosen(self) -> None:
-        snapshot = self._snapshot
-        if snapshot is None:
+        reading = self._reading
+        if reading is None:
             return
-        decoded = self._chosen(snapshot)
-        self.strip.show_bits(snapshot.sent, decoded.bits.tolist())
+        decoded = self._chosen(reading)
+        self.strip.show_bits(reading.sent, decoded.bits.tolist())
         self.verdict.setText(self._verdict(decoded))
+        self.origin.setText(self._origin(reading))
         self.reason.setText(decoded.failure or "")
         self.reason.setVisible(decoded.failure is not None)
         for name, text in self._measured(decoded).items():
             self._steps[name].setText(text)
             self._form.setRowVisible(self._steps[name], bool(text))
-        self.signal.show_result(decoded, snapshot.packet_columns)
+        self.signal.show_result(decoded, reading.packet_columns)
         self.run_lengths.show_result(decoded)
 
-    def _verdict(self, decoded: DecodeResult) -> str:
+    def _origin(self, reading: Reading) -> str:
+        """Say what was read, and what it had seemed to be before where that differs."""
+        early = self._early
+        if reading.source == "profile":
+            return self.tr("By the column profile; the picture follows.")
+        if reading.source == "draft":
+            return self.tr("By a draft of the picture; the exact one follows.")
+        if early is not None:
+            before, now = (self._in_words(self._chosen(each)) for each in (early, reading))
+            if before != now:
+                return self.tr("Read from the picture. {source} had said: {verdict}.").format(
+                    source=self.tr("The column profile alone")
+                    if early.source == "profile"
+                    else self.tr("Its draft"),
+                    verdict=before,
+                )
+        return self.tr("Read from the picture.")
+
+    def _in_words(self, decoded: DecodeResult) -> str:
         verdict = verdict_on(decoded, self._sent)
         mark = _MARKS.get(verdict.state, "✗ ")
-        text = f"{mark}{verdict.title}"
+        return f"{mark}{verdict.title}"
+
+    def _verdict(self, decoded: DecodeResult) -> str:
+        text = self._in_words(decoded)
         if self._is_outdated:
             return self.tr("Earlier scene: {verdict}").format(verdict=text)
         return text
 
     @property
     def _sent(self) -> tuple[int, ...]:
-        return () if self._snapshot is None else self._snapshot.sent
+        return () if self._reading is None else self._reading.sent
 
-    def _bright(self, location: Location) -> str:
+    def _bright(self, location: Location | None) -> str | None:
+        if location is None:  # a row that comes and goes would move those below it
+            is_early = self._reading is not None and self._reading.source == "profile"
+            return self.tr("known with the picture") if is_early else None
         return self.tr("{level}; contours: {contours}, grown by {growth} px").format(
             level=location.bright_level, contours=location.contours, growth=location.growth
         )
@@ -164,7 +202,7 @@ class DecodeView(QWidget):
         """Format the measured quantities; empty for a step that was not reached."""
         region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
         found: dict[str, str | None] = {
-            "bright": None if decoded.location is None else self._bright(decoded.location),
+            "bright": self._bright(decoded.location),
             "region": None
             if region is None
             else self.tr("{columns} x {rows} px").format(columns=region.columns, rows=region.rows),

@@ -16,7 +16,7 @@ from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Stage
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results import SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
@@ -89,7 +89,7 @@ class MapRequest:
         """Give the stages of the work that is left."""
         requests = tuple(
             map_request(
-                self.scene, self.x, self.y, self.settings, tuple(DECODERS),
+                self.scene, self.x, self.y, self.settings, QUICK_DECODERS,
                 images=number, with_image_effects=self.with_image_effects,
             )
             for number in IMAGES
@@ -200,7 +200,7 @@ class DetectionMapController(QObject):
 
     def _empty(self, request: MapRequest) -> RateMap:
         x, y = request.x, request.y
-        return RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), tuple(DECODERS))
+        return RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), QUICK_DECODERS)
 
     def _show_left_out(self) -> None:
         scene, settings = self._scenes.scene, self._settings.settings

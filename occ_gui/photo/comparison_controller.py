@@ -9,13 +9,13 @@ from PySide6.QtCore import QObject
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.picture.placement import Placement, PlacementStore
 from occ_gui.profile.photo_profile import PhotoProfile
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Reading
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Comparison, Frame, Lamp, Match, Region, Stripes
+from occ_model.results import Comparison, Lamp, Match, Region, Stripes
 
 _FLAT = 0.5
 """Swing in grey levels below which the simulated columns show no stripes."""
@@ -66,7 +66,7 @@ class ComparisonController(QObject):
         self._pane = pane
         self._photo: Photo | None = None
         self._region: Lamp | Region | None = None
-        self._snapshot: Snapshot | None = None
+        self._reading: Reading | None = None
         self._stripes: Stripes | None = None
         self._sentence = ""
         self._enhanced = False
@@ -77,9 +77,9 @@ class ComparisonController(QObject):
         self.runner.failed.connect(self._show_failure)
         placements.changed.connect(self._compare)
 
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Compare with these results in place of the previous ones."""
-        self._snapshot = snapshot
+    def show_reading(self, reading: Reading) -> None:
+        """Compare with this reading in place of the previous one."""
+        self._reading = reading
         self._suggest_placement()
         self._compare()
 
@@ -126,23 +126,23 @@ class ComparisonController(QObject):
 
     def _suggest_placement(self) -> None:
         """Suggest the picture's corner for a photo of the same size, else the panel's corner."""
-        if self._photo is None or self._snapshot is None:
+        if self._photo is None or self._reading is None:
             return
-        same = self._photo.image.shape == self._snapshot.frame.image.shape
-        column, row = (0.0, 0.0) if same else self._snapshot.panel_origin
+        camera = self._reading.scene.camera
+        same = self._photo.image.shape == (camera.rows, camera.columns)
+        column, row = (0.0, 0.0) if same else self._reading.panel_origin
         self._placements.suggest(Placement(column, row))
 
     def _compare(self) -> None:
-        photo, snapshot = self._photo, self._snapshot
-        if photo is None or snapshot is None:
+        photo, reading = self._photo, self._reading
+        if photo is None or reading is None:
             self._pane.show_photo_profile(None)
             return
         placement = self._placements.placement
         comparison, sentence = None, self._sentence
-        frame = snapshot.frame
-        method = frame.scene.model.enhancement
+        method = reading.scene.model.enhancement
         try:
-            comparison = self._compare_with(frame)
+            comparison = self._compare_with(reading)
         except MatchError as error:
             sentence = str(error)
         if comparison is not None and float(np.ptp(comparison.simulated)) < _FLAT:
@@ -155,23 +155,23 @@ class ComparisonController(QObject):
             PhotoProfile(comparison, raw, placement.column, placement.scale, sentence)
         )
 
-    def _compare_with(self, frame: Frame) -> Comparison | None:
+    def _compare_with(self, reading: Reading) -> Comparison | None:
         """Compare with a simulated profile, as it is shown; None if no stripes are known."""
         placement, stripes = self._placements.placement, self._stripes
         if stripes is None:
             return None
         first = placement.column + stripes.region.first_column * placement.scale
-        comparison = compare(stripes.flattened, frame.profile, first, placement.scale)
+        comparison = compare(stripes.flattened, reading.profile, first, placement.scale)
         if not self._enhanced:
             return comparison
-        return enhance_comparison(comparison, frame.signal, frame.scene.model.enhancement)
+        return enhance_comparison(comparison, reading.signal, reading.scene.model.enhancement)
 
     def comparison(self) -> Comparison | None:
         """Return the comparison that is shown; None if there is none."""
-        if self._photo is None or self._snapshot is None:
+        if self._photo is None or self._reading is None:
             return None
         try:
-            return self._compare_with(self._snapshot.frame)
+            return self._compare_with(self._reading)
         except MatchError:
             return None
 

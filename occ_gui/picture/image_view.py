@@ -16,7 +16,7 @@ from occ_gui.picture.photo_overlay import MODES, PhotoOverlay
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.picture.placement import Placement
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Frame
@@ -147,7 +147,11 @@ class ImageView(QWidget):
         """Show these results in place of the previous ones."""
         if snapshot.frame is not self._frame:  # it may have been shown before it was decoded
             self.show_picture(Picture(snapshot.frame, self._whose, ()))
-        self.simulation.show_region(snapshot.decoded.region)
+        self.show_reading(snapshot)
+
+    def show_reading(self, reading: Reading) -> None:
+        """Show the region that was decoded."""
+        self.simulation.show_region(reading.decoded.region)
 
     def show_picture(self, picture: Picture) -> None:
         """Show this picture in place of the previous one; the region decoded from that stays."""

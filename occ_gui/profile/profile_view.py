@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from occ_gui.profile.chip_strip import ChipStrip
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.residual_plot import ResidualPlot
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.plot import (
     BAND,
@@ -55,7 +55,7 @@ class ProfileView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._snapshot: Snapshot | None = None
+        self._reading: Reading | None = None
         self._photo: PhotoProfile | None = None
         self._photo_levels: FloatArray | None = None
         self._before: Snapshot | None = None
@@ -171,9 +171,9 @@ class ProfileView(QWidget):
         self.plot.name_bottom(not below)
         self.plot.getAxis("bottom").setStyle(showValues=not below)
 
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the previous ones."""
-        self._snapshot = snapshot
+    def show_reading(self, reading: Reading) -> None:
+        """Show this reading in place of the previous one."""
+        self._reading = reading
         self._redraw()
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
@@ -195,21 +195,21 @@ class ProfileView(QWidget):
         if profile is not None:
             self.residual.show_profile(profile)
         self._fit_levels()
-        if self._snapshot is not None:
-            self._fit_columns(self._snapshot)
+        if self._reading is not None:
+            self._fit_columns(self._reading)
 
     def _redraw(self) -> None:
-        snapshot = self._snapshot
-        if snapshot is None:
+        reading = self._reading
+        if reading is None:
             return
-        decoded = snapshot.decoded
+        decoded = reading.decoded
         enhanced = self.enhanced.isChecked()
-        profile = _levels(snapshot, enhanced)
-        band = snapshot.enhanced_band if enhanced else snapshot.band
+        profile = _levels(reading, enhanced)
+        band = reading.enhanced_band if enhanced else reading.band
         _draw(self.simulation, profile)
         _draw(self.band, band)
-        self.reason.setText(snapshot.band_undefined)
-        self.reason.setVisible(bool(snapshot.band_undefined))
+        self.reason.setText(reading.band_undefined)
+        self.reason.setVisible(bool(reading.band_undefined))
         self._region.setVisible(decoded.region is not None)
         if decoded.region is not None:
             self._region.setRegion((decoded.region.first_column, decoded.region.last_column))
@@ -217,13 +217,13 @@ class ProfileView(QWidget):
         if decoded.threshold is not None:
             self.threshold.setValue(decoded.threshold)
         for key, visible in {
-            "band": snapshot.band is not None,
+            "band": reading.band is not None,
             "threshold": self.threshold.isVisible(),
         }.items():
             self.legend.show_line(key, visible)
         self._simulated_levels = (profile, band)
         self._fit_levels()
-        self._fit_columns(snapshot)
+        self._fit_columns(reading)
 
     def show_before(self, snapshot: Snapshot) -> None:
         """Show the profile of these results in grey, as that before the latest change."""
@@ -244,17 +244,17 @@ class ProfileView(QWidget):
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
 
-    def _fit_columns(self, snapshot: Snapshot) -> None:
+    def _fit_columns(self, reading: Reading) -> None:
         if not (self._packets.isChecked() or self._panel.isChecked()):
             return
-        last_column = len(snapshot.frame.profile) - 1
-        panel = np.clip(snapshot.frame.corners[:, 0], 0, last_column)
+        last_column = len(reading.profile) - 1
+        panel = np.clip(reading.corners[:, 0], 0, last_column)
         first, last = float(panel.min()), float(panel.max())
         if last - first < 1.0:  # the panel is out of the picture
             first, last = 0.0, float(last_column)
         if self._packets.isChecked():
             first = self._first_of_photo(first, last)
-            last = min(last, first + PACKETS_IN_VIEW * snapshot.packet_columns)
+            last = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
     def _first_of_photo(self, first: float, last: float) -> float:
@@ -271,7 +271,7 @@ class ProfileView(QWidget):
 
     def columns_in_view(self) -> tuple[int, int]:
         """Return the first visible column, and the one after the last."""
-        columns = 0 if self._snapshot is None else len(self._snapshot.frame.profile)
+        columns = 0 if self._reading is None else len(self._reading.profile)
         low, high = self.plot.viewRange()[0]
         first = min(max(int(np.ceil(low)), 0), max(columns - 2, 0))
         return first, min(max(int(high) + 1, first + 2), columns)
@@ -293,10 +293,9 @@ class ProfileView(QWidget):
         self._redraw()
 
 
-def _levels(snapshot: Snapshot, enhanced: bool) -> FloatArray:
+def _levels(reading: Reading, enhanced: bool) -> FloatArray:
     """Return the column values, before or after the receiver's enhancement."""
-    frame = snapshot.frame
-    return frame.signal if enhanced else frame.profile
+    return reading.signal if enhanced else reading.profile
 
 
 def _draw(

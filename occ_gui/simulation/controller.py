@@ -1,34 +1,49 @@
-"""Simulation controller: simulates and decodes the scene in the background after every change."""
+"""Simulation controller: simulates and decodes the scene in the background after every change.
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from time import perf_counter, sleep
+The results of a change arrive in this order, each by a signal:
+
+1. ``submitted``: what is shown is of an earlier scene from now on.
+2. ``reading_shown`` with a Reading by the profile path, a few milliseconds later: the profile, the
+   band model and the verdict of every decoder, without a pixel. Scenes whose rows differ (a lens, a
+   file, a panel that is not level) have none.
+3. ``picture_ready`` with the Picture, before it is decoded.
+4. ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read from that picture.
+   It is a Reading, too, and has the last word.
+
+A reading is never replaced by one of an earlier scene. ``failed`` says why a scene has no picture.
+"""
+
+from collections.abc import Sequence
+from time import sleep
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Qt, Signal
 
-import occ_model as occ
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.background.result_age import ResultAges
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.simulation.jobs import reading_by_profile, snapshot_of
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
-from occ_model.effects.plan import called_for_by_signal
-from occ_model.receiver.decoders import DECODERS
-from occ_model.results import DecodeResult, Frame
+from occ_gui.simulation.snapshot import SOURCES, Reading, SimulationRequest, Snapshot
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.simulation.band_model import enhanced_band_profile
 from occ_model.simulation.render import render_with
 
 _PAINT_TIME = 0.004
 """Seconds between the delivery of a picture and its decoding, for the window to paint it."""
 
 
+class ReadingView(Protocol):
+    """A pane that shows what is read of a scene, with or without its picture."""
+
+    def show_reading(self, reading: Reading) -> None:
+        """Show this reading in place of the last one."""
+
+
 class SnapshotView(Protocol):
-    """A pane that shows the results for a scene."""
+    """A pane that shows the results for a scene with its picture."""
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
@@ -51,52 +66,7 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
     ProjectionError
         The panel has no picture in this pose.
     """
-    return _snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
-
-
-def _snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
-    """Decode a picture and compute the other results that the panes show."""
-    scene = frame.scene
-    start = perf_counter()
-    decoded = occ.decode(frame.image, scene)
-    reading_seconds = perf_counter() - start
-    others = tuple(_decode_with_others(decoded, scene))
-    band, enhanced_band, undefined = None, None, ""
-    try:
-        band = occ.band_profile(scene)
-        enhanced_band = enhanced_band_profile(scene, band)
-    except occ.BandModelUndefined as reason:
-        undefined = str(reason)
-    transmitter = scene.transmitter
-    sent = () if transmitter.pattern else transmitter.payload_bits
-    chip_columns = transmitter.switching_period / scene.camera.readout_time
-    left, top = frame.corners.min(axis=0).tolist()
-    return Snapshot(
-        request=request,
-        frame=frame,
-        decoded=decoded,
-        sent=sent,
-        packet_columns=chip_columns * len(occ.packet(scene)),
-        panel_origin=(max(left, 0.0), max(top, 0.0)),
-        band=band,
-        enhanced_band=enhanced_band,
-        band_undefined=undefined,
-        reading_seconds=reading_seconds,
-        others=others,
-        called_for=called_for_by_signal(frame.plan, scene),
-    )
-
-
-def _decode_with_others(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
-    """Decode the signal that one decoder has located in the picture with the other decoders."""
-    for name, decoder in DECODERS.items():
-        if name == decoded.decoder:
-            continue
-        if decoded.signal is None:  # no panel found, which holds for all decoders
-            yield DecodeResult(name, failure=decoded.failure)
-        else:
-            result = decoder.read(decoded.signal, scene)
-            yield replace(result, region=decoded.region, location=decoded.location)
+    return snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
 
 
 class SimulationController(QObject):
@@ -113,8 +83,11 @@ class SimulationController(QObject):
     picture_ready = Signal(object)
     """The Picture of a scene, before it is decoded; emitted once the event loop runs."""
 
+    reading_shown = Signal(object)
+    """The Reading that the panes show from now on; a Snapshot where it is the picture's."""
+
     snapshot_shown = Signal(object)
-    """The Snapshot that the panes show from now on."""
+    """The Snapshot of a picture that has been decoded."""
 
     failed = Signal(str)
     """The reason why a scene has no picture; the panes keep the last one."""
@@ -132,23 +105,43 @@ class SimulationController(QObject):
         self._scenes = scenes
         self._settings = settings
         self._views: Sequence[SnapshotView] = ()
+        self._readers: Sequence[ReadingView] = ()
+        self._read: Reading | None = None
         self._whose = PICTURES[0]
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
         )
+        self.early: LatestWins[SimulationRequest, Reading | None] = LatestWins(
+            reading_by_profile, "reading of the profile"
+        )
+        self.early.finished.connect(self._show_early)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         self.runner.failed_for.connect(self.failed_for)
         for store in (scenes, settings):
             store.changed.connect(self._submit)
         self.ages = ResultAges(self._request())
+        # Only the picture: the panes are not there yet, and it is not late at the start.
         self.runner.submit(self.ages.present)
 
-    def show_in(self, views: Sequence[SnapshotView]) -> None:
-        """Set the panes that show the results; none arrives before the event loop runs."""
-        self._views = views
+    @property
+    def is_idle(self) -> bool:
+        """Whether all results of the present scene are shown."""
+        return self.runner.is_idle and self.early.is_idle
+
+    def show_in(self, views: Sequence[SnapshotView], readers: Sequence[ReadingView] = ()) -> None:
+        """Set the panes that show the results; none arrives before the event loop runs.
+
+        Parameters
+        ----------
+        views
+            Panes that show pictures, and what follows from them alone; they come first.
+        readers
+            Panes that show readings, early ones too.
+        """
+        self._views, self._readers = views, readers
 
     def prepare_picture(self, whose: str) -> None:
         """Prepare the picture of the camera or of the receiver for drawing from now on."""
@@ -162,6 +155,7 @@ class SimulationController(QObject):
         if request == self.ages.present:  # one step has changed both stores
             return
         self.ages.begin(request)
+        self.early.submit(request)
         self.runner.submit(request)
         self.submitted.emit()
 
@@ -170,14 +164,38 @@ class SimulationController(QObject):
         self._rendered.emit(Picture.of(frame, request.whose, request))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)
-        return _snapshot_of(request, frame)
+        return snapshot_of(request, frame)
+
+    def _show_early(self, reading: Reading | None) -> None:
+        if reading is not None and self._is_news(reading):
+            self._show_reading(reading)
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:
             view.show_snapshot(snapshot)
+        if self._is_news(snapshot):
+            self._show_reading(snapshot)
         self.snapshot_shown.emit(snapshot)
+
+    def _show_reading(self, reading: Reading) -> None:
+        self._read = reading
+        for view in self._readers:
+            view.show_reading(reading)
+        self.reading_shown.emit(reading)
+
+    def _is_news(self, reading: Reading) -> bool:
+        """Return whether a reading is of a later scene than the one shown, or surer."""
+        shown = self._read
+        if shown is None:
+            return True
+        if reading.request == shown.request:
+            # During a movement the next early reading is sooner there than this would be drawn.
+            is_present = reading.request == self.ages.present
+            return is_present and SOURCES.index(reading.source) >= SOURCES.index(shown.source)
+        return self.ages.age(reading.request) <= self.ages.age(shown.request)
 
     def stop(self) -> None:
         """Stop simulating; no picture or snapshot arrives from now on."""
         self.runner.stop()
+        self.early.stop()
         self.blockSignals(True)

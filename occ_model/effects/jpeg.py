@@ -75,6 +75,8 @@ class Jpeg(FileEffect):
         eighth of the root of the sum of their squares. Where only a part of the rows is averaged,
         all coefficients count, half a step each.
         """
+        if not self.is_present(scene):
+            return 0.0, 0.0
         steps = quantization_steps(scene.camera.jpeg_quality)
         most = math.sqrt(float((steps**2).mean())) / 2.0 + 2.0 * _ROUNDING
         return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0, most

@@ -10,7 +10,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
-from occ_model.camera.photometry import saturate
+from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect, pixel_spread
 from occ_model.effects.registry import planned
 from occ_model.receiver.locate import bright_level, cell_size, least_bright_share
@@ -23,6 +23,9 @@ _LEVELS = 512
 
 _BINS = 128
 """Column values of which the histogram of the pixels is made."""
+
+_NO_SPREAD = 1e-9
+"""Standard deviation in grey levels below which there is no noise."""
 
 
 class NoisyColumns:
@@ -75,6 +78,17 @@ class NoisyColumns:
             mean, deviation = np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
         return np.asarray(mean + deviation * random.standard_normal(len(panel)))
 
+    def plain_means(self, span: Region) -> FloatArray:
+        """Return the expected means of some columns' pixels before enhancement and rounding.
+
+        Noise is cut off at black and at white, and so moves the mean of columns near them: by
+        s (phi(u) - u Q(u)), u being the distance to the limit in standard deviations s, phi the
+        density of the normal distribution and Q its tail.
+        """
+        panel = self._columns.panel[span.first_column : span.last_column]
+        value, spread = self._distribution(panel)
+        return value + _lost_beyond(value, spread) - _lost_beyond(WHITE - value, spread)
+
     def bright_span(self, random: np.random.Generator) -> slice | None:
         """Draw the columns from the first bright one to the last, as they are found in an image."""
         scene, span = self._scene, self._span
@@ -118,6 +132,14 @@ class NoisyColumns:
         middles = np.asarray(low + step * (np.arange(bins) + 0.5), dtype=np.float64)
         value, spread = self._distribution(middles)
         return byte_shares(value, spread, weights.astype(np.float64))
+
+
+def _lost_beyond(distance: FloatArray, spread: FloatArray) -> FloatArray:
+    """Return the mean of what noise of some spread would reach beyond a limit at some distance."""
+    deviations = distance / np.maximum(spread, _NO_SPREAD)
+    density = np.exp(-0.5 * deviations**2) / math.sqrt(2.0 * math.pi)
+    beyond = density - deviations * share_above(0.0, -deviations, np.ones_like(deviations))
+    return np.asarray(spread * np.maximum(beyond, 0.0))
 
 
 def _any_of(share: FloatArray, count: int) -> FloatArray:

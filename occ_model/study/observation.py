@@ -18,7 +18,7 @@ from occ_model.receiver.locate import bright_level, locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Plan, Region
 from occ_model.scene.scene import Scene
-from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.row_sample import SampledPicture
 from occ_model.study.noisy_columns import NoisyColumns
 
@@ -115,21 +115,35 @@ def observe_profile(
     enhancement = Enhancement(profile, scene.model.enhancement)
     if "noise" in plan.kinds:
         noisy = NoisyColumns(scene, columns, plan, span, enhancement)
-        span = _narrowed(span, noisy.bright_span(random))
+        span = narrowed(span, noisy.bright_span(random))
         return Observation(noisy.means(span, random), span)
-    span = _narrowed(span, _bright_span(scene, span, enhancement(profile), to_bytes(around)))
+    span = narrowed(span, bright_span(scene, columns, span, enhancement(profile)))
     seen = slice(span.first_column, span.last_column)
     return Observation(enhancement(profile[seen]).astype(np.float64), span)
 
 
-def _narrowed(span: Region, bright: slice | None) -> Region:
+def narrowed(span: Region, bright: slice | None) -> Region:
+    """Narrow the rectangle that the panel fills to its bright columns, if there are any."""
     if bright is None:
         return span
     return replace(span, first_column=bright.start, last_column=bright.stop)
 
 
-def _bright_span(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> slice | None:
-    """Find the columns from the first bright one to the last, as in the whole image."""
+def bright_span(scene: Scene, columns: Columns, span: Region, panel: ByteArray) -> slice | None:
+    """Find the columns from the first bright one to the last, as in the whole image.
+
+    Parameters
+    ----------
+    scene
+        The scene, without noise.
+    columns
+        Its columns.
+    span
+        The rectangle that the panel fills.
+    panel : ndarray of uint8, shape (columns,)
+        The panel's enhanced grey levels.
+    """
+    around = to_bytes(columns.around)
     left, right = span.first_column, span.last_column
     beside = scene.camera.rows - span.rows
     counts = np.bincount(panel[left:right], minlength=256) * span.rows

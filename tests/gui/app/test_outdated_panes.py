@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.outdated_panes import OutdatedPanes
+from occ_gui.app.outdated_panes import VERDICT_DELAY, OutdatedPanes
 from occ_gui.background.result_age import PAUSE, ResultAges
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
@@ -39,7 +39,8 @@ def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
 
 
 def marks(application: Application) -> list[QWidget]:
-    return [*application.outdated.of_picture, *application.outdated.of_results]
+    outdated = application.outdated
+    return [*outdated.of_picture, *outdated.of_readings, *outdated.of_results]
 
 
 def tabs(application: Application) -> list[str]:
@@ -47,12 +48,30 @@ def tabs(application: Application) -> list[str]:
     return [bar.tabText(place).split()[-1] for place in range(bar.count())]
 
 
-def test_a_verdict_is_that_of_an_earlier_scene_at_once(
-    application: Application, user: User, held: Event
+def test_a_verdict_does_not_wait_for_the_picture(
+    application: Application, user: User, held: Event, qtbot: QtBot
 ) -> None:
-    assert (application.decode.verdict.text(), tabs(application)) == (RIGHT, ["✓", "✓"])
+    decode = application.decode
+    assert (decode.verdict.text(), tabs(application)) == (RIGHT, ["✓", "✓"])
     application.store.change(switching_frequency=500.0)
-    assert application.decode.verdict.text() == f"Earlier scene: {RIGHT}"
+    qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
+    assert tabs(application) == ["✗", "✗"]
+    assert decode.origin.text() == "By the column profile; the picture follows."
+    shown = application.profile._reading
+    assert shown is not None
+    assert shown.scene == application.store.scene
+    held.set()
+    user.wait_until_idle()
+    assert decode.verdict.text() == "✗ No code read"
+    assert decode.origin.text() == "Read from the picture."
+
+
+def test_without_a_profile_path_a_verdict_is_soon_the_earlier_scenes(
+    application: Application, user: User, held: Event, qtbot: QtBot
+) -> None:
+    application.store.change(switching_frequency=500.0, jpeg_quality=60)
+    earlier = f"Earlier scene: {RIGHT}"
+    qtbot.waitUntil(lambda: application.decode.verdict.text() == earlier)
     assert tabs(application) == ["…", "…"]
     assert application.decode.strip.accessibleDescription().startswith("earlier scene: sent ")
     assert not application.decode.strip.isEnabled()
@@ -63,8 +82,9 @@ def test_a_verdict_is_that_of_an_earlier_scene_at_once(
     assert application.decode.strip.isEnabled()
 
 
+@pytest.mark.parametrize("jpeg", [0, 60])
 def test_each_pane_is_marked_while_its_result_is_outdated(
-    application: Application, user: User, held: Event, qtbot: QtBot
+    application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int
 ) -> None:
     application.learning.explanation.set_seen(True)
     assert [mark.parentWidget() for mark in marks(application)] == [
@@ -75,9 +95,13 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
         application.learning.explanation.pane.exposure,
     ]
     assert all(mark.isHidden() for mark in marks(application))
-    application.settings.set_tolerance(7.0)
-    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)))
-    assert {mark.accessibleName() for mark in marks(application)} == {"computing…"}
+    application.store.change(iso=60.0, jpeg_quality=jpeg)
+    outdated = application.outdated
+    late = [*outdated.of_picture, *outdated.of_results, *(outdated.of_readings if jpeg else ())]
+    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in late))
+    qtbot.waitUntil(lambda: application.simulation.early.is_idle)
+    assert all(mark.isHidden() for mark in outdated.of_readings) == (not jpeg)
+    assert {mark.accessibleName() for mark in late} == {"computing…"}
     held.set()
     user.wait_until_idle()
     assert all(mark.isHidden() for mark in marks(application))
@@ -91,7 +115,8 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:4]))
     assert application.image._frame is shown
-    assert application.decode.verdict.text() == f"Earlier scene: {RIGHT}"
+    earlier = f"Earlier scene: {RIGHT}"
+    qtbot.waitUntil(lambda: application.decode.verdict.text() == earlier)
     text = "of an earlier scene: this one has no picture"
     assert {mark.accessibleName() for mark in marks(application)} == {text}
     application.store.undo_stack.undo()
@@ -105,6 +130,7 @@ class Simulation(QObject):
     """A simulation whose results are delivered by hand, at times set by hand."""
 
     submitted = Signal()
+    reading_shown = Signal(object)
     picture_ready = Signal(object)
     snapshot_shown = Signal(object)
     failed = Signal(str)
@@ -120,6 +146,7 @@ class Simulation(QObject):
 
     def deliver(self, snapshot: Snapshot) -> None:
         self.picture_ready.emit(Picture.of(snapshot.frame, "camera", snapshot.request))
+        self.reading_shown.emit(snapshot)
         self.snapshot_shown.emit(snapshot)
 
 
@@ -145,7 +172,8 @@ class Drag:
             replace(first, request=SimulationRequest(scene.replace(iso=iso), settings))
             for iso in np.geomspace(50.0, 200.0, 61).tolist()
         ]
-        self.simulation, self.verdict = Simulation(self.snapshots[0]), Verdict()
+        self.latest = self.snapshots[0]
+        self.simulation, self.verdict = Simulation(self.latest), Verdict()
         self.outdated = OutdatedPanes(self.simulation, self.verdict, pane)  # type: ignore[arg-type]
         self.outdated.mark_results(pane)
         self.simulation.deliver(self.snapshots[0])
@@ -161,7 +189,7 @@ class Drag:
         for tick in range(milliseconds):
             self.simulation.now = 1e-3 * tick
             if tick % 16 == 0:
-                waiting = self.snapshots[tick // 16 + 1]
+                waiting = self.latest = self.snapshots[tick // 16 + 1]
                 self.simulation.change(waiting)
             if at_work is not None and tick >= at_work[1]:
                 self.simulation.deliver(at_work[0])
@@ -187,14 +215,20 @@ def test_a_drag_with_slow_pictures_is_marked_and_stays_so(drag: Drag) -> None:
     assert all(marked[first:])
 
 
-def test_the_verdict_does_not_flicker_during_a_drag(drag: Drag) -> None:
+def test_a_verdict_that_follows_the_drag_is_the_present_ones(drag: Drag) -> None:
     drag.move(takes=14)
-    first_moves = 9  # the first of all could be the only one
-    assert set(drag.verdict.outdated[first_moves:]) == {True}
+    assert set(drag.verdict.outdated) == {False}
 
 
-def test_the_verdict_is_the_present_ones_after_the_drag(drag: Drag, qtbot: QtBot) -> None:
-    drag.move(takes=14)
+def test_a_slow_verdict_does_not_flicker_during_a_drag(drag: Drag) -> None:
+    drag.move(takes=round(3e3 * VERDICT_DELAY))
+    first = drag.verdict.outdated.index(True)
+    assert set(drag.verdict.outdated[first:]) == {True}
+
+
+def test_a_slow_verdict_is_the_present_ones_after_the_drag(drag: Drag, qtbot: QtBot) -> None:
+    drag.move(takes=round(3e3 * VERDICT_DELAY))
     assert drag.verdict.outdated[-1]
+    drag.simulation.deliver(drag.latest)
     drag.simulation.now += 2 * PAUSE
     qtbot.waitUntil(lambda: not drag.verdict.outdated[-1])

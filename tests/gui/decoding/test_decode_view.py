@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import DecodeResult, Region
 
@@ -29,7 +30,7 @@ def texts(view: DecodeView) -> set[str]:
 
 
 def test_a_code_read_right_is_marked(view: DecodeView, snapshot_of: SnapshotOf) -> None:
-    view.show_snapshot(snapshot_of(code=718))
+    view.show_reading(snapshot_of(code=718))
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert not view.reason.isVisible()
     assert view.strip.isVisible()
@@ -40,7 +41,7 @@ def test_wrong_bits_are_counted(view: DecodeView, snapshot_of: SnapshotOf) -> No
     snapshot = snapshot_of(code=718)
     received = np.array([1, 0, 1, 1, 0, 0, 1, 1, 0, 1], dtype=np.uint8)  # the last two are wrong
     decoded = replace(snapshot.decoded, bits=received, code=717)
-    view.show_snapshot(replace(snapshot, decoded=decoded))
+    view.show_reading(replace(snapshot, decoded=decoded))
     assert view.verdict.text() == "✗ Code 717 read, 2 of 10 bits wrong"
     assert view.strip.wrong_places() == [8, 9]
     assert not view.reason.isVisible()
@@ -49,7 +50,7 @@ def test_wrong_bits_are_counted(view: DecodeView, snapshot_of: SnapshotOf) -> No
 def test_a_failure_is_shown_with_its_reason(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(switching_frequency=500.0, distance=5.0)
     assert snapshot.decoded.failure
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     assert view.verdict.text() == "✗ No code read"
     assert view.reason.isVisible()
     assert view.reason.text() == snapshot.decoded.failure
@@ -59,18 +60,18 @@ def test_bits_read_beside_a_failure_are_shown(view: DecodeView, snapshot_of: Sna
     decoded = DecodeResult(
         "threshold", failure="The chips break the line code.", bits=np.array([0, 0], dtype=np.uint8)
     )
-    view.show_snapshot(replace(snapshot_of(code=718), decoded=decoded))
+    view.show_reading(replace(snapshot_of(code=718), decoded=decoded))
     assert view.verdict.text() == "✗ No code read"
     assert view.strip.accessibleDescription() == "sent 1011001110, received 00, 1 wrong"
 
 
 def test_a_raw_pattern_has_no_bits_to_compare(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(pattern="010100010110001001000")
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     assert view.verdict.text() == "No code is sent"
     assert not view.strip.isVisible()
     assert view.reason.text() == snapshot.decoded.failure
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     assert view.strip.isVisible()
 
 
@@ -85,7 +86,7 @@ def test_measured_values_are_shown_with_their_units(
         chip_length=12.5,
         chips=np.ones(77, dtype=np.uint8),
     )
-    view.show_snapshot(replace(snapshot_of(), decoded=decoded))
+    view.show_reading(replace(snapshot_of(), decoded=decoded))
     assert {"1000 x 200 px", "123.5 grey levels", "12.50 columns", "77"} <= texts(view)
 
 
@@ -93,16 +94,16 @@ def test_a_step_that_was_not_reached_shows_no_old_value(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     units = ("px", "grey levels", "columns")
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     assert all(any(text.endswith(unit) for text in texts(view)) for unit in units)
-    view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
+    view.show_reading(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
     assert not any(text.endswith(units) for text in texts(view))
 
 
 def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     decoded = DecodeResult("threshold", failure="So it happened that no code was read. " * 12)
     view.resize(view.minimumSizeHint().width(), 700)
-    view.show_snapshot(replace(snapshot_of(), decoded=decoded))
+    view.show_reading(replace(snapshot_of(), decoded=decoded))
     layout = view.layout()
     assert layout is not None
     layout.activate()
@@ -115,7 +116,7 @@ def test_each_decoders_tab_shows_whether_it_read_the_code(
 ) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
     assert snapshot.decoded.failure
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
     assert shown == ["threshold ✗", "matched ✓"]
 
@@ -123,15 +124,47 @@ def test_each_decoders_tab_shows_whether_it_read_the_code(
 def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     assert any(text.endswith(" grey levels") for text in texts(view))
     view.decoders.setCurrentIndex(1)
     assert not any(text.endswith(" grey levels") for text in texts(view))
     for code in (3, 1000):
         snapshot = snapshot_of(code=code, exposure_time=136e-6, switching_frequency=20e3)
-        view.show_snapshot(snapshot)
+        view.show_reading(snapshot)
         assert view.decoders.currentIndex() == 1
         assert view.verdict.text() == f"✓ Code {code} read, all bits right"
     view.decoders.setCurrentIndex(0)
     assert view.verdict.text() == "✗ No code read"
     assert view.reason.text() == snapshot.decoded.failure
+
+
+def test_a_picture_that_contradicts_its_profile_says_so(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of(code=718)
+    early = reading_by_profile(snapshot.request)
+    assert early is not None
+    view.show_reading(early)
+    assert view.origin.text() == "By the column profile; the picture follows."
+    view.show_reading(snapshot)
+    assert view.origin.text() == "Read from the picture."
+    failed = DecodeResult("threshold", failure="No.")
+    view.show_reading(early)
+    view.show_reading(replace(snapshot, decoded=failed))
+    assert view.verdict.text() == "✗ No code read"
+    assert view.origin.text() == (
+        "Read from the picture. The column profile alone had said: ✓ Code 718 read, all bits right."
+    )
+    view.decoders.setCurrentIndex(1)  # of which both say the same
+    assert view.origin.text() == "Read from the picture."
+
+
+def test_a_profile_of_another_scene_contradicts_no_picture(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
+    early = reading_by_profile(snapshot_of(code=718).request)
+    assert early is not None
+    view.show_reading(early)
+    view.show_reading(snapshot_of(switching_frequency=500.0))
+    assert view.verdict.text() == "✗ No code read"
+    assert view.origin.text() == "Read from the picture."

@@ -16,7 +16,7 @@ from occ_gui.detection_map.advice_sentences import AdviceSentences
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import sentences
 from occ_model.parallel.job import Job, JobResult
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.scene.scene import Scene
@@ -143,9 +143,9 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
 def test_every_decoder_is_searched_and_each_end_has_a_button(advised: Application) -> None:
     advice = advised.detection.advice
     titles = [text for text in advice.sentences() if text.startswith("The ")]
-    for decoder in DECODERS:
+    for decoder in QUICK_DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
-    assert len(advice.destinations) == 3 * len(DECODERS)
+    assert len(advice.destinations) == 3 * len(QUICK_DECODERS)
     assert advice.again.isVisible()
 
 

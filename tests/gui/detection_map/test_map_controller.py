@@ -17,7 +17,7 @@ from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, JobResult
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 
 SHAPE = (13, 7)
@@ -108,9 +108,9 @@ def test_the_map_is_the_sweeps_table_of_the_same_points(bench_of: Callable[..., 
     bench = bench_of()
     found = bench.look()
     axes = {FREQUENCY: found.x_values, DISTANCE: found.y_values}
-    table = occ.sweep(bench.scenes.scene, axes, images=IMAGES[-1], decoder=tuple(DECODERS))
+    table = occ.sweep(bench.scenes.scene, axes, images=IMAGES[-1], decoder=QUICK_DECODERS)
     assert found.least_images == IMAGES[-1]
-    for decoder in DECODERS:
+    for decoder in QUICK_DECODERS:
         np.testing.assert_array_equal(found.rates(decoder), table.rates(decoder))
 
 

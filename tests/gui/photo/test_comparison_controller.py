@@ -88,14 +88,14 @@ def refuse(_photo: Photo) -> Stripes:
 
 
 def test_without_a_photo_nothing_is_compared(bench: Bench, snapshot_of: SnapshotOf) -> None:
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     assert bench.shown == [None]
 
 
 def test_the_photo_is_drawn_as_it_is_until_its_stripes_are_found(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.go_on.clear()
     bench.controller.show_photo(photo)
     assert bench.last.comparison is None
@@ -109,7 +109,7 @@ def test_the_photo_is_compared_flattened_and_from_its_region_on(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.controller.show_snapshot(snapshot)
+    bench.controller.show_reading(snapshot)
     bench.controller.show_photo(photo)
     bench.residual()
     flattened = stripes_of(photo).flattened
@@ -129,7 +129,7 @@ def test_stripes_are_searched_once_for_all_comparisons(
     bench.controller.show_photo(photo)
     for changes in ({}, {"exposure_time": 30e-6}, {"iso": 50.0}):
         snapshot = snapshot_of(**changes)
-        bench.controller.show_snapshot(snapshot)
+        bench.controller.show_reading(snapshot)
         bench.residual()
         first = bench.comparison.first_column
         length = len(bench.comparison.simulated)
@@ -143,7 +143,7 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
 ) -> None:
     snapshot = snapshot_of()
     bench.controller.show_photo(photo)
-    bench.controller.show_snapshot(snapshot)
+    bench.controller.show_reading(snapshot)
     bench.residual()
     for enhanced, profile in ((True, snapshot.frame.signal), (False, snapshot.frame.profile)):
         bench.controller.set_enhanced(enhanced)
@@ -156,7 +156,7 @@ def test_an_enhanced_photo_is_so_by_its_own_histogram(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.controller.show_photo(photo)
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.residual()
     before = bench.comparison
     bench.controller.set_enhanced(True)
@@ -175,7 +175,7 @@ def test_without_stripes_the_photo_is_drawn_with_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.stripes = refuse
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.controller.show_photo(photo)
     bench.residual()
     assert bench.last.comparison is None
@@ -186,7 +186,7 @@ def test_without_stripes_the_photo_is_drawn_with_a_sentence(
 def test_a_photo_moved_beside_the_picture_gives_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.controller.show_photo(photo)
     bench.residual()
     bench.placements.move(Placement(1e5))
@@ -199,7 +199,7 @@ def test_a_photo_moved_beside_the_picture_gives_a_sentence(
 def test_the_stripes_of_a_photo_that_is_gone_are_forgotten(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.go_on.clear()
     bench.controller.show_photo(photo)
     bench.controller.show_photo(None)
@@ -210,7 +210,7 @@ def test_the_stripes_of_a_photo_that_is_gone_are_forgotten(
 def test_a_matchs_own_levels_take_the_place_of_those_found(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.controller.show_photo(photo)
     bench.residual()
     before = bench.comparison.correlation
@@ -224,7 +224,7 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.stripes = refuse
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     bench.go_on.clear()
     bench.controller.show_photo(photo)
     bench.controller.show_match(match_with(photo, stripes_of(photo)))
@@ -238,10 +238,10 @@ def test_a_simulation_without_stripes_is_not_compared(
 ) -> None:
     bench.controller.show_photo(photo)
     bench.residual()
-    bench.controller.show_snapshot(snapshot_of(exposure_time=5.0))  # white from rim to rim
+    bench.controller.show_reading(snapshot_of(exposure_time=5.0))  # white from rim to rim
     assert bench.last.comparison is None
     assert bench.last.sentence == "The simulation has no stripes there to compare."
-    bench.controller.show_snapshot(snapshot_of())
+    bench.controller.show_reading(snapshot_of())
     assert bench.comparison is not None
     assert bench.last.sentence == ""
 
@@ -260,7 +260,7 @@ def test_a_photo_lies_at_the_panels_corner(
     bench.controller.show_photo(photo)
     for distance in (1.2, 2.0):
         snapshot = snapshot_of(distance=distance)
-        bench.controller.show_snapshot(snapshot)
+        bench.controller.show_reading(snapshot)
         assert bench.placements.placement == Placement(*snapshot.panel_origin)
 
 
@@ -269,7 +269,7 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
 ) -> None:
     snapshot = snapshot_of(columns=300)
     Image.fromarray(snapshot.frame.image).save(tmp_path / "a.png")
-    bench.controller.show_snapshot(snapshot)
+    bench.controller.show_reading(snapshot)
     bench.controller.show_photo(occ.load_photo(tmp_path / "a.png", "columns"))
     assert bench.placements.placement == Placement()
     bench.residual()
@@ -279,7 +279,7 @@ def test_another_photo_does_not_lie_where_the_last_one_was_put(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.controller.show_snapshot(snapshot)
+    bench.controller.show_reading(snapshot)
     bench.controller.show_photo(photo)
     bench.placements.move(Placement(1.0, 2.0, 3.0))
     bench.controller.show_photo(photo)

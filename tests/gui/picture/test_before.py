@@ -120,7 +120,7 @@ def test_the_profile_before_is_drawn_named_and_in_view(
     view.resize(900, 300)
     view.show()
     brighter, now = snapshot_of(iso=1600.0), snapshot_of()
-    view.show_snapshot(now)
+    view.show_reading(now)
     names = [label for label in view.legend.findChildren(QLabel) if label.text() == "before"]
     assert not names[0].isVisible()
     view.show_before(brighter)

@@ -59,7 +59,7 @@ def test_the_simulated_profile_is_drawn_column_by_column(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     x, y = drawn(view.simulation)
     assert x == list(range(len(snapshot.frame.profile)))
     assert y == snapshot.frame.profile.tolist()
@@ -69,7 +69,7 @@ def test_the_band_model_is_drawn_where_it_is_defined(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(exposure_time=68e-6, switching_frequency=10e3)
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     assert snapshot.band is not None
     assert drawn(view.band)[1] == snapshot.band.tolist()
     assert not view.reason.isVisible()
@@ -81,7 +81,7 @@ def test_the_enhanced_band_model_is_so_by_its_own_histogram(
 ) -> None:
     for method in ("equalization", "stretch", "none"):
         snapshot = snapshot_of(enhancement=method)
-        view.show_snapshot(snapshot)
+        view.show_reading(snapshot)
         assert snapshot.band is not None
         view.enhanced.setChecked(True)
         assert drawn(view.band)[1] == enhance(snapshot.band, method).tolist()
@@ -93,8 +93,8 @@ def test_the_enhanced_band_model_is_so_by_its_own_histogram(
 def test_where_the_band_model_is_undefined_a_sentence_says_so(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
-    view.show_snapshot(snapshot_of())
-    view.show_snapshot(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
+    view.show_reading(snapshot_of())
+    view.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
     assert drawn(view.band) == ([], [])
     assert view.reason.isVisible()
     assert "136 µs" in view.reason.text()
@@ -105,7 +105,7 @@ def test_where_the_band_model_is_undefined_a_sentence_says_so(
 def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0, "No stripes."))
     x, y = drawn(view.photo)
     assert x[:3] == [12.5, 14.5, 16.5]
@@ -122,7 +122,7 @@ def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
 def test_a_compared_photo_is_drawn_in_simulated_levels(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     seen, simulated = np.array([1.0, 5.0, 9.0]), np.array([2.0, 5.0, 6.0])
     comparison = Comparison(900, seen, simulated, 0.91234)
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
@@ -139,7 +139,7 @@ def test_a_compared_photo_is_drawn_in_simulated_levels(
 def test_the_residual_follows_the_profiles_columns_when_moved(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     comparison = Comparison(0, np.ones(5), np.ones(5), 0.0)
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
     boxes = [plot.getViewBox() for plot in (view.plot, view.residual.plot)]
@@ -156,7 +156,7 @@ def test_the_residual_follows_the_profiles_columns_when_moved(
 def test_a_first_photo_does_not_move_the_columns_in_view(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     before = view.plot.viewRange()[0]
     view.show_photo_profile(PhotoProfile(Comparison(0, np.ones(5), np.ones(5), 0.0), photo.profile))
     view.resize(view.width() + 50, view.height() + 50)
@@ -169,7 +169,7 @@ def test_after_enhancement_shows_picture_levels_and_threshold(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
@@ -190,7 +190,7 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
     blurred = small_scene.replace(point_spread=2.0, vignetting_exponent=4.0)
     snapshot = simulate(blurred, SimulationSettings(tolerance=tolerance))
     assert (snapshot.frame.plan.kinds <= {"column"}) == math.isinf(tolerance)
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     region, read = snapshot.decoded.region, snapshot.decoded.signal
     assert region is not None
     assert read is not None
@@ -203,7 +203,7 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
 
 def test_without_a_threshold_none_is_shown(view: ProfileView, snapshot_of: SnapshotOf) -> None:
     view.enhanced.setChecked(True)
-    view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="None.")))
+    view.show_reading(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="None.")))
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
 
@@ -213,7 +213,7 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view(
 ) -> None:
     view.show_photo_profile(PhotoProfile(None, photo.profile))
     for changes in ({}, {"iso": 6400.0}, {"luminance": 0.0}):
-        view.show_snapshot(snapshot_of(**changes))
+        view.show_reading(snapshot_of(**changes))
         low, high = view.plot.getViewBox().viewRange()[1]
         for curve in (view.simulation, view.band, view.photo):
             _, values = drawn(curve)
@@ -228,7 +228,7 @@ def test_the_packets_that_the_button_names_are_those_in_view(
     view = ProfileView()
     qtbot.addWidget(view)
     snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     assert button(view, "1 packets").isChecked()
     first, last = columns_in_view(view)
     assert last - first == pytest.approx(snapshot.packet_columns, rel=0.05)
@@ -238,7 +238,7 @@ def test_two_packets_are_in_view_until_the_panel_is_chosen(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     panel = snapshot.frame.corners[:, 0]
     first, last = columns_in_view(view)
     assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
@@ -251,16 +251,16 @@ def test_two_packets_are_in_view_until_the_panel_is_chosen(
 def test_moving_the_plot_ends_following_and_a_click_resumes_it(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     followed = columns_in_view(view)
     box = view.plot.getViewBox()
     box.setXRange(10, 20, padding=0)
     box.sigRangeChangedManually.emit([True, True])
-    view.show_snapshot(snapshot_of(distance=1.3))
+    view.show_reading(snapshot_of(distance=1.3))
     assert columns_in_view(view) == pytest.approx((10, 20))
     assert not button(view, "2 packets").isChecked()
     assert not button(view, "Panel").isChecked()
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     qtbot.mouseClick(button(view, "2 packets"), Qt.MouseButton.LeftButton)
     assert columns_in_view(view) == pytest.approx(followed)
 
@@ -269,7 +269,7 @@ def test_with_no_panel_in_the_picture_all_columns_are_in_view(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(offset_x=50.0)
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     last_column = len(snapshot.frame.profile) - 1
     button(view, "Panel").click()
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
@@ -279,7 +279,7 @@ def test_with_no_panel_in_the_picture_all_columns_are_in_view(
 def test_a_panel_at_the_pictures_rim_leaves_a_range_to_look_at(
     view: ProfileView, snapshot_of: SnapshotOf, changes: dict[str, float]
 ) -> None:
-    view.show_snapshot(snapshot_of(**changes))
+    view.show_reading(snapshot_of(**changes))
     first, last = columns_in_view(view)
     assert last - first >= 1.0
     assert drawn(view.simulation)[0]

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import count
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,12 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
-from occ_gui.simulation import controller
+from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.controller import SimulationController, simulate
-from occ_gui.simulation.snapshot import Snapshot
-from occ_model.receiver.decoders import DECODERS
+from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
+from occ_model.simulation.render import render_with
 
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
 
@@ -27,9 +29,13 @@ class RecordingView:
 
     def __init__(self) -> None:
         self.shown: list[Snapshot] = []
+        self.read: list[Reading] = []
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         self.shown.append(snapshot)
+
+    def show_reading(self, reading: Reading) -> None:
+        self.read.append(reading)
 
 
 class Bench:
@@ -40,13 +46,13 @@ class Bench:
         self.store = SceneStore(scene, self.settings)
         self.views = (RecordingView(), RecordingView())
         self.controller = SimulationController(self.store, self.settings)
-        self.controller.show_in(self.views)
+        self.controller.show_in(self.views, self.views)
         self.failures: list[str] = []
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
 
     def wait_until_idle(self) -> None:
-        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.is_idle)
 
     @property
     def scenes(self) -> list[Scene]:
@@ -104,6 +110,52 @@ def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: Q
     assert counts == [2]
 
 
+@pytest.fixture
+def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
+    """Let no picture be simulated before this event is set."""
+    may_end = Event()
+
+    def wait_and_render(*arguments: Any) -> Any:
+        may_end.wait()
+        return render_with(*arguments)
+
+    monkeypatch.setattr(controller, "render_with", wait_and_render)
+    yield may_end
+    may_end.set()
+
+
+def test_a_scene_is_read_before_its_picture_is_there(
+    bench: Bench, held: Event, qtbot: QtBot
+) -> None:
+    bench.store.change(iso=200.0)
+    reader = bench.views[1]
+    qtbot.waitUntil(lambda: reader.read[-1].scene == bench.store.scene)
+    early = reader.read[-1]
+    assert (early.source, len(bench.scenes)) == ("profile", 1)
+    held.set()
+    bench.wait_until_idle()
+    assert reader.read[-1] is bench.views[0].shown[-1]
+    assert reader.read[-1].source == "picture"
+    assert [result.code for result in early.results] == [
+        result.code for result in reader.read[-1].results
+    ]
+
+
+def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
+    bench: Bench, held: Event, qtbot: QtBot
+) -> None:
+    bench.store.change(iso=150.0)
+    bench.store.change(iso=200.0)
+    reader = bench.views[0]
+    qtbot.waitUntil(lambda: bench.controller.early.is_idle)
+    held.set()
+    bench.wait_until_idle()
+    assert [scene.camera.iso for scene in bench.scenes[1:]] == [150.0, 200.0]
+    of_pictures = [reading for reading in reader.read[1:] if reading.source == "picture"]
+    assert [reading.scene.camera.iso for reading in of_pictures] == [200.0]
+    assert reader.read[-1] is of_pictures[-1]
+
+
 def test_a_scene_without_a_picture_says_why_and_views_stay(
     bench: Bench, small_scene: Scene
 ) -> None:
@@ -150,7 +202,7 @@ def test_simulation_and_reading_are_timed_apart(
     small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # A clock that goes on by one at every look: what lies between two looks is one.
-    monkeypatch.setattr(controller, "perf_counter", count().__next__)
+    monkeypatch.setattr(jobs, "perf_counter", count().__next__)
     timings = {"transmitter": 2.0, "camera": 3.0}
     frame = replace(occ.render(small_scene), timings=timings)
     monkeypatch.setattr(controller, "render_with", lambda scene, settings: frame)
@@ -164,7 +216,7 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
 ) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
     results = (snapshot.decoded, *snapshot.others)
-    assert {result.decoder for result in results} == set(DECODERS)
+    assert {result.decoder for result in results} == set(QUICK_DECODERS)
     for result in results:
         alone = occ.decode(snapshot.frame.image, snapshot.frame.scene, result.decoder)
         assert (result.code, result.failure) == (alone.code, alone.failure)

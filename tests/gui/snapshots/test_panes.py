@@ -44,7 +44,7 @@ def test_the_profile_looks_as_stored(
 ) -> None:
     view = ProfileView()
     show(qtbot, view, 560, 260)
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     matches_its_picture(view, "profile")
 
 
@@ -54,7 +54,7 @@ def test_the_steps_of_each_decoder_look_as_stored(
     view = DecodeView()
     show(qtbot, view, 380, 560)
     snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
+    view.show_reading(snapshot)
     for place, result in enumerate((snapshot.decoded, *snapshot.others)):
         view.decoders.setCurrentIndex(place)
         matches_its_picture(view, f"decode-{result.decoder}")

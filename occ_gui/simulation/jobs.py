@@ -1,0 +1,105 @@
+"""Jobs of the simulation: read a scene by its profile at once, and its picture when it is there."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from time import perf_counter
+from typing import TypedDict
+
+import occ_model as occ
+from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
+from occ_model.arrays import FloatArray
+from occ_model.effects.plan import called_for_by_signal
+from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
+from occ_model.results import DecodeResult, Frame
+from occ_model.scene.scene import Scene
+from occ_model.simulation.band_model import enhanced_band_profile
+from occ_model.study.profile_reading import read_profile
+
+
+class _Beside(TypedDict):
+    """What is shown beside any reading of a scene."""
+
+    sent: tuple[int, ...]
+    packet_columns: float
+    band: FloatArray | None
+    enhanced_band: FloatArray | None
+    band_undefined: str
+
+
+def reading_by_profile(request: SimulationRequest) -> Reading | None:
+    """Read a scene without its picture; None where only pixels show what is read.
+
+    Raises
+    ------
+    ParameterError
+        A setting is invalid.
+    ProjectionError
+        The panel has no picture in this pose.
+    """
+    found = read_profile(request.scene, request.settings)
+    if found is None:
+        return None
+    first, *others = found.results
+    return Reading(
+        request=request,
+        source="profile",
+        plan=found.plan,
+        profile=found.profile,
+        signal=found.signal,
+        corners=found.corners,
+        decoded=first,
+        others=tuple(others),
+        **_beside(request.scene),
+    )
+
+
+def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
+    """Read an exact picture."""
+    scene = frame.scene
+    start = perf_counter()
+    decoded = occ.decode(frame.image, scene)
+    seconds = perf_counter() - start
+    return Snapshot(
+        request=request,
+        source="picture",
+        plan=frame.plan,
+        profile=frame.profile,
+        signal=frame.signal,
+        corners=frame.corners,
+        decoded=decoded,
+        others=tuple(_decode_with_others(decoded, scene)),
+        called_for=called_for_by_signal(frame.plan, scene),
+        frame=frame,
+        reading_seconds=seconds,
+        **_beside(scene),
+    )
+
+
+def _beside(scene: Scene) -> _Beside:
+    band, enhanced_band, undefined = None, None, ""
+    try:
+        band = occ.band_profile(scene)
+        enhanced_band = enhanced_band_profile(scene, band)
+    except occ.BandModelUndefined as reason:
+        undefined = str(reason)
+    transmitter = scene.transmitter
+    chip_columns = transmitter.switching_period / scene.camera.readout_time
+    return {
+        "sent": () if transmitter.pattern else transmitter.payload_bits,
+        "packet_columns": chip_columns * len(occ.packet(scene)),
+        "band": band,
+        "enhanced_band": enhanced_band,
+        "band_undefined": undefined,
+    }
+
+
+def _decode_with_others(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
+    """Decode the signal that one decoder has located in the picture with the other decoders."""
+    for name in QUICK_DECODERS:
+        if name == decoded.decoder:
+            continue
+        if decoded.signal is None:  # no panel found, which holds for all decoders
+            yield DecodeResult(name, failure=decoded.failure)
+        else:
+            result = decoder_named(name).read(decoded.signal, scene)
+            yield replace(result, region=decoded.region, location=decoded.location)

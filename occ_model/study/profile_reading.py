@@ -1,0 +1,112 @@
+"""What decoders read of a scene by the profile path: an answer that needs no pixels.
+
+A level panel without image effects shows the same column values in each of its rows. Its column
+means, and with them the verdict of every decoder, follow in milliseconds at any size of the
+picture; the picture itself confirms them later.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.plan import plan_of
+from occ_model.effects.registry import NAMES
+from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.results import DecodeResult, Plan, Region
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.study.noisy_columns import NoisyColumns
+from occ_model.study.observation import Observation, bright_span, narrowed, panel_span
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ProfileReading:
+    """What decoders read of a scene, without its picture.
+
+    Parameters
+    ----------
+    plan
+        The effects that are simulated: those that a decoder's signal calls for.
+    corners : ndarray of float64, shape (4, 2)
+        The panel's corners in the image, each as (column, row).
+    profile, signal : ndarray of float64, shape (columns,)
+        Means of the panel's pixels in each column, before the receiver's enhancement and after it,
+        in grey levels; also in columns that do not show the panel.
+    results
+        The result of each decoder, in the order of ``QUICK_DECODERS``.
+    """
+
+    plan: Plan
+    corners: FloatArray
+    profile: FloatArray
+    signal: FloatArray
+    results: tuple[DecodeResult, ...]
+
+
+def signal_plan(view: PaperView, settings: SimulationSettings) -> Plan:
+    """Plan a scene for what a decoder reads, whatever its picture is planned for."""
+    return plan_of(view, replace(settings, observable="signal").checked(NAMES))
+
+
+def has_profile_path(scene: Scene, chosen: Plan) -> bool:
+    """Return whether rows differ by noise at most: a level panel, and no image effect."""
+    return "image" not in chosen.kinds and panel_span(scene) is not None
+
+
+def read_profile(scene: Scene, settings: SimulationSettings) -> ProfileReading | None:
+    """Read a scene by the profile path.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        How its picture is simulated; the effects are planned for the signal all the same.
+
+    Returns
+    -------
+    ProfileReading or None
+        None where rows differ by more than noise: only pixels show what is read there.
+
+    Raises
+    ------
+    ParameterError
+        A setting is invalid.
+    ProjectionError
+        Part of the panel is behind the camera.
+    """
+    check_scene(scene)
+    view = paper_view_of(scene)
+    chosen = signal_plan(view, settings)
+    span = panel_span(scene)
+    if span is None or "image" in chosen.kinds:
+        return None
+    columns = expose_columns(view, chosen)
+    random = np.random.default_rng(settings.seed)
+    profile, signal, observed = _column_means(scene, columns, chosen, span, random)
+    results = tuple(observed.read(scene, decoder) for decoder in QUICK_DECODERS)
+    return ProfileReading(chosen, view.corners, profile, signal, results)
+
+
+def _column_means(
+    scene: Scene, columns: Columns, chosen: Plan, span: Region, random: np.random.Generator
+) -> tuple[FloatArray, FloatArray, Observation]:
+    """Return the means before and after enhancement, and what of them a decoder reads."""
+    profile = columns.profile.copy()
+    enhancement = Enhancement(profile, scene.model.enhancement)
+    enhanced = enhancement(profile)
+    signal = enhanced.astype(np.float64)
+    if span.columns == 0:
+        return profile, signal, Observation(to_bytes(columns.around), None)
+    if "noise" in chosen.kinds:
+        noisy = NoisyColumns(scene, columns, chosen, span, enhancement)
+        region = narrowed(span, noisy.bright_span(random))
+        seen = slice(span.first_column, span.last_column)
+        profile[seen], signal[seen] = noisy.plain_means(span), noisy.means(span, random)
+    else:
+        region = narrowed(span, bright_span(scene, columns, span, enhanced))
+    return profile, signal, Observation(signal[region.first_column : region.last_column], region)

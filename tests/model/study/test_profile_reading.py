@@ -1,0 +1,84 @@
+"""What is read without pixels is what the picture shows, wherever rows differ by noise at most."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.profile_reading import read_profile
+
+SETTINGS = SimulationSettings(observable="signal")
+BARE = SimulationSettings(tolerance=math.inf)
+PRESETS = [name for name in occ.presets() if not name.endswith("-real")]
+
+
+def small(preset: str, **changes: float) -> Scene:
+    scene = occ.load_preset(preset)
+    return scene.replace(rows=scene.camera.rows // 8, **changes)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_the_profile_is_that_of_the_picture_but_for_noise(preset: str) -> None:
+    scene = small(preset, iso=800.0)
+    reading = read_profile(scene, SETTINGS)
+    assert reading is not None
+    frame = occ.render(scene, observable="signal")
+    region = reading.results[0].region
+    assert region is not None
+    noise = float(region.crop(frame.camera_image).std(axis=0).max())
+    assert noise > 1.0
+    deviation = np.abs(reading.profile - frame.profile)
+    assert deviation.max() < 6.0 * noise / math.sqrt(region.rows)
+
+
+def test_noise_that_is_cut_off_at_white_darkens_the_mean() -> None:
+    scene = small("phone-136us", iso=800.0)
+    reading = read_profile(scene, SETTINGS)
+    assert reading is not None
+    bare = occ.column_profile(scene)
+    brightest = bare == bare.max()
+    shown = occ.render(scene, observable="signal").profile[brightest].mean()
+    lost = bare.max() - shown
+    assert lost > 0.1
+    assert bare.max() - reading.profile[brightest].mean() == pytest.approx(lost, abs=0.1 * lost)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_without_noise_everything_is_exactly_the_pictures(preset: str) -> None:
+    scene = small(preset)
+    reading = read_profile(scene, BARE)
+    assert reading is not None
+    frame = occ.render(scene, tolerance=math.inf)
+    assert np.array_equal(reading.profile, frame.profile)
+    assert np.array_equal(reading.signal, frame.signal)
+    assert np.array_equal(reading.corners, frame.corners)
+    for result, decoder in zip(reading.results, QUICK_DECODERS, strict=True):
+        of_picture = occ.decode(frame.image, scene, decoder)
+        assert (result.code, result.region) == (of_picture.code, of_picture.region)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"roll": 0.2}, {"jpeg_quality": 80}, {"vignetting_exponent": 4.0}]
+)
+def test_where_rows_differ_the_profile_says_nothing(changes: dict[str, float]) -> None:
+    assert read_profile(small("phone-68us", **changes), SETTINGS) is None
+
+
+def test_a_panel_out_of_the_picture_is_not_read() -> None:
+    reading = read_profile(small("phone-68us", offset_x=50.0), SETTINGS)
+    assert reading is not None
+    assert [result.code for result in reading.results] == [None] * len(QUICK_DECODERS)
+    assert all(result.failure for result in reading.results)
+
+
+def test_the_plan_is_the_signals_whatever_the_picture_is_planned_for() -> None:
+    scene = small("phone-136us", switching_frequency=14.6e3)
+    of_profile = SimulationSettings(observable="profile")
+    reading = read_profile(scene, of_profile)
+    assert reading is not None
+    assert reading.plan.included == occ.plan(scene, observable="signal").included
+    assert occ.plan(scene, observable="profile").included != reading.plan.included

@@ -192,8 +192,8 @@ class Application(QObject):
         self.photos.reading_changed.connect(
             lambda reading: menus.show_choice(menus.scan_axes, reading.scan_axis)
         )
-        menus.modes.triggered.connect(lambda action: self.image.set_mode(action.data()))
-        self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.modes, mode))
+        menus.overlays.triggered.connect(lambda action: self.image.set_mode(action.data()))
+        self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.overlays, mode))
 
     def _connect_slider_strips(self) -> None:
         shown = self.window.actions_by_name["slider_strips"]
@@ -232,7 +232,7 @@ class Application(QObject):
     def show_mode(self, mode: str) -> None:
         """Show the photo beside the simulated picture or over it, by one of MODES."""
         self.image.set_mode(mode)
-        self.window.menus.show_choice(self.window.menus.modes, mode)
+        self.window.menus.show_choice(self.window.menus.overlays, mode)
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")

@@ -41,6 +41,9 @@ PANES = (
 )  # fmt: skip
 """Names of the panes."""
 
+MODES = ("explore", "photo", "limits", "effects", "lessons")
+"""Names of the modes."""
+
 OVERLAYS = ("beside", "blend", "split", "difference")
 """Ways to show a photo with the simulated picture."""
 
@@ -109,6 +112,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--size", type=_size, metavar="WIDTHxHEIGHT", help="the window's size, such as 1280x800"
     )
+    parser.add_argument("--mode", choices=MODES, help="lay the window out for this task")
     parser.add_argument("--dock", choices=PANES, help="bring this pane to the front")
     parser.add_argument("--theme", choices=THEMES, help="the window's colours")
     parser.add_argument(
@@ -138,6 +142,8 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     if options.photo:
         application.show_mode(options.overlay)
         application.open_photo(options.photo, options.match, front=options.dock is None)
+    if options.mode:
+        application.window.modes.switch(options.mode)
     application.window.show()
     if options.dock:
         application.window.bring_to_front(options.dock)

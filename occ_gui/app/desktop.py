@@ -99,7 +99,7 @@ class Desktop(QObject):
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
-        self.layout = DockLayout(window, window.docks, preferences)
+        self.layout = DockLayout(window, window.modes, preferences)
         lamps = parts.photo_wiring.lamps
         self.autosave = Autosave(
             parts.store, parts.settings, self.document, lambda: self._photo,
@@ -120,7 +120,6 @@ class Desktop(QObject):
             source.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
         self.pointer.moved.connect(window.pointed.set_full_text)
-        window.arranged.connect(self.layout.note_first)
         window.closing.connect(self.end)
         self.theme.chosen.connect(self._on_theme)
         actions = window.actions_by_name
@@ -132,7 +131,7 @@ class Desktop(QObject):
             "export_all": self.export.ask_for_folder,
             "copy_figure": self.export.copy_current,
             "reset_scene": self._reset_scene,
-            "reset_layout": self.layout.reset,
+            "reset_layout": window.modes.reset,
             "shortcuts": self.show_shortcuts,
             "palette": self.show_palette,
         }.items():

@@ -33,9 +33,7 @@ class DockWindow(Protocol):
     def actions_by_name(self) -> Mapping[str, QAction]:
         """The menu entries, by name."""
 
-    def add_pane(
-        self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
-    ) -> QDockWidget:
+    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
         """Add a pane before the window is shown."""
 
     def bring_to_front(self, name: str) -> None:
@@ -157,15 +155,13 @@ class LearningPanes(QObject):
 
     def _add_docks(self) -> None:
         add = self._add_dock
-        add("equations", self.tr("Equations"), self._explain, behind="decode")
-        add("compare", self.tr("Compare"), self._compare, behind="profile")
-        add("lessons", self.tr("Lessons"), self._learn, below="controls")
+        add("equations", self.tr("Equations"), self._explain)
+        add("compare", self.tr("Compare"), self._compare)
+        add("lessons", self.tr("Lessons"), self._learn)
 
-    def _add_dock(
-        self, name: str, title: str, make: Callable[[], PaneContent], **place: str
-    ) -> None:
+    def _add_dock(self, name: str, title: str, make: Callable[[], PaneContent]) -> None:
         pane = LazyPane(make)
-        dock = self._window.add_pane(name, title, pane, **place)
+        dock = self._window.add_pane(name, title, pane)
         dock.visibilityChanged.connect(pane.set_seen)
 
     def _explain(self) -> PaneContent:

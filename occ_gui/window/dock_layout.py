@@ -1,61 +1,51 @@
-"""Dock layout: stored for the next start, and reset on demand."""
-
-from binascii import crc32
-from collections.abc import Iterable
+"""Dock layout: size of the window, mode and places of the panes, stored for the next start."""
 
 from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QMainWindow
 
 from occ_gui.files.preferences import Preferences
+from occ_gui.window.modes.mode import MODES
+from occ_gui.window.modes.mode_switch import ModeSwitch
 
-_GEOMETRY, _STATE = "window/geometry", "window/layout"
+_GEOMETRY, _MODE, _STATE = "window/geometry", "window/mode", "window/layout"
 
 
 class DockLayout(QObject):
-    """Stores position and size of the window and the layout of its docks.
+    """Stores position and size of the window, its mode, and the layout of each mode.
 
     Parameters
     ----------
     window
         The window.
-    docks
-        Names of the docks; a stored layout of other docks is ignored.
+    modes
+        Its modes.
     preferences
         Where they are stored.
     """
 
-    def __init__(self, window: QMainWindow, docks: Iterable[str], preferences: Preferences) -> None:
+    def __init__(self, window: QMainWindow, modes: ModeSwitch, preferences: Preferences) -> None:
         super().__init__(window)
-        self._window = window
+        self._window, self._modes = window, modes
         self._preferences = preferences
-        self._version = crc32(",".join(docks).encode()) & 0x7FFF_FFFF
-        self._first = QByteArray()
-        self._wanted = QByteArray()
 
     def restore(self) -> None:
-        """Restore the window's position and size, and the docks as soon as it is shown."""
-        geometry, self._wanted = (
-            _bytes(self._preferences.recall(key)) for key in (_GEOMETRY, _STATE)
-        )
+        """Restore the window's position and size, its mode and the layouts, before it is shown."""
+        recall = self._preferences.recall
+        geometry = _bytes(recall(_GEOMETRY))
         if not geometry.isEmpty():
             self._window.restoreGeometry(geometry)
-
-    def note_first(self) -> None:
-        """Note the default layout when the window is first shown, and restore the stored one."""
-        self._first = self._window.saveState(self._version)
-        if not self._wanted.isEmpty():
-            self._window.restoreState(self._wanted, self._version)
-
-    def reset(self) -> None:
-        """Restore the default layout."""
-        self._window.restoreState(self._first, self._version)
+        layouts = {name: _bytes(recall(f"{_STATE}/{name}")) for name in MODES}
+        self._modes.layouts |= {name: kept for name, kept in layouts.items() if not kept.isEmpty()}
+        self._modes.switch(recall(_MODE))
 
     def keep(self) -> None:
-        """Store position, size and layout."""
-        if self._first.isEmpty():  # never shown
+        """Store position, size, mode and layouts."""
+        if not self._modes.is_shown:
             return
         self._preferences.keep(_GEOMETRY, _text(self._window.saveGeometry()))
-        self._preferences.keep(_STATE, _text(self._window.saveState(self._version)))
+        self._preferences.keep(_MODE, self._modes.mode)
+        for name, layout in self._modes.present_layouts().items():
+            self._preferences.keep(f"{_STATE}/{name}", _text(layout))
 
 
 def _text(content: QByteArray) -> str:

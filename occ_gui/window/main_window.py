@@ -3,8 +3,14 @@
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent, QUndoStack
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QWidget
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QShowEvent,
+    QUndoStack,
+)
+from PySide6.QtWidgets import QMainWindow, QWidget
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
@@ -15,12 +21,14 @@ from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.window.dock import Dock
 from occ_gui.window.menus import Menus
+from occ_gui.window.modes.mode import HOMES, PICTURE
+from occ_gui.window.modes.mode_switch import ModeSwitch
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.toolbar.toolbar import ToolBar
 
 _FIRST_SIZE = QSize(1280, 800)
-_HEIGHT_RATIO = 3
 _LEAST_DECODING = QSize(320, 300)
 
 
@@ -37,9 +45,6 @@ class MainWindow(QMainWindow):
 
     closing = Signal()
     """The window is about to close."""
-
-    arranged = Signal()
-    """The panes have been laid out for the first time."""
 
     dropped = Signal(list)
     """The paths of the files that were dropped on the window; empty if none is a file."""
@@ -66,14 +71,15 @@ class MainWindow(QMainWindow):
         self.docks["map"].visibilityChanged.connect(detection.set_seen)
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
-        self.toolbar = ToolBar(self.menus.actions, self.menus.drop_downs)
+        self.modes = ModeSwitch(self, self.docks, self._show_page)
+        self.menus.modes.triggered.connect(lambda action: self.modes.switch(action.data()))
+        self.modes.changed.connect(lambda mode: self.menus.show_choice(self.menus.modes, mode))
+        self.toolbar = ToolBar(self.menus.actions, self.menus.drop_downs, self.menus.modes)
         self.addToolBar(self.toolbar)
         self.setAcceptDrops(True)
         leave_drops_to_window(self)
+        self._story = story
         self._message_until = ""
-        self._is_arranged = False
-        self._behind = {"photo": "decode"}
-        self._above: dict[str, QDockWidget] = {}
         self._status_line = StatusLine()
         self.setStatusBar(self._status_line)
         self.reading, self.pointed = self._status_line.reading, self._status_line.pointed
@@ -89,41 +95,22 @@ class MainWindow(QMainWindow):
         profile: QWidget,
         accuracy: QWidget,
         detection: QWidget,
-    ) -> dict[str, QDockWidget]:
-        left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
-        bottom = Qt.DockWidgetArea.BottomDockWidgetArea
-        self.setCorner(Qt.Corner.BottomLeftCorner, left)
+    ) -> dict[str, Dock]:
+        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
         decoding = ScrollPane(decode, _LEAST_DECODING)
-        docks = {
-            "controls": self._dock("controls", self.tr("Scene"), controls, left),
-            "decode": self._dock("decode", self.tr("Decoding"), decoding, right),
-            "photo": self._dock("photo", self.tr("Photo"), photo, right),
-            "profile": self._dock("profile", self.tr("Column profile"), profile, bottom),
-            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy, bottom),
-            "map": self._dock("map", self.tr("Detection map"), detection, bottom),
+        return {
+            "controls": self._dock("controls", self.tr("Scene"), controls),
+            "decode": self._dock("decode", self.tr("Decoding"), decoding),
+            "photo": self._dock("photo", self.tr("Photo"), photo),
+            "profile": self._dock("profile", self.tr("Column profile"), profile),
+            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy),
+            "map": self._dock("map", self.tr("Detection map"), detection),
         }
-        self.tabifyDockWidget(docks["profile"], docks["accuracy"])
-        self.tabifyDockWidget(docks["accuracy"], docks["map"])
-        docks["profile"].raise_()
-        docks["photo"].hide()  # until it shares a place it would need space of its own
-        self.resizeDocks([docks["profile"]], [308], Qt.Orientation.Vertical)
-        self.resizeDocks(
-            [docks["controls"], docks["decode"]], [340, 360], Qt.Orientation.Horizontal
-        )
-        return docks
 
-    def _dock(
-        self, name: str, title: str, content: QWidget, area: Qt.DockWidgetArea
-    ) -> QDockWidget:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(name)
-        dock.setWidget(content)
-        self.addDockWidget(area, dock)
-        return dock
+    def _dock(self, name: str, title: str, content: QWidget) -> Dock:
+        return Dock(name, title, content, self)
 
-    def add_pane(
-        self, name: str, title: str, content: QWidget, *, behind: str = "", below: str = ""
-    ) -> QDockWidget:
+    def add_pane(self, name: str, title: str, content: QWidget) -> Dock:
         """Add a pane, and its entry in the view menu, before the window is shown.
 
         Parameters
@@ -132,40 +119,30 @@ class MainWindow(QMainWindow):
             Its name in the program and its title on the screen.
         content
             Its widget.
-        behind
-            The pane whose place it shares.
-        below
-            Alternatively the pane under which it appears on demand.
         """
-        place = self.docks[behind or below]
-        dock = self._dock(name, title, content, self.dockWidgetArea(place))
+        dock = self._dock(name, title, content)
         self.docks[name] = dock
-        dock.hide()  # until it shares a place it would need space of its own
-        if behind:
-            self._behind[name] = behind
-        else:
-            self.splitDockWidget(place, dock, Qt.Orientation.Vertical)
-            dock.toggleViewAction().triggered.connect(lambda: self._set_height_below(dock, place))
-            self._above[name] = place
         leave_drops_to_window(dock)
         self.menus.add_dock(dock)
         return dock
 
-    def _set_height_below(self, dock: QDockWidget, above: QDockWidget) -> None:
-        """Give a pane that appears under another one a third of the window's height."""
-        wanted = self.height() // _HEIGHT_RATIO
-        if dock.isVisible() and dock.height() < wanted:
-            remainder = above.height() + dock.height() - wanted
-            self.resizeDocks([above, dock], [remainder, wanted], Qt.Orientation.Vertical)
-
     def bring_to_front(self, name: str) -> None:
-        """Show a pane in front of those that share its place."""
+        """Show a pane in front of those that share its place, in the mode that is about it.
+
+        A pane that is open in the present mode stays there.
+        """
         dock = self.docks[name]
-        if dock.isHidden() and name in self._above:
-            QTimer.singleShot(0, dock, lambda: self._set_height_below(dock, self._above[name]))
+        if dock.isHidden() and name in HOMES:
+            self.modes.switch(HOMES[name])
         dock.show()
         # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, dock.raise_)
+
+    def _show_page(self, page: str) -> None:
+        """Show the story in the middle, the whole picture in its place, or neither."""
+        self._story.setVisible(bool(page))
+        if page and hasattr(self._story, "show_whole_picture"):
+            self._story.show_whole_picture(page == PICTURE)
 
     def show_photo_name(self, name: str | None) -> None:
         """Show in the menus whether a photo is open."""
@@ -190,17 +167,10 @@ class MainWindow(QMainWindow):
             self._status_line.clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Put panes behind those whose place they share, as soon as these have been arranged."""
+        """Lay out the panes as soon as the window has a size."""
         super().showEvent(event)
-        # Done earlier, beside the other group, Qt would leave an unused tab bar behind.
-        if not self._is_arranged:
-            self._is_arranged = True
-            for name, front in self._behind.items():
-                self.tabifyDockWidget(self.docks[front], self.docks[name])
-                self.docks[name].show()
-            for front in set(self._behind.values()):
-                self.docks[front].raise_()
-            self.arranged.emit()
+        if not self.modes.is_shown:
+            self.modes.begin()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         """Accept what may be files."""

@@ -8,8 +8,9 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
-from occ_gui.picture.photo_overlay import MODES
+from occ_gui.picture.photo_overlay import MODES as OVERLAYS
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
+from occ_gui.window.modes.mode import MODES
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.scan_axis import SCAN_AXES
@@ -150,10 +151,10 @@ class Menus(QObject):
             "split": self.tr("Sp&lit along a line"),
             "difference": self.tr("&Difference"),
         }
-        self.modes = QActionGroup(self)
-        for place, mode in enumerate(MODES, 1):
-            action = self._add_choice(menu, self.modes, f"show_{mode}", words[mode], mode)
-            action.setShortcut(QKeySequence(f"Ctrl+{place}"))
+        self.overlays = QActionGroup(self)
+        for place, mode in enumerate(OVERLAYS, 1):
+            action = self._add_choice(menu, self.overlays, f"show_{mode}", words[mode], mode)
+            action.setShortcut(QKeySequence(f"Ctrl+Alt+{place}"))
         menu.addSeparator()
         axes = menu.addMenu(self.tr("Photo was s&canned"))
         words = {
@@ -165,8 +166,26 @@ class Menus(QObject):
         for axis in SCAN_AXES:
             self._add_choice(axes, self.scan_axes, f"scan_{axis}", words[axis], axis)
 
+    def _make_mode_menu(self, view: QMenu) -> None:
+        menu = view.addMenu(self.tr("&Mode"))
+        menu.setToolTipsVisible(True)
+        texts = {
+            "explore": (self.tr("&Explore"), self.tr("From the LED's light to the bits.")),
+            "photo": (self.tr("&Photo"), self.tr("Explain a photo of your own.")),
+            "limits": (self.tr("&Limits"), self.tr("How fast the code can be, and still be read.")),
+            "effects": (self.tr("E&ffects"), self.tr("What accuracy costs in time.")),
+            "lessons": (self.tr("Le&ssons"), self.tr("Learn step by step.")),
+        }
+        self.modes = QActionGroup(self)
+        for place, name in enumerate(MODES, 1):
+            text, meaning = texts[name]
+            action = self._add_choice(menu, self.modes, f"mode_{name}", text, name)
+            action.setShortcut(QKeySequence(f"Ctrl+{place}"))
+            action.setToolTip(meaning)
+
     def _make_view_menu(self, docks: Iterable[QDockWidget]) -> None:
         menu = self._view = self._top("view", self.tr("&View"))
+        self._make_mode_menu(menu)
         self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
         before = self._add(menu, "before", self.tr("&Before the change"), self.tr("Ctrl+Alt+Z"))
         before.setCheckable(True)

@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import QEvent, QSize, QTimer
-from PySide6.QtGui import QAction, QShowEvent
-from PySide6.QtWidgets import QMenu, QToolBar, QWidget
+from PySide6.QtGui import QAction, QActionGroup, QShowEvent
+from PySide6.QtWidgets import QMenu, QSizePolicy, QToolBar, QWidget
 
+from occ_gui.window.modes.mode_bar import ModeBar
 from occ_gui.window.toolbar.tool_button import ICON_SIZE, ToolButton
 
 TOOLS = (
@@ -20,7 +21,7 @@ One that the menus do not have is left out: a button that does nothing helps nob
 
 
 class ToolBar(QToolBar):
-    """Icons of entries and menus that are in the menu bar, too.
+    """The modes, and icons of entries and menus that are in the menu bar, too.
 
     The icons are drawn after the toolbar is first shown, so that the window opens no later.
 
@@ -30,6 +31,8 @@ class ToolBar(QToolBar):
         The menu entries, by name.
     menus
         The menus that a button opens, by name.
+    modes
+        The menu entries of the modes.
     parent
         The window.
     """
@@ -38,6 +41,7 @@ class ToolBar(QToolBar):
         self,
         actions: Mapping[str, QAction],
         menus: Mapping[str, QMenu],
+        modes: QActionGroup,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -52,6 +56,14 @@ class ToolBar(QToolBar):
         self.buttons: dict[str, ToolButton] = {}
         """The buttons, by the names of their entries."""
         self._is_drawn = False
+        self.modes = ModeBar(modes)
+        self.addWidget(self.modes)
+        space = QWidget()
+        space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.addWidget(space)
+        self._add_tools(known)
+
+    def _add_tools(self, known: Mapping[str, QAction]) -> None:
         for group in TOOLS:
             if self.buttons:
                 self.addSeparator()
@@ -83,5 +95,6 @@ class ToolBar(QToolBar):
 
     def _redraw(self) -> None:
         self._is_drawn = True
+        self.modes.draw()
         for button in self.buttons.values():
             button.draw()

@@ -112,7 +112,7 @@ def test_the_layout_is_there_again_and_can_be_reset(start: Start, qtbot: QtBot) 
 def test_a_layout_of_other_panes_is_left_alone(start: Start, kept: QSettings) -> None:
     with start() as application:
         application.window.docks["controls"].hide()
-        application.desktop.layout._version += 1
+        application.window.modes.version += 1
     with start() as application:
         assert not application.window.docks["controls"].isHidden()
 

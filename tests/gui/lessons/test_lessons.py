@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 from gui.user import User
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -195,19 +194,15 @@ def test_a_missing_photo_is_reported(
     user.wait_until_idle()
 
 
-def test_the_lessons_pane_opens_readable_and_keeps_its_size(
+def test_the_lessons_stand_at_the_right_of_what_they_explain(
     application: Application, guide: LessonView, qtbot: QtBot
 ) -> None:
     window = application.window
-    dock, above = window.docks["lessons"], window.docks["controls"]
-    third = window.height() // 3
-    qtbot.waitUntil(lambda: dock.height() == third)
-    both = above.height() + dock.height()
-    window.resizeDocks([above, dock], [both - third - 60, third + 60], Qt.Orientation.Vertical)
-    qtbot.waitUntil(lambda: dock.height() == third + 60)
-    window.bring_to_front("lessons")
-    qtbot.wait(20)
-    assert dock.height() == third + 60
+    dock, picture = window.docks["lessons"], application.image
+    assert window.modes.mode == "lessons"
+    qtbot.waitUntil(lambda: not dock.visibleRegion().isEmpty())
+    assert dock.height() > window.height() // 2
+    assert dock.geometry().left() > picture.mapTo(window, picture.rect().center()).x()
 
 
 def test_the_list_follows_the_theme(application: Application, guide: LessonView) -> None:

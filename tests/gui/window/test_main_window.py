@@ -179,7 +179,7 @@ def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(application: Applicat
 
 
 def test_one_way_of_showing_the_photo_is_chosen_at_a_time(application: Application) -> None:
-    modes = application.window.menus.modes.actions()
+    modes = application.window.menus.overlays.actions()
     assert [mode.data() for mode in modes] == list(MODES)
     for action in (*modes, modes[0]):
         action.trigger()

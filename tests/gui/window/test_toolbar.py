@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtGui import QAction, QColor, QIcon, QImage, QPalette
-from PySide6.QtWidgets import QMenu
+from PySide6.QtGui import QAction, QActionGroup, QColor, QIcon, QImage, QPalette
+from PySide6.QtWidgets import QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -58,8 +58,9 @@ def test_tooltips_name_the_keys_of_the_entry(application: Application) -> None:
 
 
 def test_an_entry_that_is_not_there_has_no_button(qtbot: QtBot) -> None:
-    bar = ToolBar({"undo": QAction("&Undo")}, {})
-    qtbot.addWidget(bar)
+    owner = QWidget()
+    qtbot.addWidget(owner)
+    bar = ToolBar({"undo": QAction("&Undo")}, {}, QActionGroup(owner), owner)
     assert list(bar.buttons) == ["undo"]
 
 

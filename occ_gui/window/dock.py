@@ -1,0 +1,65 @@
+"""Dock of a pane: when it is floated, it lands beside its place."""
+
+from PySide6.QtCore import QPoint, QRect, QSize
+from PySide6.QtGui import QMoveEvent, QResizeEvent
+from PySide6.QtWidgets import QDockWidget, QWidget
+
+_STEP = 24
+"""Pixels by which a floated pane is moved from its place, so that it is seen to float."""
+
+
+def beside(place: QRect, screen: QRect) -> QRect:
+    """Return where a pane floats that stood at a place: near it, and whole on the screen."""
+    size = QSize(min(place.width(), screen.width()), min(place.height(), screen.height()))
+    corner = place.topLeft() + QPoint(_STEP, _STEP)
+    return QRect(
+        QPoint(
+            max(screen.left(), min(corner.x(), screen.right() + 1 - size.width())),
+            max(screen.top(), min(corner.y(), screen.bottom() + 1 - size.height())),
+        ),
+        size,
+    )
+
+
+class Dock(QDockWidget):
+    """A pane that can be moved, hidden and floated.
+
+    Parameters
+    ----------
+    name, title
+        Its name in the program and its title on the screen.
+    content
+        Its widget.
+    parent
+        The window.
+    """
+
+    def __init__(self, name: str, title: str, content: QWidget, parent: QWidget) -> None:
+        super().__init__(title, parent)
+        self.setObjectName(name)
+        self.setWidget(content)
+        self._place = QRect()
+        self.topLevelChanged.connect(self._on_floated)
+        self.hide()  # until a mode lays it out
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Note its place."""
+        super().resizeEvent(event)
+        self._note_place()
+
+    def moveEvent(self, event: QMoveEvent) -> None:  # noqa: N802 - Qt's name
+        """Note its place."""
+        super().moveEvent(event)
+        self._note_place()
+
+    def _note_place(self) -> None:
+        if not self.isFloating() and self.isVisible():
+            self._place = QRect(self.mapToGlobal(QPoint()), self.size())
+
+    def _on_floated(self, floats: bool) -> None:
+        # Not while the mouse holds it.
+        if floats and self._place.isValid() and not self._is_dragged():
+            self.setGeometry(beside(self._place, self.screen().availableGeometry()))
+
+    def _is_dragged(self) -> bool:
+        return QWidget.mouseGrabber() is self

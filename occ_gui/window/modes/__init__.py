@@ -1,0 +1,1 @@
+"""Modes of the window: one for each task, with panes laid out for it."""

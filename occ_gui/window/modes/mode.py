@@ -1,0 +1,94 @@
+"""Modes: which panes a task needs, and where they stand until the user moves them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+STORY, PICTURE = "story", "picture"
+"""The pages in the middle: the way from light to bits, and the picture with the photo."""
+
+Groups = tuple[tuple[str, ...], ...]
+"""Panes from top to bottom; those of a group share a place, the first in front."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """A layout of the window for one task.
+
+    Parameters
+    ----------
+    centre
+        The page in the middle; empty where the panes around it fill the window.
+    left, right, bottom
+        The panes of the three areas.
+    main
+        The pane that the mode is about: other panes open behind it.
+    widths, heights
+        First sizes in pixels by pane, of those whose size matters.
+    """
+
+    centre: str
+    main: str
+    left: Groups = ()
+    right: Groups = ()
+    bottom: Groups = ()
+    widths: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+    heights: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def panes(self) -> tuple[str, ...]:
+        """Names of the panes that it shows at first."""
+        groups = (*self.left, *self.right, *self.bottom)
+        return tuple(name for group in groups for name in group)
+
+
+MODES: Mapping[str, Mode] = MappingProxyType(
+    {
+        "explore": Mode(
+            centre=STORY,
+            main=PICTURE,
+            left=(("controls",),),
+            right=(("decode", "photo", "equations"),),
+            bottom=(("profile", "accuracy", "map", "compare"),),
+            widths={"controls": 340, "decode": 360},
+            heights={"profile": 308},
+        ),
+        "photo": Mode(
+            centre=PICTURE,
+            main="photo",
+            left=(("photo", "controls"),),
+            bottom=(("profile",),),
+            widths={"photo": 360},
+            heights={"profile": 210},
+        ),
+        "limits": Mode(
+            centre="",
+            main="map",
+            left=(("controls",),),
+            right=(("map",),),
+            widths={"controls": 340, "map": 940},
+        ),
+        "effects": Mode(
+            centre="",
+            main="accuracy",
+            left=(("controls",),),
+            right=(("accuracy",),),
+            widths={"controls": 340, "accuracy": 940},
+        ),
+        "lessons": Mode(
+            centre=STORY,
+            main="lessons",
+            left=(("controls",),),
+            right=(("lessons",),),
+            bottom=(("profile",),),
+            widths={"controls": 340, "lessons": 340},
+            heights={"profile": 240},
+        ),
+    }
+)
+"""The modes, in the order shown."""
+
+HOMES: Mapping[str, str] = MappingProxyType(
+    {mode.main: name for name, mode in MODES.items() if mode.main != PICTURE}
+)
+"""The mode that is about a pane, by the pane's name."""

@@ -6,6 +6,7 @@ reflections. Light is scattered in the lens before the shutter samples it, and t
 tone curve that nobody knows, noise, white that is clipped, and JPEG.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -81,7 +82,7 @@ def lamp_scene(seed: int) -> LampScene:
     exposure = min(float(np.exp(random.uniform(np.log(0.5), np.log(1.5 * shortest_chip)))), longest)
     light = _background(random, rows, columns)
     for thing in (*lamps, *constant, *panes, *reflections):
-        light += _light_of(random, thing, rows, columns, exposure)
+        _add_light(light, random, thing, exposure)
     return LampScene(_photographed(random, light), lamps, constant, panes, reflections)
 
 
@@ -249,26 +250,40 @@ def _background(random: np.random.Generator, rows: int, columns: int) -> Floats:
     return np.asarray(np.maximum(wall * (1.0 + 1.5 * rough), 0.0), dtype=np.float64)
 
 
-def _light_of(
-    random: np.random.Generator, thing: Thing, rows: int, columns: int, exposure: float
-) -> Floats:
-    """Give the light of a thing, scattered in the lens, as the shutter's columns sample it."""
+def _add_light(light: Floats, random: np.random.Generator, thing: Thing, exposure: float) -> None:
+    """Add the light of a thing, scattered in the lens, as the shutter's columns sample it."""
+    darker = float(random.uniform(0.0, 0.5))
+    halo, wide = float(random.uniform(0.002, 0.02)), float(random.uniform(12.0, 40.0))
+    blur = float(random.uniform(0.5, 1.6))
+    rows, columns = light.shape
+    # OpenCV's blur reaches four standard deviations: beyond, nothing is added.
+    reach = math.ceil(4.0 * wide) + 4
+    top, bottom, left, right = (round(side) for side in thing.box)
+    here = (
+        slice(max(top - reach, 0), min(bottom + reach, rows)),
+        slice(max(left - reach, 0), min(right + reach, columns)),
+    )
+    surface = _surface(thing, rows, columns)[here]
+    # A lamp's disc is darker towards its rim.
+    down, across = np.mgrid[here].astype(np.float32)
+    far = ((down - thing.row) / thing.height) ** 2 + ((across - thing.column) / thing.width) ** 2
+    surface = surface * (1.0 - darker * np.minimum(4.0 * far, 1.0))
+    seen = (1.0 - halo) * cv2.GaussianBlur(surface, (0, 0), blur)
+    seen += halo * cv2.GaussianBlur(surface, (0, 0), wide)
+    light[here] += thing.radiance * seen * _shutter(thing, columns, exposure)[here[1]]
+
+
+def _surface(thing: Thing, rows: int, columns: int) -> NDArray[np.float32]:
+    """Draw a thing's outline, filled."""
     surface = np.zeros((rows, columns), dtype=np.float32)
-    centre = (round(thing.column * 16), round(thing.row * 16))
     if thing.shape == "round":
+        centre = (round(thing.column * 16), round(thing.row * 16))
         axes = (round(thing.width * 8), round(thing.height * 8))
         cv2.ellipse(surface, centre, axes, 0, 0, 360, 1.0, -1, cv2.LINE_8, 4)
     else:
         top, bottom, left, right = (round(side) for side in thing.box)
         surface[top:bottom, left:right] = 1.0
-    # A lamp's disc is darker towards its rim.
-    down, across = np.mgrid[0:rows, 0:columns].astype(np.float32)
-    far = ((down - thing.row) / thing.height) ** 2 + ((across - thing.column) / thing.width) ** 2
-    surface *= 1.0 - float(random.uniform(0.0, 0.5)) * np.minimum(4.0 * far, 1.0)
-    halo, wide = float(random.uniform(0.002, 0.02)), float(random.uniform(12.0, 40.0))
-    seen = (1.0 - halo) * cv2.GaussianBlur(surface, (0, 0), float(random.uniform(0.5, 1.6)))
-    seen += halo * cv2.GaussianBlur(surface, (0, 0), wide)
-    return np.asarray(thing.radiance * seen * _shutter(thing, columns, exposure), np.float64)
+    return surface
 
 
 def _shutter(thing: Thing, columns: int, exposure: float) -> Floats:

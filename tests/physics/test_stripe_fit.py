@@ -1,6 +1,7 @@
 """The fit inverts the exact exposure integral."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,7 +30,15 @@ def spread(index: int, low: float, high: float) -> float:
     return low + (high - low) * (index * (math.sqrt(5.0) - 1.0) / 2.0 % 1.0)
 
 
-@pytest.mark.parametrize("index", range(1, 25))
+def sample_of(count: int, everyday: int) -> list[Any]:
+    """Give numbers from 1, of which the first few are tried every day."""
+    return [
+        pytest.param(index, marks=pytest.mark.whole if index > everyday else ())
+        for index in range(1, count + 1)
+    ]
+
+
+@pytest.mark.parametrize("index", sample_of(24, 10))
 def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     step, exposure = spread(index, 0.03, 0.4), spread(7 * index, 0.2, 4.0)
     middle = spread(31 * index, 0.0, 24.0)
@@ -108,7 +117,7 @@ def test_an_exposure_that_would_need_darker_than_black_is_none() -> None:
     assert match.other_exposures == ()
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", sample_of(10, 5))
 def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> None:
     scene = random_scene(seed).replace(pattern="10", vignetting_exponent=4.0)
     frequency = 1.0 / (spread(seed + 1, 8.0, 30.0) * scene.camera.readout_time)

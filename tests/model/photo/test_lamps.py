@@ -33,8 +33,11 @@ def products(image: ByteArray) -> list[float]:
     return [product for product in found if product is not None]
 
 
-def test_nearly_all_lamps_of_simulated_scenes_are_found() -> None:
-    score = score_of(range(2000, 2006))
+@pytest.mark.parametrize(
+    "count", [4, pytest.param(40, marks=pytest.mark.whole)], ids=["sample", "whole"]
+)
+def test_nearly_all_lamps_of_simulated_scenes_are_found(count: int) -> None:
+    score = score_of(range(2000, 2000 + count))
     assert score.found >= 0.9 * score.there
     assert score.right >= 0.9 * score.there
     assert score.invented <= 0.05 * score.reported + 1

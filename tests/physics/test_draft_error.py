@@ -41,7 +41,7 @@ def random_scene(random: np.random.Generator) -> Scene:
         "luminance": float(10 ** random.uniform(2.5, 5.0)),
         "illuminance": float(10 ** random.uniform(1.0, 4.0)),
         "pixel_pitch": float(10 ** random.uniform(-6.0, -5.0)),
-    }  # fmt: skip
+    }
     if random.random() < 0.5:
         changes |= {"yaw": 0.0, "pitch": 0.0, "roll": 0.0}
     return Scene().replace(**changes)

@@ -19,9 +19,8 @@ from occ_model.results import Match, Region, Stripes
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Lens, Scene
-from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.line_codes import differential_manchester
-from occ_model.transmitter.packet import code_of, packet_length, sent_chips
+from occ_model.transmitter.packet import code_of, sent_chips
+from occ_model.transmitter.scheme import scheme_of
 
 ESTIMATES = ("readout_time", "switching_frequency")
 """The parameters of which one is estimated and the other one is known."""
@@ -177,7 +176,7 @@ def _uncertainties(
 
 
 def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
-    """Set a scene's chips: as the code whose packet they are, else as a raw pattern.
+    """Set a scene's chips: as the code or payload that they are, else as a raw pattern.
 
     Returns
     -------
@@ -186,19 +185,31 @@ def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
     turned
         Number of chips by which its period starts later than the given chips.
     """
-    bits = scene.transmitter.bits
-    if len(chips) == packet_length(bits):
+    sent = _sending(scene, chips)
+    if sent is not None:
+        packet = sent_chips(sent.transmitter)
         for turned in range(len(chips)):
-            packet = np.roll(chips, -turned)
-            if tuple(packet[: len(HEADER)]) != HEADER:
-                continue
-            read, violations = differential_manchester.decode(
-                packet[len(HEADER) :], level=HEADER[-1]
-            )
-            sent = scene.replace(pattern="", code=code_of(read.tolist()))
-            if not violations and np.array_equal(sent_chips(sent.transmitter), packet):
+            if np.array_equal(np.roll(chips, -turned), packet):
                 return sent, turned
     return scene.replace(pattern="".join(map(str, chips.tolist()))), 0
+
+
+def _sending(scene: Scene, chips: ByteArray) -> Scene | None:
+    """Return the scene with the payload that its scheme reads from a period of chips, if any."""
+    scene = scene.replace(pattern="")
+    scheme = scheme_of(scene.transmitter)
+    if len(chips) != scheme.length:
+        return None
+    # A frame starts anywhere in the first period, and the next header follows it.
+    read = scheme.decode(np.tile(chips, 3))
+    bits = read.bits.tolist()
+    if read.failure is not None:
+        return None
+    if not scene.transmitter.payload:
+        return scene.replace(code=code_of(bits))
+    if bits == list(scene.transmitter.payload_bits):
+        return scene
+    return scene.replace(payload="bits:" + "".join(map(str, bits)))
 
 
 def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:

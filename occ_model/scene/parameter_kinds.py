@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import shown
 from occ_model.plugins import plugin_names
+from occ_model.scene.declaration import Declaration
 from occ_model.scene.payload import PAYLOADS, canonical
-from occ_model.scene.units import LONGEST_TEXT, Unit
+from occ_model.scene.units import Unit
 
 ParameterValue: TypeAlias = float | int | str
 
@@ -37,41 +38,6 @@ def _read_whole(text: str) -> int:
         return int(text, 0)
     except ValueError:
         return int(text, 10)
-
-
-@dataclass(frozen=True, slots=True)
-class Declaration:
-    """The declaration of a parameter, of whatever kind.
-
-    Parameters
-    ----------
-    name
-        The identifier, as in a scene file.
-    label
-        The field's term for it, as on screen.
-    symbol
-        The symbol in the paper's equations, empty where it has none.
-    meaning
-        One line that says what it is.
-    """
-
-    name: str
-    label: str
-    symbol: str
-    meaning: str
-
-    def refuse(self, problem: str, allowed: str) -> ParameterError:
-        """Make the error that names the parameter, the problem and what is allowed."""
-        sentence = f"{self.name} {problem}; allowed: {allowed}."
-        return ParameterError(sentence, parameters=(self.name,))
-
-    def _check_length(self, text: str, allowed: str) -> None:
-        """Refuse a text that is too long to be a number."""
-        if len(text) > LONGEST_TEXT:
-            raise self.refuse(
-                f"is a text of {len(text):,} characters",
-                f"{allowed}, written in up to {LONGEST_TEXT} characters",
-            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +83,7 @@ class Quantity(Declaration):
 
     def parse(self, text: str, plain: float = 1.0) -> float:
         """Read a value as people write it; ``plain`` is the SI value of 1 without a unit."""
-        self._check_length(text, self.allowed)
+        self.check_length(text, self.allowed)
         readings = self.unit.readings(text, plain)
         if len(readings) > 1:
             comma, thousands = (self.unit.format(value) for value in readings)
@@ -179,7 +145,7 @@ class Count(Declaration):
 
     def parse(self, text: str) -> int:
         """Read a whole number, also as ``0b...``, ``0x...`` or ``007``."""
-        self._check_length(text, self.allowed)
+        self.check_length(text, self.allowed)
         try:
             number = _read_whole(text)
         except ValueError:

@@ -67,6 +67,11 @@ class Transmitter(_Checked):
         return tuple(self.code >> place & 1 for place in reversed(range(self.bits)))
 
     @property
+    def payload_length(self) -> int:
+        """How many bits are sent."""
+        return len(self.payload_bits) if self.payload else self.bits
+
+    @property
     def switching_period(self) -> float:
         """Length of one chip, t_LED = 1/f, in seconds."""
         return 1.0 / self.switching_frequency

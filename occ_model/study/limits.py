@@ -258,7 +258,7 @@ class _Search:
         """Count right bits in some images, all if not said, as long as a share can be reached."""
         images = images or self._settings.images
         scene = self._scene.replace(**{self._name: value})
-        bits = scene.transmitter.bits
+        bits = scene.transmitter.payload_length
         least = least_share * images * bits
         right = read = 0
         settings = replace(self._settings, images=images)

@@ -26,7 +26,7 @@ from occ_model.study.observation import (
     observe_sample,
     panel_span,
 )
-from occ_model.transmitter.packet import bits_of, packet_length
+from occ_model.transmitter.packet import sent_chips
 
 _SEEDS = 2**32
 
@@ -83,7 +83,7 @@ def success_rate(
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     (correct,) = right_bits(scene, settings)
-    return 100.0 * correct / (images * scene.transmitter.bits)
+    return 100.0 * correct / (images * scene.transmitter.payload_length)
 
 
 def right_bits(
@@ -127,8 +127,8 @@ def right_bits_of_images(
     follow it.
     """
     transmitter = scene.transmitter
-    sent = np.array(bits_of(transmitter.code, transmitter.bits))
-    duration = packet_length(transmitter.bits) * transmitter.switching_period
+    sent = np.array(transmitter.payload_bits)
+    duration = len(sent_chips(transmitter)) * transmitter.switching_period
     root = np.random.default_rng(settings.seed)
     span = panel_span(scene) if settings.path in ("auto", "profile") else None
     for _ in range(settings.images):

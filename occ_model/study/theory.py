@@ -12,7 +12,7 @@ from occ_model.camera.photometry import WHITE, luminance_levels, luminance_of
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import packet_length
+from occ_model.transmitter.packet import sent_chips
 
 
 def band_model_frequency(scene: Scene) -> float:
@@ -65,7 +65,7 @@ def two_packets_frequency(scene: Scene) -> float | None:
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
     if region is None:
         return None
-    return 2.0 * packet_length(scene.transmitter.bits) / (camera.readout_time * region.columns)
+    return 2.0 * len(sent_chips(scene.transmitter)) / (camera.readout_time * region.columns)
 
 
 def saturation_exposure(scene: Scene) -> float:

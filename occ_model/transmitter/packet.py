@@ -9,7 +9,7 @@ from occ_model.arrays import ByteArray, IndexArray
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.line_codes import differential_manchester
-from occ_model.transmitter.scheme import scheme_named
+from occ_model.transmitter.scheme import scheme_named, scheme_of
 
 
 def bits_of(code: int, bits: int) -> tuple[int, ...]:
@@ -69,6 +69,11 @@ def _payload_chips(
     chips = scheme_named(line_code, framing, preamble, correction, len(bits)).encode(bits)
     chips.flags.writeable = False
     return chips
+
+
+def sends_paper_code(transmitter: Transmitter) -> bool:
+    """Whether a code is sent by the paper's scheme: no pattern, no payload."""
+    return not (transmitter.pattern or transmitter.payload) and scheme_of(transmitter).is_papers
 
 
 def packets(codes: IndexArray, bits: int) -> ByteArray:

@@ -44,6 +44,11 @@ class Scheme:
         """Whether it is the paper's: differential Manchester after the header 1 1 1 0."""
         return (self.line_code.name, self.framing.name, self.correction) == _PAPERS
 
+    @property
+    def finds_wrong_chip(self) -> bool:
+        """Whether any single wrong chip of a payload is found or harmless."""
+        return self.framing.checks or self.line_code.finds_wrong_chip
+
     @cached_property
     def length(self) -> int:
         """Chips of one period, which are the same for all payloads."""
@@ -127,7 +132,7 @@ def scheme_of(transmitter: Transmitter) -> Scheme:
         transmitter.framing,
         transmitter.preamble,
         transmitter.error_correction,
-        len(transmitter.payload_bits),
+        transmitter.payload_length,
     )
 
 

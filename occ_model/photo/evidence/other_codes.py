@@ -8,7 +8,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Transmitter
-from occ_model.transmitter.packet import packet_length, packets
+from occ_model.transmitter.packet import packet_length, packets, sends_paper_code
 from occ_model.transmitter.waveform import Waveform
 
 _MOST_BITS = 12
@@ -66,7 +66,7 @@ def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
     """Give the sequences to compare, shape (sequences, chips), without the turned given one."""
     count = len(chips)
     turn = (np.arange(count)[:, None] + np.arange(count)) % count
-    is_packet = not transmitter.pattern and count == packet_length(transmitter.bits)
+    is_packet = sends_paper_code(transmitter) and count == packet_length(transmitter.bits)
     if is_packet and transmitter.bits <= _MOST_BITS:
         all_codes = packets(np.arange(2**transmitter.bits), transmitter.bits)
         others = all_codes[:, turn].reshape(-1, count)

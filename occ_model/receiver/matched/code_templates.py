@@ -63,14 +63,8 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     exposure
         The exposure time in chips, exactly.
     """
-    period = packet_length(bits)
-    first_chip = np.zeros(period, dtype=np.uint8)
-    first_chip[0] = 1
-    bins = np.arange(period * BINS_PER_CHIP)
-    starts = Phases(bins // BINS_PER_CHIP, (bins % BINS_PER_CHIP) / BINS_PER_CHIP)
-    duration = Duration.of(exposure, period)
-    lit = Waveform(first_chip).lit_chips(starts, duration)
-    response = lit / duration.in_chips(period)
+    response = chip_response(packet_length(bits), exposure)
+    bins = np.arange(len(response))
     some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
     shares = (bins + 0.5) / len(bins)
     levels = np.quantile(_profiles(some, bits, response), shares)
@@ -78,6 +72,28 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     for array in (templates.response, templates.energy, templates.levels):
         array.flags.writeable = False  # it is cached and shared
     return templates
+
+
+def chip_response(period: int, exposure: Fraction) -> FloatArray:
+    """Return the lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
+
+    Parameters
+    ----------
+    period
+        Chips of a period.
+    exposure
+        The exposure time in chips, exactly.
+
+    Returns
+    -------
+    ndarray of float64, shape (period * BINS_PER_CHIP,)
+    """
+    first_chip = np.zeros(period, dtype=np.uint8)
+    first_chip[0] = 1
+    bins = np.arange(period * BINS_PER_CHIP)
+    starts = Phases(bins // BINS_PER_CHIP, (bins % BINS_PER_CHIP) / BINS_PER_CHIP)
+    duration = Duration.of(exposure, period)
+    return Waveform(first_chip).lit_chips(starts, duration) / duration.in_chips(period)
 
 
 def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:

@@ -20,10 +20,20 @@ from occ_model.receiver.matched.code_templates import (
     codes_by_levels,
     sums_of_halves,
 )
+from occ_model.receiver.matched.payload_templates import (
+    MOST_BITS,
+    PayloadTemplates,
+    payload_templates,
+    same_chips,
+)
+from occ_model.receiver.read_payload import with_bits
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
+from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.packet import bits_of, packet_length
+from occ_model.transmitter.scheme import scheme_of
 
 _LEAST_CORRELATION = 0.7
 """Least correlation of a code that is read: half of the signal's variance is explained."""
@@ -50,7 +60,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     signal : ndarray of float64, shape (columns,)
         Mean grey level of each column.
     scene
-        Its number of bits, switching frequency, exposure time and readout time are used.
+        Its scheme, number of bits, switching frequency, exposure time and readout time are used.
 
     Returns
     -------
@@ -62,23 +72,35 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
         return result
     if scene.transmitter.pattern:
         return replace(result, failure="A raw chip pattern is sent, which holds no packets.")
-    bits = scene.transmitter.bits
-    frequency = scene.transmitter.switching_frequency
-    chips_seen = len(signal) * scene.camera.readout_time * frequency
-    if chips_seen < packet_length(bits):
+    scheme = scheme_of(scene.transmitter)
+    most = MAX_BITS if scheme.is_papers else MOST_BITS
+    if scheme.bits > most:
         return replace(
             result,
-            failure=f"Less than one packet: {int(chips_seen)} of {packet_length(bits)} chips fit "
+            failure=f"The payload has {scheme.bits} bits; the matched decoder compares all "
+            f"payloads, by this scheme of up to {most} bits: use the sequence detector.",
+        )
+    frequency = scene.transmitter.switching_frequency
+    chips_seen = len(signal) * scene.camera.readout_time * frequency
+    if chips_seen < scheme.length:
+        return replace(
+            result,
+            failure=f"Less than one packet: {int(chips_seen)} of {scheme.length} chips fit "
             "the panel's image; come closer or raise the frequency.",
         )
-    templates = code_templates(bits, Fraction(scene.camera.exposure_time) * Fraction(frequency))
+    exposure = Fraction(scene.camera.exposure_time) * Fraction(frequency)
+    templates: CodeTemplates | PayloadTemplates
+    if scheme.is_papers:
+        templates = code_templates(scheme.bits, exposure)
+    else:
+        templates = payload_templates(scheme, exposure)
     if not np.isfinite(templates.energy).any():
         return replace(
             result,
             failure="All codes look alike: the exposure time is a whole number of packets, or so "
             "many that their mean is all it leaves.",
         )
-    return _best_code(result, _fold(signal, scene, packet_length(bits)), templates, bits)
+    return _best_code(result, _fold(signal, scene, scheme.length), templates, scene)
 
 
 def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
@@ -95,13 +117,19 @@ def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
 
 
 def _best_code(
-    result: DecodeResult, folded: FloatArray, templates: CodeTemplates, bits: int
+    result: DecodeResult,
+    folded: FloatArray,
+    templates: CodeTemplates | PayloadTemplates,
+    scene: Scene,
 ) -> DecodeResult:
     """Compare the folded signal with every code, then with the most likely ones more exactly."""
     # The camera keeps the order of grey levels. So a bin's rank gives its lit fraction, and neither
     # gamma nor enhancement needs to be known.
     rank = folded.argsort(kind="stable").argsort()
-    likely, shifts = most_likely(templates.levels[rank], templates)
+    if isinstance(templates, CodeTemplates):
+        likely, shifts = most_likely(templates.levels[rank], templates)
+    else:
+        likely, shifts = templates.most_likely(templates.levels[rank], _LIKELY)
     models = templates.profiles(likely)
     # The levels of each code itself are more exact than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
@@ -121,7 +149,16 @@ def _best_code(
             failure=f"No code stands out: the best, {code}, correlates by {r1:.3f} with the "
             f"signal, the second best, {likely[second]}, by {r2:.3f}.",
         )
-    return replace(result, code=code, bits=np.array(bits_of(code, bits), dtype=np.uint8))
+    if isinstance(templates, PayloadTemplates):
+        other = same_chips(code, likely, scheme_of(scene.transmitter))
+        if other is not None:
+            return replace(
+                result,
+                failure=f"The codes {code} and {other} send the same endless chips: the framing "
+                "does not tell them apart.",
+            )
+    bits = np.array(bits_of(code, scene.transmitter.payload_length), dtype=np.uint8)
+    return with_bits(result, Framed((), bits), scene)
 
 
 def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:

@@ -50,7 +50,7 @@ def measure_point(
         right = right_bits(at, settings, heartbeat)
     except OccError as refusal:
         return SweepPoint(index, 0, (0,) * len(settings.decoders), one_line(str(refusal)))
-    return SweepPoint(index, settings.images * at.transmitter.bits, right)
+    return SweepPoint(index, settings.images * at.transmitter.payload_length, right)
 
 
 def measure_points(

@@ -44,8 +44,8 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
             chips,
             header,
             length,
-            unique=False,
-            read=lambda data: read_after(data, HEADER[-1], form),
+            form,
+            lambda data: read_after(data, HEADER[-1], form),
         )
     headers = find_headers(chips)
     if len(headers) < 2:

@@ -7,7 +7,6 @@ from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
     Framing,
-    is_unique,
     preamble_of,
 )
 from occ_model.transmitter.framings.repeated_frame import read_repeated
@@ -24,8 +23,8 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
         chips,
         preamble,
         len(preamble) + form.line_code.chips_for(form.bits),
-        unique=is_unique(preamble, form.line_code),
-        read=lambda data: read_after(data, int(preamble[-1]), form),
+        form,
+        lambda data: read_after(data, int(preamble[-1]), form),
     )
 
 

@@ -14,7 +14,6 @@ from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
     Framing,
-    is_unique,
     preamble_of,
 )
 from occ_model.transmitter.framings.repeated_frame import read_repeated
@@ -52,8 +51,8 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
         chips,
         preamble,
         len(preamble) + form.line_code.chips_for(frame_bits),
-        unique=is_unique(preamble, form.line_code),
-        read=lambda data: _read(data, int(preamble[-1]), form),
+        form,
+        lambda data: _read(data, int(preamble[-1]), form),
     )
 
 

@@ -5,14 +5,25 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.transmitter.framings.framing import Framed, find_preambles
+from occ_model.transmitter.framings.framing import (
+    Framed,
+    FrameFormat,
+    find_preambles,
+    is_unique,
+)
+
+_FEW_PLACES = 32
+"""Places of a preamble behind all of which the whole frame is read."""
+
+_START_CHIPS = 120
+"""Chips behind other preambles that must obey the line code: whole blocks of 2, 6, 10 and 12."""
 
 ReadData = Callable[[ByteArray], Framed]
 """Reads the chips after a preamble, to the end of a period or further."""
 
 
 def read_repeated(
-    chips: ByteArray, preamble: ByteArray, length: int, *, unique: bool, read: ReadData
+    chips: ByteArray, preamble: ByteArray, length: int, form: FrameFormat, read: ReadData
 ) -> Framed:
     """Read the frame that chips show.
 
@@ -27,8 +38,8 @@ def read_repeated(
         The chips that start a frame.
     length
         Chips of a period.
-    unique
-        Whether no payload contains the preamble.
+    form
+        The format, whose line code tells whether a payload may contain the preamble.
     read
         Reads what follows it.
 
@@ -37,19 +48,19 @@ def read_repeated(
     Framed
     """
     headers = find_preambles(chips, preamble)
+    unique = is_unique(preamble, form.line_code)
     if len(chips) < length:
         return Framed.nothing(too_few(len(chips), length), headers)
     failed: list[Framed] = []
     found: dict[bytes, Framed] = {}
-    for frames in (_whole(chips, preamble, length, headers), _wrapped(chips, preamble, length)):
-        for data in frames:
-            one = read(data)
-            if one.failure is None:
-                found[one.bits.tobytes()] = one
-            else:
-                failed.append(one)
-        if found and unique:
+    for wrapped, data in _candidates(chips, preamble, length, form):
+        if wrapped and unique and found:
             break
+        one = read(data)
+        if one.failure is None:
+            found[one.bits.tobytes()] = one
+        else:
+            failed.append(one)
     if len(found) == 1:
         (one,) = found.values()
         return Framed(headers, one.bits)
@@ -60,6 +71,32 @@ def read_repeated(
     return Framed.nothing(
         f"No preamble found among {len(chips)} chips, of which a frame has {length}.", headers
     )
+
+
+def _candidates(
+    chips: ByteArray, preamble: ByteArray, length: int, form: FrameFormat
+) -> Iterator[tuple[bool, ByteArray]]:
+    """Return what follows each preamble, each content once, and whether it is joined of two parts.
+
+    Of very many preambles only those count behind which the line code is obeyed.
+    """
+    headers = find_preambles(chips, preamble)
+    many = len(headers) > _FEW_PLACES
+    tried: set[bytes] = set()
+    frames = (_whole(chips, preamble, length, headers), _wrapped(chips, preamble, length))
+    for wrapped, datas in enumerate(frames):
+        for data in datas:
+            content = data[: length - len(preamble)].tobytes()
+            is_new = content not in tried
+            tried.add(content)
+            if is_new and (not many or _obeys(data[:_START_CHIPS], preamble, form)):
+                yield bool(wrapped), data
+
+
+def _obeys(chips: ByteArray, preamble: ByteArray, form: FrameFormat) -> bool:
+    """Whether the first chips behind a preamble obey the line code."""
+    whole = len(chips) - len(chips) % form.line_code.block_chips
+    return form.line_code.decode(chips[:whole], int(preamble[-1])).failure is None
 
 
 def _whole(

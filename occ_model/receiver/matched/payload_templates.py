@@ -1,0 +1,134 @@
+"""Templates of all payloads of any scheme: the forward model of each, by its spectrum.
+
+The paper's scheme has a form that needs no such table (:mod:`.code_templates`).
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.receiver.matched.code_templates import BINS_PER_CHIP, chip_response
+from occ_model.transmitter.packet import bits_of
+from occ_model.transmitter.scheme import Scheme
+
+MOST_BITS = 12
+"""Bits up to which all payloads are compared: 4,096 of them."""
+
+_AT_ONCE = 512
+"""Payloads whose correlations are held at once."""
+
+_ROUNDING = 1e-6
+"""Variance of a profile, in lit fractions squared, below which it is rounding error."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PayloadTemplates:
+    """The profile of a period of what is sent, for each payload at an exposure time.
+
+    Parameters
+    ----------
+    period : int
+        Chips of a period.
+    spectra : ndarray of complex64, shape (payloads, bins // 2 + 1)
+        Of each payload's profile about its mean.
+    means : ndarray of float64, shape (payloads,)
+        Of each profile, in lit fractions.
+    energy : ndarray of float64, shape (payloads,)
+        Sum of the squares of each profile about its mean; infinite where that is rounding error.
+    levels : ndarray of float64, shape (bins,)
+        Lit fractions in the profiles: evenly spaced quantiles of all of them.
+    """
+
+    period: int
+    spectra: NDArray[np.complex64]
+    means: FloatArray
+    energy: FloatArray
+    levels: FloatArray
+
+    def profiles(self, codes: IndexArray) -> FloatArray:
+        """Return the lit fraction over one period of some payloads, shape (codes, bins)."""
+        about_mean = np.fft.irfft(self.spectra[codes], self.period * BINS_PER_CHIP, axis=1)
+        return np.asarray(about_mean + self.means[codes, None], dtype=np.float64)
+
+    def most_likely(self, signal: FloatArray, count: int) -> tuple[IndexArray, IndexArray]:
+        """Find the payloads that correlate best with a signal over all phases, and their phases.
+
+        Parameters
+        ----------
+        signal : ndarray of float64, shape (bins,)
+            Folded over one period.
+        count
+            How many payloads, or all if there are fewer.
+
+        Returns
+        -------
+        codes, phases : ndarray of int64, shape (count,)
+        """
+        spectrum = np.fft.rfft(signal - signal.mean()).astype(np.complex64)
+        scores = np.empty(len(self.spectra))
+        phases = np.empty(len(self.spectra), dtype=np.int64)
+        for start in range(0, len(scores), _AT_ONCE):
+            part = slice(start, start + _AT_ONCE)
+            matches = np.fft.irfft(spectrum * self.spectra[part].conj(), len(signal), axis=1)
+            phases[part] = matches.argmax(axis=1)
+            scores[part] = matches.max(axis=1)
+        scores /= np.sqrt(self.energy)
+        count = min(count, len(scores))
+        likely = np.argpartition(scores, -count)[-count:]
+        return likely.astype(np.int64), phases[likely]
+
+
+@lru_cache(maxsize=2)
+def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
+    """Make the forward model of every payload.
+
+    Parameters
+    ----------
+    scheme
+        The scheme, of at most :data:`MOST_BITS` bits.
+    exposure
+        The exposure time in chips, exactly.
+
+    Raises
+    ------
+    ParameterError, PluginError
+        The scheme cannot encode.
+    """
+    codes = range(2**scheme.bits)
+    response = np.fft.rfft(chip_response(scheme.length, exposure))
+    spectra = np.empty((len(codes), len(response)), dtype=np.complex64)
+    impulses = np.zeros(scheme.length * BINS_PER_CHIP)
+    means = np.empty(len(codes))
+    for code in codes:
+        impulses[::BINS_PER_CHIP] = scheme.encode(bits_of(code, scheme.bits))
+        spectrum = np.fft.rfft(impulses) * response
+        means[code] = spectrum[0].real / len(impulses)
+        spectrum[0] = 0.0
+        spectra[code] = spectrum
+    # By Parseval's theorem; a real signal's spectrum holds each frequency but the ends twice.
+    power = np.abs(spectra.astype(np.complex128)) ** 2
+    energy = (2.0 * power.sum(axis=1) - power[:, -1]) / len(impulses)
+    energy = np.where(energy > _ROUNDING * len(impulses), energy, np.inf)
+    templates = PayloadTemplates(scheme.length, spectra, means, energy, np.empty(0))
+    some = np.arange(0, len(codes), max(1, len(codes) // 256))
+    shares = (np.arange(len(impulses)) + 0.5) / len(impulses)
+    levels = np.quantile(templates.profiles(some), shares)
+    for array in (spectra, means, energy, levels):
+        array.flags.writeable = False  # it is cached and shared
+    return PayloadTemplates(scheme.length, spectra, means, energy, levels)
+
+
+def same_chips(code: int, others: IndexArray, scheme: Scheme) -> int | None:
+    """Find another payload whose chips, sent repeatedly, are the same from another start.
+
+    Its profile is the same too, so among the likeliest it is found if there is one.
+    """
+    twice = np.tile(scheme.encode(bits_of(code, scheme.bits)), 2).tobytes()
+    for other in others.tolist():
+        if other != code and scheme.encode(bits_of(other, scheme.bits)).tobytes() in twice:
+            return int(other)
+    return None

@@ -1,0 +1,41 @@
+"""What the declarations of all kinds of parameter have in common."""
+
+from dataclasses import dataclass
+
+from occ_model.errors import ParameterError
+from occ_model.scene.units import LONGEST_TEXT
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """The declaration of a parameter, of whatever kind.
+
+    Parameters
+    ----------
+    name
+        The identifier, as in a scene file.
+    label
+        The field's term for it, as on screen.
+    symbol
+        The symbol in the paper's equations, empty where it has none.
+    meaning
+        One line that says what it is.
+    """
+
+    name: str
+    label: str
+    symbol: str
+    meaning: str
+
+    def refuse(self, problem: str, allowed: str) -> ParameterError:
+        """Make the error that names the parameter, the problem and what is allowed."""
+        sentence = f"{self.name} {problem}; allowed: {allowed}."
+        return ParameterError(sentence, parameters=(self.name,))
+
+    def check_length(self, text: str, allowed: str) -> None:
+        """Refuse a text that is too long to be a number."""
+        if len(text) > LONGEST_TEXT:
+            raise self.refuse(
+                f"is a text of {len(text):,} characters",
+                f"{allowed}, written in up to {LONGEST_TEXT} characters",
+            )

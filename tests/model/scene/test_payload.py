@@ -1,0 +1,104 @@
+"""Payloads as texts, bytes and bits."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from payloads import PAYLOADS
+
+import occ_model as occ
+from occ_model.scene.payload import (
+    MAX_PAYLOAD_BITS,
+    bits_of_payload,
+    canonical,
+    form_of,
+    payload_of_bits,
+)
+from occ_model.transmitter.packet import bits_of
+
+
+@given(payload=PAYLOADS.filter(bool))
+def test_a_payload_in_its_shortest_form_stays_as_it_is(payload: str) -> None:
+    assert canonical(payload) == payload
+    assert occ.Scene().replace(payload=payload).transmitter.payload == payload
+
+
+@given(payload=PAYLOADS.filter(bool))
+def test_the_bits_of_a_payload_are_written_as_it_was(payload: str) -> None:
+    form, _, content = payload.partition(":")
+    written = payload_of_bits(bits_of_payload(payload), form)
+    if form != "text":
+        assert written == content
+    else:
+        pairs = zip(written, content, strict=True)
+        assert all(one == other or one == "?" for one, other in pairs)
+
+
+def test_a_text_is_sent_as_utf_8_most_significant_bit_first() -> None:
+    assert bits_of_payload("text:A") == (0, 1, 0, 0, 0, 0, 0, 1)
+    assert len(bits_of_payload("text:é")) == 16
+    assert bits_of_payload("hex:41") == bits_of_payload("text:A")
+
+
+def test_spaces_and_capitals_do_not_count_in_digits() -> None:
+    assert canonical("hex: 4A 4b") == "hex:4a4b"
+    assert canonical("bits: 01 10") == "bits:0110"
+    assert canonical("text: a ") == "text: a "
+
+
+def test_wrong_bits_show_as_other_letters_or_question_marks() -> None:
+    bits = list(bits_of_payload("text:HELLO"))
+    bits[24] ^= 1  # the second L is no ASCII any more
+    assert payload_of_bits(bits, "text") == "HEL?O"
+    assert payload_of_bits(bits[:-3], "text") == "HEL?"
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "HELLO",
+        "text:",
+        "bits:",
+        "bits:012",
+        "hex:4",
+        "hex:zz",
+        "utf:x",
+        "text:\ud800",
+        5,
+        None,
+        b"x",
+    ],
+)
+def test_anything_else_is_refused_with_the_allowed_forms(wrong: object) -> None:
+    with pytest.raises(occ.ParameterError, match=r"payload .*text:HELLO") as caught:
+        occ.Scene().replace(payload=wrong)  # type: ignore[arg-type]
+    assert caught.value.parameters == ("payload",)
+
+
+def test_the_longest_payload_has_4096_bits() -> None:
+    longest = "bits:" + "1" * MAX_PAYLOAD_BITS
+    assert len(occ.Scene().replace(payload=longest).transmitter.payload_bits) == 4096
+    assert occ.Scene().replace(payload="text:" + "x" * 512).transmitter.payload_length == 4096
+    for too_long in (longest + "1", "text:" + "x" * 513, "bits:" + "1" * 10**6):
+        with pytest.raises(occ.ParameterError, match="payload"):
+            occ.Scene().replace(payload=too_long)
+
+
+@pytest.mark.parametrize(("code", "bits"), [(0, 2), (718, 10), (65535, 16)])
+def test_without_a_payload_the_code_is_sent(code: int, bits: int) -> None:
+    transmitter = occ.Scene().replace(code=code, bits=bits).transmitter
+    assert transmitter.payload_bits == bits_of(code, bits)
+    assert transmitter.payload_length == bits
+
+
+def test_a_text_is_sent_and_read_from_the_picture() -> None:
+    scene = occ.load_preset("phone-68us").replace(
+        payload="text:HI", rows=200, distance=0.6, line_code="manchester", framing="c-ook"
+    )
+    read = occ.decode(occ.render(scene).image, scene)
+    assert read.failure is None
+    assert read.payload == "HI"
+    np.testing.assert_array_equal(read.bits, scene.transmitter.payload_bits)
+
+
+def test_form_of_names_the_form() -> None:
+    assert [form_of(text) for text in ("text:a", "hex:00", "bits:1")] == ["text", "hex", "bits"]

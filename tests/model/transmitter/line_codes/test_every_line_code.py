@@ -1,0 +1,142 @@
+"""The laws of every line code, and the properties that each declares."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.arrays import ByteArray
+from occ_model.scene.payload import MAX_PAYLOAD_BITS
+from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
+from occ_model.transmitter.line_codes.registry import LINE_CODES, line_code_named
+from occ_model.transmitter.packet import bits_of
+
+every_code = pytest.mark.parametrize("code", LINE_CODES.values(), ids=lambda code: code.name)
+
+
+def all_payloads(most: int) -> Iterator[ByteArray]:
+    """Every payload up to a number of bits."""
+    for bits in range(1, most + 1):
+        for number in range(2**bits):
+            yield np.array(bits_of(number, bits), dtype=np.uint8)
+
+
+def some_payloads() -> Iterator[ByteArray]:
+    """Payloads of all lengths, drawn at random, one of the longest among them."""
+    random = np.random.default_rng(20)
+    for bits in (*range(9, 60), 100, 333, 1000, MAX_PAYLOAD_BITS):
+        yield random.integers(0, 2, bits).astype(np.uint8)
+    yield np.zeros(MAX_PAYLOAD_BITS, dtype=np.uint8)
+    yield np.ones(MAX_PAYLOAD_BITS, dtype=np.uint8)
+    # D11.7 before D12.0 at a running disparity of +1: one of the few runs of five in 8B10B.
+    yield np.unpackbits(np.array([3, 235, 12], dtype=np.uint8))
+
+
+def longest_run(chips: ByteArray) -> int:
+    edges = np.flatnonzero(np.diff(chips)) + 1
+    return int(np.diff(np.concatenate([[0], edges, [len(chips)]])).max())
+
+
+def disparity(chips: ByteArray) -> int:
+    return abs(2 * int(chips.sum()) - len(chips))
+
+
+def check_round_trip(code: LineCode, bits: ByteArray, level: int) -> None:
+    chips = code.encode(bits, level)
+    assert chips.dtype == np.uint8
+    assert len(chips) == code.chips_for(len(bits))
+    read = code.decode(chips, level)
+    assert read.failure is None
+    assert read.violations == ()
+    np.testing.assert_array_equal(read.bits[: len(bits)], bits)
+    assert not read.bits[len(bits) :].any()
+    assert len(read.bits) - len(bits) < code.block_bits
+
+
+@every_code
+@pytest.mark.parametrize("level", [0, 1])
+def test_short_payloads_are_read_as_they_were_sent(code: LineCode, level: int) -> None:
+    for bits in all_payloads(7):
+        check_round_trip(code, bits, level)
+
+
+@every_code
+def test_long_payloads_are_read_as_they_were_sent(code: LineCode) -> None:
+    for bits in some_payloads():
+        check_round_trip(code, bits, 0)
+
+
+@pytest.mark.whole
+@every_code
+def test_all_payloads_of_16_bits_are_read_as_they_were_sent(code: LineCode) -> None:
+    for bits in all_payloads(16):
+        check_round_trip(code, bits, 0)
+
+
+@every_code
+def test_runs_reach_the_longest_declared_and_no_further(code: LineCode) -> None:
+    runs = [longest_run(code.encode(bits, 0)) for bits in some_payloads()]
+    if code.longest_run is None:
+        assert max(runs) == MAX_PAYLOAD_BITS
+        assert code.lowest_frequency(10e3) == 0.0
+    else:
+        assert max(runs) == code.longest_run
+        assert code.lowest_frequency(10e3) == 10e3 / (2 * max(runs))
+
+
+@every_code
+def test_ones_and_zeros_differ_by_the_disparity_declared(code: LineCode) -> None:
+    differences = [disparity(code.encode(bits, 0)) for bits in some_payloads()]
+    expected = MAX_PAYLOAD_BITS if code.disparity is None else code.disparity
+    assert max(differences) == expected
+
+
+@every_code
+def test_whole_blocks_have_the_chips_a_bit_declared(code: LineCode) -> None:
+    bits = 12 * code.block_bits
+    chips = len(code.encode(np.ones(bits, dtype=np.uint8), 0))
+    assert chips == code.chips_a_bit * bits
+    assert 1 - bits / chips == pytest.approx(float(code.overhead))
+
+
+@every_code
+def test_a_wrong_chip_is_found_or_harmless_if_it_is_declared(code: LineCode) -> None:
+    escaped = 0
+    for bits in (*all_payloads(4), *list(some_payloads())[:20]):
+        chips = code.encode(bits, 0)
+        for place in range(len(chips)):
+            wrong = chips.copy()
+            wrong[place] ^= 1
+            read = code.decode(wrong, 0)
+            found = read.failure is not None or read.bits[len(bits) :].any()
+            escaped += not found and not np.array_equal(read.bits[: len(bits)], bits)
+    assert (escaped == 0) is code.finds_wrong_chip
+
+
+@pytest.mark.parametrize(
+    "code", [code for code in LINE_CODES.values() if code.block_chips > 1], ids=lambda c: c.name
+)
+def test_chips_that_are_no_whole_blocks_are_refused(code: LineCode) -> None:
+    read = code.decode(np.zeros(code.block_chips + 1, dtype=np.uint8), 0)
+    assert read.failure == (
+        f"{code.block_chips + 1} chips are no whole number of blocks of {code.block_chips} chips."
+    )
+    assert not read.bits.size
+
+
+@every_code
+def test_from_the_least_frequency_no_run_lasts_long_enough_to_be_seen(code: LineCode) -> None:
+    least = code.least_switching_frequency
+    if code.longest_run is None:
+        assert least is None
+    else:
+        assert least is not None
+        assert code.lowest_frequency(least) == pytest.approx(VISIBLE_LIMIT)
+        assert code.longest_run / least == pytest.approx(0.5 / VISIBLE_LIMIT)
+
+
+def test_the_names_are_those_of_the_scene() -> None:
+    assert occ.line_codes()[0] == "differential-manchester"
+    assert set(LINE_CODES) == set(occ.line_codes()[: len(LINE_CODES)])
+    assert [line_code_named(name).name for name in LINE_CODES] == list(LINE_CODES)

@@ -1,0 +1,126 @@
+"""The tables of 4B6B, 8B10B and FSK, against the standards and their laws."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from occ_model.transmitter.line_codes import eight_b_ten_b, four_b_six_b, fsk, manchester
+from occ_model.transmitter.line_codes.eight_b_ten_b import control_word, encode_byte
+from occ_model.transmitter.line_codes.four_b_six_b import WORDS
+from occ_model.transmitter.line_codes.fsk import HALF_PERIODS, SYMBOL_CHIPS
+
+COMMAS = ("0011111", "1100000")
+
+
+def text(chips: np.ndarray) -> str:
+    return "".join(map(str, chips.tolist()))
+
+
+def test_manchester_sends_0_as_01_and_1_as_10() -> None:
+    bits = np.array([0, 1, 1, 0], dtype=np.uint8)
+    assert text(manchester.LINE_CODE.encode(bits, 0)) == "01101001"
+
+
+def test_each_4b6b_word_has_three_ones_and_stands_once() -> None:
+    assert WORDS.shape == (16, 6)
+    assert (WORDS.sum(axis=1) == 3).all()
+    assert len({text(word) for word in WORDS}) == 16
+
+
+@pytest.mark.parametrize(
+    ("number", "word"),
+    [(0b0000, "001110"), (0b0100, "010101"), (0b0111, "100101"), (0b1010, "011100"),
+     (0b1111, "101100")],
+)  # fmt: skip
+def test_4b6b_words_are_those_of_ieee_802_15_7(number: int, word: str) -> None:
+    bits = np.array([number >> place & 1 for place in (3, 2, 1, 0)], dtype=np.uint8)
+    assert text(four_b_six_b.LINE_CODE.encode(bits, 0)) == word
+
+
+@pytest.mark.parametrize("byte", range(256))
+@pytest.mark.parametrize("before", [-1, 1])
+def test_running_disparity_is_always_1_or_minus_1(byte: int, before: int) -> None:
+    word, after = encode_byte(byte, before)
+    ones = word.count("1")
+    assert len(word) == 10
+    assert ones in (4, 5, 6)
+    assert after in (-1, 1)
+    assert after == before + 2 * ones - 10
+
+
+@pytest.mark.parametrize("before", [-1, 1])
+def test_no_two_bytes_have_the_same_8b10b_word(before: int) -> None:
+    assert len({encode_byte(byte, before)[0] for byte in range(256)}) == 256
+
+
+def test_a_word_of_either_disparity_stands_for_one_byte_only() -> None:
+    meanings: dict[str, set[int]] = {}
+    for byte, before in itertools.product(range(256), (-1, 1)):
+        meanings.setdefault(encode_byte(byte, before)[0], set()).add(byte)
+    assert {len(bytes_) for bytes_ in meanings.values()} == {1}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "negative", "positive"),
+    [
+        (0, 0, "1001110100", "0110001011"),  # D0.0
+        (21, 5, "1010101010", "1010101010"),  # D21.5
+        (28, 5, "0011101010", "0011101010"),  # D28.5
+        (31, 7, "1010110001", "0101001110"),  # D31.7
+        (17, 7, "1000110111", "1000110001"),  # D17.7: the alternate form
+        (11, 7, "1101001110", "1101001000"),  # D11.7
+        (7, 3, "1110001100", "0001110011"),  # D7.3: balanced, and still two forms
+        (16, 2, "0110110101", "1001000101"),  # D16.2, an idle of 1000BASE-X
+        (5, 6, "1010010110", "1010010110"),  # D5.6, the other
+    ],
+)
+def test_8b10b_words_are_those_of_ieee_802_3(
+    low: int, high: int, negative: str, positive: str
+) -> None:
+    byte = high << 5 | low
+    assert encode_byte(byte, -1)[0] == negative
+    assert encode_byte(byte, 1)[0] == positive
+
+
+def test_k28_5_is_the_comma_of_the_standard() -> None:
+    assert control_word("K28.5") == "0011111010"
+    assert control_word("K28.5", 1) == "1100000101"
+    assert control_word("K28.1") == "0011111001"
+    assert control_word("K28.7") == "0011111000"
+
+
+def test_no_data_contain_a_comma_or_a_run_of_six() -> None:
+    for first, second in itertools.product(range(256), repeat=2):
+        for before in (-1, 1):
+            word, between = encode_byte(first, before)
+            pair = word + encode_byte(second, between)[0]
+            assert not any(comma in pair for comma in COMMAS)
+            assert not any(six in pair for six in ("000000", "111111"))
+
+
+def test_bits_are_read_into_bytes_most_significant_first() -> None:
+    bits = np.array([1, 0, 1, 1, 0, 1, 0, 1], dtype=np.uint8)  # 0xB5, D21.5
+    assert text(eight_b_ten_b.LINE_CODE.encode(bits, 0)) == "1010101010"
+
+
+@pytest.mark.parametrize("symbol", range(4))
+def test_a_symbol_of_fsk_is_one_frequency(symbol: int) -> None:
+    bits = np.array([symbol >> 1, symbol & 1] * 20, dtype=np.uint8)
+    chips = fsk.LINE_CODE.encode(bits, 0).astype(float)
+    power = np.abs(np.fft.rfft(chips - chips.mean())) ** 2
+    strongest = int(power.argmax()) / len(chips)  # cycles a chip
+    assert strongest == pytest.approx(1 / (2 * HALF_PERIODS[symbol]))
+
+
+def test_symbols_of_fsk_hold_whole_periods_of_even_brightness() -> None:
+    for half in HALF_PERIODS:
+        assert SYMBOL_CHIPS % (2 * half) == 0
+    symbols = fsk.LINE_CODE.encode(np.array([0, 0, 0, 1, 1, 0, 1, 1], dtype=np.uint8), 0)
+    assert (symbols.reshape(4, -1).sum(axis=1) == SYMBOL_CHIPS // 2).all()
+
+
+def test_symbols_of_fsk_differ_so_much_that_one_wrong_chip_is_corrected() -> None:
+    symbols = fsk.LINE_CODE.encode(np.array([0, 0, 0, 1, 1, 0, 1, 1], dtype=np.uint8), 0)
+    pairs = itertools.combinations(symbols.reshape(4, -1), 2)
+    assert min(int((one != other).sum()) for one, other in pairs) >= 3

@@ -1,0 +1,171 @@
+"""Line code, framing and error correction together, in every combination."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.arrays import ByteArray, IndexArray
+from occ_model.transmitter.error_correction import PARITY_BYTES, protected_bits
+from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
+from occ_model.transmitter.framings.paper import HEADER
+from occ_model.transmitter.framings.registry import FRAMINGS
+from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.packet import sends_paper_code
+from occ_model.transmitter.scheme import Scheme, scheme_named
+
+CORRECTIONS = ("none", "reed-solomon")
+
+PAIRS = [
+    (code, framing)
+    for code, framing in itertools.product(LINE_CODES, FRAMINGS)
+    if (code, framing) != ("nrz", C_OOK.name)
+]
+"""Every line code in every framing, but for the one pair that is refused."""
+
+AMBIGUOUS = [(code, "paper") for code in ("nrz", "4b6b", "8b10b", "fsk")]
+"""Their payloads may hold the header; so the chips do not always tell where one starts."""
+
+every_pair = pytest.mark.parametrize(("code", "framing"), PAIRS)
+
+
+def scheme(code: str, framing: str, bits: int, correction: str = "none") -> Scheme:
+    return scheme_named(code, framing, "", correction, bits)
+
+
+def seen(chips: ByteArray, start: int, count: int) -> ByteArray:
+    """Chips sent repeatedly, from any of them on."""
+    return np.resize(np.roll(chips, -start), count)
+
+
+def has_another_reading(one: Scheme, payload: IndexArray) -> bool:
+    """Whether another payload gives the same endless chips."""
+    chips = one.encode(payload)
+    turns = [np.roll(chips, -start) for start in range(1, one.length)]
+    return any(
+        one.line_code.decode(turned[len(HEADER) :], HEADER[-1]).failure is None
+        for turned in turns
+        if tuple(turned[: len(HEADER)]) == HEADER
+    )
+
+
+@every_pair
+@pytest.mark.parametrize("correction", CORRECTIONS)
+@pytest.mark.parametrize("bits", [1, 2, 7, 10, 16, 17, 40, 300])
+def test_two_periods_from_any_start_give_the_payload(
+    code: str, framing: str, correction: str, bits: int
+) -> None:
+    one = scheme(code, framing, bits, correction)
+    random = np.random.default_rng(bits)
+    for _ in range(4):
+        payload = random.integers(0, 2, bits)
+        chips = one.encode(payload)
+        assert len(chips) == one.length
+        start = int(random.integers(0, one.length))
+        read = one.decode(seen(chips, start, 2 * one.length + 8))
+        if read.failure is not None:
+            assert (code, framing) in AMBIGUOUS
+            assert has_another_reading(one, payload)
+        else:
+            np.testing.assert_array_equal(read.bits, payload)
+
+
+@every_pair
+def test_a_payload_of_4096_bits_comes_back(code: str, framing: str) -> None:
+    one = scheme(code, framing, 4096)
+    payload = np.random.default_rng(5).integers(0, 2, 4096)
+    read = one.decode(seen(one.encode(payload), 77, 2 * one.length + 8))
+    if (code, framing) in (("nrz", "paper"), ("nrz", "preamble")):
+        assert read.failure is not None
+        assert "The payload contains the preamble" in read.failure
+    else:
+        assert read.failure is None
+        np.testing.assert_array_equal(read.bits, payload)
+
+
+@pytest.mark.whole
+@every_pair
+def test_every_payload_of_10_bits_comes_back(code: str, framing: str) -> None:
+    one = scheme(code, framing, 10)
+    for number in range(1024):
+        payload = [number >> place & 1 for place in reversed(range(10))]
+        read = one.decode(seen(one.encode(payload), number % one.length, 2 * one.length + 8))
+        assert read.failure is not None or read.bits.tolist() == payload
+        assert read.failure is None or (code, framing) in AMBIGUOUS
+
+
+@every_pair
+@pytest.mark.parametrize("bits", [5, 16, 24])
+def test_no_part_of_what_is_sent_gives_another_payload(code: str, framing: str, bits: int) -> None:
+    one = scheme(code, framing, bits)
+    random = np.random.default_rng(3)
+    payload = random.integers(0, 2, bits)
+    chips = one.encode(payload)
+    for _ in range(40):
+        count = int(random.integers(1, 3 * one.length))
+        start = int(random.integers(0, one.length))
+        read = one.decode(seen(chips, start, count))
+        if read.failure is None:
+            np.testing.assert_array_equal(read.bits, payload)
+
+
+@every_pair
+def test_a_wrong_chip_is_found_or_harmless_if_it_is_promised(code: str, framing: str) -> None:
+    one = scheme(code, framing, 10)
+    if not one.finds_wrong_chip:
+        return
+    random = np.random.default_rng(8)
+    for _ in range(3):
+        payload = random.integers(0, 2, 10)
+        chips = seen(one.encode(payload), int(random.integers(one.length)), 2 * one.length + 8)
+        for place in range(len(chips)):
+            wrong = chips.copy()
+            wrong[place] ^= 1
+            read = one.decode(wrong)
+            assert read.failure is not None or read.bits.tolist() == payload.tolist()
+
+
+@every_pair
+def test_two_wrong_bytes_are_corrected(code: str, framing: str) -> None:
+    bits = 64
+    one = scheme(code, framing, bits, "reed-solomon")
+    payload = np.random.default_rng(2).integers(0, 2, bits)
+    form_bits = protected_bits(bits)
+    assert form_bits == bits + 8 * PARITY_BYTES
+    if framing in ("c-ook", "raw") or (code, framing) in AMBIGUOUS:
+        return
+    line_code = LINE_CODES[code]
+    chips = one.encode(payload)
+    start = one.length - line_code.chips_for(form_bits)
+    period = chips.copy()
+    period[start + 2 : start + 4] ^= 1  # in the first byte of every repetition
+    read = one.decode(seen(period, 0, 2 * one.length + 8))
+    assert read.failure is None
+    np.testing.assert_array_equal(read.bits, payload)
+
+
+def test_more_wrong_bytes_than_are_corrected_are_told() -> None:
+    one = scheme("nrz", "preamble", 64, "reed-solomon")
+    chips = one.encode(np.zeros(64))
+    chips[-64:] ^= np.resize(np.array([1, 0, 0, 1, 0, 0, 0, 1], dtype=np.uint8), 64)
+    read = one.decode(seen(chips, 0, 2 * one.length))
+    assert read.failure is not None
+    assert "More than 2 bytes of a block are wrong" in read.failure
+
+
+def test_the_default_is_the_papers_packet() -> None:
+    scene = occ.Scene()
+    assert occ.scheme_of(scene.transmitter).is_papers
+    assert sends_paper_code(scene.transmitter)
+    text = "1110" + "10" + "100110" + "0110" + "011010" + "10"
+    assert len(text) == occ.scheme_of(scene.transmitter).length
+    assert occ.packet(scene)[:4].tolist() == [1, 1, 1, 0]
+    assert not sends_paper_code(scene.replace(line_code="manchester").transmitter)
+    assert not sends_paper_code(scene.replace(payload="bits:01").transmitter)
+
+
+def test_c_ook_refuses_a_line_code_without_a_longest_run() -> None:
+    with pytest.raises(occ.ParameterError, match="'nrz', which limits no run") as caught:
+        occ.packet(occ.Scene().replace(line_code="nrz", framing="c-ook"))
+    assert caught.value.parameters == ("line_code", "framing")

@@ -1,11 +1,10 @@
-"""Results for teaching: equations with numbers, a column's exposure, lessons."""
+"""Results for teaching: equations with numbers, and a column's exposure."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +29,8 @@ class Equation:
 
     Parameters
     ----------
+    name
+        The name by which a lesson refers to it.
     source
         Its number in the paper, or where else it is from.
     meaning
@@ -40,6 +41,7 @@ class Equation:
         The result with its unit, or why there is none.
     """
 
+    name: str
     source: str
     meaning: str
     symbols: tuple[Term, ...]
@@ -128,50 +130,3 @@ class LightCurve:
         if not self.edges[0] <= column < self.edges[-1]:
             return None
         return int(np.searchsorted(self.edges, column, side="right")) - 1
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One step of a lesson.
-
-    Parameters
-    ----------
-    text
-        What to look at.
-    question
-        What to find out.
-    answer
-        The answer, to compare with.
-    scene
-        The scene to show.
-    pane
-        The pane to show it in, empty for the current one.
-    photo
-        Name of the sample photo to open, empty for none.
-    """
-
-    text: str
-    question: str
-    answer: str
-    scene: Scene
-    pane: str = ""
-    photo: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Lesson:
-    """A guided lesson.
-
-    Parameters
-    ----------
-    name
-        The file's name.
-    title
-        Its title.
-    steps
-        Its steps, in order.
-    """
-
-    name: str
-    title: str
-    steps: tuple[Step, ...]

@@ -3,7 +3,6 @@
 Each value has its source, or the reason why it is assumed, in the preset's file.
 """
 
-import os
 import re
 from collections.abc import Mapping
 from difflib import get_close_matches
@@ -20,6 +19,7 @@ from occ_model.errors import (
     one_line,
     shown,
 )
+from occ_model.files import user_folder as user_files
 from occ_model.files.reading import read_text
 from occ_model.files.resources import resource_names
 from occ_model.files.writing import make_folder, write_whole
@@ -174,40 +174,25 @@ def delete_preset(name: str) -> None:
 
 def user_folder() -> Path:
     """Return the folder of the user's own presets, which need not exist yet."""
-    folder = os.environ.get(USER_FOLDER)
-    if folder:
-        return Path(folder)
-    # Not needed where the user's folder is named.
-    from platformdirs import user_config_path
-
-    return user_config_path("occ-explorer", appauthor=False) / FOLDER
+    return user_files.user_folder(USER_FOLDER, FOLDER)
 
 
 def _built_in() -> tuple[str, ...]:
     return resource_names(FOLDER, ENDING)
 
 
-def _files_in(folder: Path) -> list[Path]:
-    """List the files in a folder that have the ending of presets, readable or not."""
-    try:
-        return sorted(p for p in folder.glob(f"*{ENDING}") if not p.name.startswith("."))
-    except (
-        OSError,
-        ValueError,
-    ):  # it is missing, unreadable, or cannot exist
-        return []
-
-
 def _own_names() -> tuple[str, ...]:
     """List the names of the user's own preset files, readable or not."""
-    return tuple(p.stem for p in _files_in(user_folder()) if _name_problem(p.stem) is None)
+    return tuple(
+        p.stem for p in user_files.files_in(user_folder(), ENDING) if _name_problem(p.stem) is None
+    )
 
 
 def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
     """Load the user's own presets by name, and give the reasons for files that are none."""
     loaded: dict[str, Preset] = {}
     failures: dict[str, str] = {}
-    for path in _files_in(user_folder()):
+    for path in user_files.files_in(user_folder(), ENDING):
         name = path.stem
         try:
             problem = _name_problem(name)

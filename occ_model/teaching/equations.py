@@ -52,10 +52,10 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
     dark, lit = luminance_levels(scene).tolist()
     low, high = level_values(scene).tolist()
     found = []
-    for source, meaning, symbol, light, depends, value in (
-        ("(1)", "Pixel value of the lit panel, PV<sub>max</sub>",
+    for name, source, meaning, symbol, light, depends, value in (
+        ("lit-panel", "(1)", "Pixel value of the lit panel, PV<sub>max</sub>",
          "L<sub>v</sub> + E<sub>v</sub>R/π", lit, _LIGHT, high),
-        ("(2)", "Pixel value of the dark panel, PV<sub>min</sub>",
+        ("dark-panel", "(2)", "Pixel value of the dark panel, PV<sub>min</sub>",
          "E<sub>v</sub>R/π", dark, _LIGHT[1:], low),
     ):  # fmt: skip
         symbols = (
@@ -86,7 +86,7 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
         message = f"{value:.1f} grey levels"
         if value > WHITE:
             message += ": more than white"
-        found.append(Equation(source, meaning, symbols, numbers, message))
+        found.append(Equation(name, source, meaning, symbols, numbers, message))
     return found[0], found[1]
 
 
@@ -118,7 +118,7 @@ def _column_value(scene: Scene) -> Equation:
     if scene.model.averaging == "light":
         message += "; here light is averaged, not pixel values"
     meaning = "Pixel value of a column, PV<sub>sim</sub>"
-    return Equation("(3)", meaning, symbols, numbers, message)
+    return Equation("column", "(3)", meaning, symbols, numbers, message)
 
 
 def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
@@ -134,12 +134,12 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
     column = Term("t<sub>r</sub>", ("readout_time",))
     return (
         Equation(
-            "band model", "Columns of one state, h<sub>c</sub>",
+            "one-state", "band model", "Columns of one state, h<sub>c</sub>",
             (Term("("), led, _MINUS, own, Term(") /"), column),
             (Term("("), period, _MINUS, exposure, Term(") /"), readout), complete,
         ),
         Equation(
-            "band model", "Columns of a transition, h<sub>t</sub>",
+            "transition", "band model", "Columns of a transition, h<sub>t</sub>",
             (own, Term("/"), column), (exposure, Term("/"), readout), transition,
         ),
     )  # fmt: skip
@@ -148,6 +148,7 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
 def _chip_columns(scene: Scene) -> Equation:
     period, readout = scene.transmitter.switching_period, scene.camera.readout_time
     return Equation(
+        "chip-columns",
         "readout",
         "Columns of a chip",
         (
@@ -169,6 +170,7 @@ def _null(scene: Scene) -> Equation:
     in_chips = exposure * scene.transmitter.switching_frequency
     contrast = abs(float(np.sinc(0.5 * in_chips)))
     return Equation(
+        "null",
         "exposure",
         "Frequency at which an alternating pattern has no stripes",
         (Term("2 /"), Term("t", ("exposure_time",))),

@@ -1,5 +1,6 @@
-"""Load the guided lessons: steps with a text, a scene, a question and its answer."""
+"""Load lessons from TOML files: those of the package, and those of a teacher's own folder."""
 
+import re
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -8,27 +9,74 @@ from typing import Any
 from occ_model.errors import OccError, SceneFileError, one_line, shown
 from occ_model.files.reading import read_text
 from occ_model.files.resources import resource_names, resource_text
-from occ_model.results.teaching import Lesson, Step
+from occ_model.files.user_folder import files_in, user_folder
+from occ_model.results.lessons import Check, Lesson, LessonList, Step
 from occ_model.scene.from_text import with_settings
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
+from occ_model.scene.scene import Scene
 from occ_model.scene.toml_format import parse_toml
+from occ_model.teaching.quantities import QUANTITIES
+
+USER_FOLDER = "OCC_LESSONS"
+"""The environment variable that names another folder for a teacher's own lessons."""
+
+PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map")
+"""The panes that a step can show."""
+
+EQUATIONS = (
+    "lit-panel", "dark-panel", "column", "one-state", "transition", "chip-columns", "null",
+)  # fmt: skip
+"""The equations that a step can show."""
 
 _FOLDER, _ENDING = "lessons", ".toml"
+_LESSON_KEYS = ("title", "summary", "step")
+_STEP_KEYS = (
+    "goal", "text", "question", "answer", "preset", "set", "pane", "photo", "control", "check",
+    "equation", "animation",
+)  # fmt: skip
+_CHECK_KEYS = ("quantity", "tolerance", "set")
+_MOST_TOLERANCE = 50.0
+"""Percent."""
 
 
-@lru_cache(maxsize=1)
-def lessons() -> tuple[Lesson, ...]:
-    """Load the lessons that come with the package, in their order.
+class _MistakeError(SceneFileError):
+    """A mistake in a lesson: its sentence, and the key that it is about."""
+
+    def __init__(self, sentence: str, key: str = "") -> None:
+        super().__init__(sentence)
+        self.key = key
+
+
+def lessons() -> LessonList:
+    """Load the lessons of the package, in their order, then those of the user's own folder.
 
     Raises
     ------
     SceneFileError
-        A file cannot be read.
+        A file of the package cannot be read.
     """
+    own: list[Lesson] = []
+    problems: dict[str, str] = {}
+    for path in files_in(lessons_folder(), _ENDING):
+        try:
+            own.append(read_lesson(path))
+        except OccError as error:
+            problems[one_line(path.name)] = str(error)
+    return LessonList((*_package_lessons(), *own), problems)
+
+
+@lru_cache(maxsize=1)
+def _package_lessons() -> tuple[Lesson, ...]:
     return tuple(
         _lesson(name, resource_text(_FOLDER, f"{name}{_ENDING}"))
         for name in resource_names(_FOLDER, _ENDING)
     )
+
+
+def lessons_folder() -> Path:
+    """Return the folder of the user's own lessons, which need not exist yet."""
+    return user_folder(USER_FOLDER, _FOLDER)
 
 
 def read_lesson(path: Path) -> Lesson:
@@ -37,33 +85,104 @@ def read_lesson(path: Path) -> Lesson:
     Raises
     ------
     SceneFileError
-        The file cannot be read, holds no lesson, names a preset that does not exist, or has a
-        value that is out of range.
+        The file cannot be read or holds no lesson; the sentence names the line of the mistake.
     """
     return _lesson(path.stem, read_text(path))
 
 
 def _lesson(name: str, text: str) -> Lesson:
+    where = one_line(name)
     try:
         content = parse_toml(text)
-        steps = tuple(_step(step) for step in content["step"])
-        return Lesson(name, _text(content["title"]), steps)
+    except SceneFileError as error:
+        raise SceneFileError(f"{where} is no lesson: {error}") from None
+    place: int | None = None
+    try:
+        _check_keys(content, _LESSON_KEYS, "lesson")
+        title, summary = _text(content, "title"), _text(content, "summary", "")
+        listed = content.get("step")
+        if not isinstance(listed, list) or not listed:
+            raise _MistakeError("it has no steps; begin each with [[step]].", "step")
+        steps = []
+        for place, item in enumerate(listed):  # noqa: B007 - its last value says where
+            steps.append(_step(item))
+        return Lesson(name, title, summary, tuple(steps))
     except OccError as error:
-        raise SceneFileError(f"{one_line(name)} is no lesson: {error}") from None
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise SceneFileError(f"{one_line(name)} is no lesson: {shown(error)}.") from None
+        key = error.key if isinstance(error, _MistakeError) else "set"
+        line = _line(text, place, key)
+        raise SceneFileError(f"{where} is no lesson: line {line}: {error}") from None
 
 
-def _step(content: Mapping[str, Any]) -> Step:
-    settings = [f"{name}={_written(value)}" for name, value in content.get("set", {}).items()]
+def _line(text: str, step: int | None, key: str) -> int:
+    """Find the line, from 1, of a key: at the head, or in a step; else that of the step itself."""
+    lines = text.splitlines() or [""]
+    heads = [i for i, line in enumerate(lines) if re.match(r"\s*\[\[\s*step\s*\]\]", line)]
+    if step is None:
+        begin, end = 0, heads[0] if heads else len(lines)
+    elif step < len(heads):
+        begin = heads[step]
+        end = heads[step + 1] if step + 1 < len(heads) else len(lines)
+    else:  # steps that are not written as tables of their own
+        begin, end = 0, len(lines)
+    wanted = re.compile(rf"\s*(?:\[\s*step\s*\.\s*)?{re.escape(key)}\s*(?:=|\.|\])")
+    found = (i for i in range(begin, end) if key and wanted.match(lines[i]))
+    return next(found, begin) + 1
+
+
+def _step(content: object) -> Step:
+    if not isinstance(content, Mapping):
+        raise _MistakeError(f"a step is {shown(content)}; begin each with [[step]].", "step")
+    _check_keys(content, _STEP_KEYS, "step")
+    preset = _text(content, "preset")
+    try:
+        scene = load_preset(preset)
+    except OccError as error:
+        raise _MistakeError(str(error), "preset") from None
+    scene = _changed(scene, content)
     return Step(
-        text=" ".join(_text(content["text"]).split()),
-        question=" ".join(_text(content["question"]).split()),
-        answer=" ".join(_text(content["answer"]).split()),
-        scene=with_settings(load_preset(content["preset"]), settings),
-        pane=_text(content.get("pane", "")),
-        photo=_text(content.get("photo", "")),
+        goal=_paragraph(content, "goal", ""),
+        text=_paragraph(content, "text"),
+        question=_paragraph(content, "question"),
+        answer=_paragraph(content, "answer"),
+        scene=scene,
+        pane=_one_of(content, "pane", PANES),
+        photo=_text(content, "photo", ""),
+        control=_one_of(content, "control", tuple(PARAMETERS)),
+        check=_check(content, scene),
+        equation=_one_of(content, "equation", EQUATIONS),
+        animation=_switch(content, "animation"),
     )
+
+
+def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
+    asked = content.get("check")
+    if asked is None:
+        return None
+    try:
+        if not isinstance(asked, Mapping):
+            raise _MistakeError(f"check is {shown(asked)}, not a table with a quantity.")
+        _check_keys(asked, _CHECK_KEYS, "check")
+        quantity = _one_of(asked, "quantity", tuple(QUANTITIES))
+        if not quantity:
+            raise _MistakeError(f"check has no quantity; known are {', '.join(QUANTITIES)}.")
+        percent = asked.get("tolerance", 2)
+        number = isinstance(percent, int | float) and not isinstance(percent, bool)
+        if not number or not 0.0 <= percent <= _MOST_TOLERANCE:
+            raise _MistakeError(
+                f"tolerance is {shown(percent)}; allowed: 0 to {_MOST_TOLERANCE:g}, in percent."
+            )
+        return Check(quantity, percent / 100.0, _changed(scene, asked))
+    except OccError as error:
+        raise _MistakeError(str(error), "check") from None
+
+
+def _changed(scene: Scene, content: Mapping[str, Any]) -> Scene:
+    """Change a scene by the values of a table named ``set``."""
+    values = content.get("set", {})
+    if not isinstance(values, Mapping):
+        raise _MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")
+    settings = [f"{name}={_written(value)}" for name, value in values.items()]
+    return with_settings(scene, settings)
 
 
 def _written(value: object) -> str:
@@ -71,7 +190,36 @@ def _written(value: object) -> str:
     return value if isinstance(value, str) else shown(value)
 
 
-def _text(value: object) -> str:
+def _check_keys(content: Mapping[str, Any], known: tuple[str, ...], kind: str) -> None:
+    for key in content:
+        if key not in known:
+            raise _MistakeError(
+                f"a {kind} has no key {shown(key)}; known are {', '.join(known)}.", one_line(key)
+            )
+
+
+def _text(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
+    value = content.get(key, default)
+    if value is None:
+        raise _MistakeError(f"{key} is missing.")
     if not isinstance(value, str):
-        raise SceneFileError(f"there is {shown(value)} in place of a text.")
+        raise _MistakeError(f"{key} is {shown(value)} in place of a text.", key)
+    return value
+
+
+def _paragraph(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
+    return " ".join(_text(content, key, default).split())
+
+
+def _one_of(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
+    value = _text(content, key, "")
+    if value and value not in known:
+        raise _MistakeError(f"{key} is {shown(value)}; known are {', '.join(known)}.", key)
+    return value
+
+
+def _switch(content: Mapping[str, Any], key: str) -> bool:
+    value = content.get(key, False)
+    if not isinstance(value, bool):
+        raise _MistakeError(f"{key} is {shown(value)}; allowed: true and false.", key)
     return value

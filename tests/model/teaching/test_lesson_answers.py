@@ -7,13 +7,15 @@ import pytest
 
 import occ_model as occ
 from occ_model.files.resources import resource_path
-from occ_model.results.teaching import Step
+from occ_model.results.lessons import Step
 from occ_model.scene.scene import Scene
+from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import lessons
+from occ_model.teaching.quantities import QUANTITIES
 
 
 def step(lesson: int, number: int) -> Step:
-    return lessons()[lesson - 1].steps[number - 1]
+    return lessons().lessons[lesson - 1].steps[number - 1]
 
 
 def reads(scene: Scene, decoder: str = "threshold") -> bool:
@@ -26,7 +28,7 @@ def swing(scene: Scene) -> float:
 
 
 def test_a_slope_is_as_wide_as_the_exposure_at_any_frequency() -> None:
-    asked = step(1, 1)
+    asked = step(2, 1)
     assert "8.5 columns" in asked.answer
     for frequency in (5e3, 10e3):
         scene = asked.scene.replace(switching_frequency=frequency)
@@ -36,7 +38,7 @@ def test_a_slope_is_as_wide_as_the_exposure_at_any_frequency() -> None:
 
 
 def test_the_band_model_ends_where_the_period_is_the_exposure() -> None:
-    asked = step(1, 2)
+    asked = step(2, 2)
     assert "7.35 kHz" in asked.answer
     occ.band_lengths(asked.scene.replace(switching_frequency=7.35e3))
     with pytest.raises(occ.BandModelUndefined):
@@ -44,7 +46,7 @@ def test_the_band_model_ends_where_the_period_is_the_exposure() -> None:
 
 
 def test_the_papers_decoder_stops_above_14_khz_the_other_goes_on() -> None:
-    asked = step(1, 3)
+    asked = step(2, 3)
     assert all(text in asked.answer for text in ("a little above 14 kHz", "14.7 kHz", "50 kHz"))
     scene = asked.scene
     assert scene.camera.exposure_time * 14.7e3 == pytest.approx(2.0, abs=0.001)
@@ -59,7 +61,7 @@ def test_the_papers_decoder_stops_above_14_khz_the_other_goes_on() -> None:
 
 @pytest.mark.parametrize(("number", "null"), [(1, 14.7e3), (2, 29.4e3)])
 def test_the_stripes_vanish_where_the_answers_say(number: int, null: float) -> None:
-    asked = step(2, number)
+    asked = step(3, number)
     assert f"{null / 1e3:g} kHz" in asked.answer
     at_null = swing(asked.scene.replace(switching_frequency=null))
     beside = [swing(asked.scene.replace(switching_frequency=null * k)) for k in (0.9, 1.1)]
@@ -68,18 +70,18 @@ def test_the_stripes_vanish_where_the_answers_say(number: int, null: float) -> N
 
 def test_beyond_the_null_bright_and_dark_have_changed_places() -> None:
     signs = []
-    for asked in (step(2, 1), step(2, 2)):
+    for asked in (step(3, 1), step(3, 2)):
         scene = asked.scene
         middle = np.arange(scene.camera.columns) * scene.camera.readout_time
         middle += scene.camera.exposure_time / 2
         lit = np.mod(middle * scene.transmitter.switching_frequency, 2.0) < 1.0
         signs.append(np.sign(np.corrcoef(lit, occ.column_profile(scene))[0, 1]))
     assert signs == [1.0, -1.0]
-    assert swing(step(2, 2).scene) < 0.5 * swing(step(2, 1).scene)
+    assert swing(step(3, 2).scene) < 0.5 * swing(step(3, 1).scene)
 
 
 def test_at_the_null_only_the_matched_decoder_reads_and_is_sure() -> None:
-    asked = step(2, 3)
+    asked = step(3, 3)
     assert "above 0.9" in asked.answer
     image = occ.render(asked.scene, seed=1).image
     matched = occ.decode(image, asked.scene, decoder="matched")
@@ -92,7 +94,7 @@ def test_at_the_null_only_the_matched_decoder_reads_and_is_sure() -> None:
 
 
 def test_coming_closer_two_headers_fit_from_the_distances_named() -> None:
-    asked = step(3, 1)
+    asked = step(4, 1)
     assert all(text in asked.answer for text in ("1 m", "1460 columns", "0.75 m", "1077", "923"))
     scene = asked.scene
     assert [reads(scene.replace(distance=d)) for d in (2.0, 1.1, 1.0, 0.9)] == [
@@ -111,7 +113,7 @@ def test_coming_closer_two_headers_fit_from_the_distances_named() -> None:
 
 
 def test_faster_helps_up_to_two_chips_an_exposure() -> None:
-    asked = step(3, 2)
+    asked = step(4, 2)
     assert all(text in asked.answer for text in ("4 kHz", "4.5 kHz", "6 kHz", "16.4 kHz"))
     scene = asked.scene
     at = {f: reads(scene.replace(switching_frequency=f)) for f in (2e3, 4e3, 4.5e3, 6e3, 16.4e3)}
@@ -123,7 +125,7 @@ def test_faster_helps_up_to_two_chips_an_exposure() -> None:
 
 
 def test_at_a_tolerance_of_30_levels_the_named_effects_are_out() -> None:
-    asked = step(4, 1)
+    asked = step(5, 1)
     plan = occ.plan(asked.scene, tolerance=30.0, observable="image")
     bounds = {d.effect: d.bound for d in plan.decisions if d.bound > 0.0}
     gone = sorted((e for e in bounds if e not in plan.included), key=lambda e: bounds[e])
@@ -139,7 +141,7 @@ def test_at_a_tolerance_of_30_levels_the_named_effects_are_out() -> None:
 
 
 def test_the_papers_scene_needs_noise_and_4096_samples_are_off() -> None:
-    asked = step(4, 2)
+    asked = step(5, 2)
     assert "a hundredth of a grey level" in asked.answer
     plan = occ.plan(asked.scene, tolerance=0.5, observable="image")
     assert set(plan.included) == {"sensor-noise", "fixed-pattern"}
@@ -154,7 +156,7 @@ def test_the_papers_scene_needs_noise_and_4096_samples_are_off() -> None:
 
 @pytest.mark.parametrize(("number", "readout"), [(1, 12.8e-6), (2, 8.9e-6)])
 def test_the_photos_give_what_the_answers_say(number: int, readout: float) -> None:
-    asked = step(5, number)
+    asked = step(6, number)
     photo = occ.load_photo(resource_path("photos", f"{asked.photo}.jpg"))
     found = occ.match_photo(photo, asked.scene)
     assert f"{readout * 1e6:g} µs a column" in asked.answer
@@ -171,3 +173,67 @@ def test_the_photos_give_what_the_answers_say(number: int, readout: float) -> No
         assert found.uncertainties["exposure_time"] == pytest.approx(2e-6, abs=0.5e-6)
         assert "it was 136 µs" in asked.answer
         assert abs(found.exposure_time - 136e-6) < 3 * found.uncertainties["exposure_time"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "text"),
+    [
+        (step(1, 1), "62.5"),
+        (step(1, 2), "25"),
+        (step(1, 3), "27.6 ms"),
+        (step(2, 1), "8.5"),
+        (step(2, 2), "7.35"),
+        (step(2, 3), "14.2 kHz"),
+        (step(3, 1), "14.7"),
+        (step(3, 2), "29400 Hz"),
+        (step(4, 1), "923"),
+        (step(6, 1), "12.8 µs"),
+        (step(6, 2), "345"),
+        (step(7, 1), "1667"),
+        (step(7, 2), "14.2"),
+        (step(7, 3), "83 %"),
+    ],
+    ids=str,
+)
+def test_what_the_explanation_states_is_a_right_answer(asked: Step, text: str) -> None:
+    assert check_answer(asked, text).outcome == "right"
+
+
+def test_a_lesson_checks_against_its_own_scene_and_tells_no_number() -> None:
+    asked = step(3, 1)
+    near, wrong = check_answer(asked, "15"), check_answer(asked, "7")
+    assert (near.outcome, wrong.outcome) == ("near", "wrong")
+    assert "high" in near.sentence
+    assert "low" in wrong.sentence
+    assert not set("0123456789") & set(near.sentence + wrong.sentence)
+
+
+@pytest.mark.parametrize("text", ["", "many", "14.7 volts", "nan", "1e999", "9" * 500, "1,2,3"])
+def test_an_answer_that_is_no_number_is_said_to_be_none(text: str) -> None:
+    checked = check_answer(step(3, 1), text)
+    assert checked.outcome == "unreadable"
+    assert "no number in kHz" in checked.sentence
+    assert len(checked.sentence) < 100
+
+
+def test_an_answer_in_words_is_compared_with_the_explanation() -> None:
+    checked = check_answer(step(3, 3), "  the matched one ")
+    assert (checked.text, checked.outcome) == ("the matched one", None)
+
+
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_each_quantity_is_asked_in_one_of_its_own_units(name: str) -> None:
+    quantity = QUANTITIES[name]
+    assert quantity.meaning
+    if quantity.asked_in:
+        assert quantity.unit.parse(f"1 {quantity.asked_in}") is not None
+
+
+def test_the_columns_of_chips_and_packets_are_those_of_the_picture() -> None:
+    scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
+    repeat = QUANTITIES["packet-columns"].compute(scene, "")
+    chip = QUANTITIES["chip-columns"].compute(scene, "")
+    assert repeat == pytest.approx(1500, rel=1e-12)
+    assert len(occ.packet(scene)) * chip == pytest.approx(1500, rel=1e-12)
+    profile = occ.column_profile(scene)
+    np.testing.assert_allclose(profile[1500:3000], profile[:1500], atol=1e-6)

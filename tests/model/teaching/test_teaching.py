@@ -1,7 +1,6 @@
-"""The explanations say what the model does: equations, exposure windows, lessons."""
+"""The explanations say what the model does: equations and exposure windows."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,17 +9,13 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.photometry import WHITE, level_values
-from occ_model.errors import ParameterError, SceneFileError
-from occ_model.files.resources import resource_path
+from occ_model.errors import ParameterError
 from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
 from occ_model.teaching.exposure_window import exposure_window
-from occ_model.teaching.lessons import lessons, read_lesson
-
-PANES = ("profile", "decode", "accuracy", "photo")
-"""The docks that a step can name."""
+from occ_model.teaching.lessons import EQUATIONS
 
 scenes = st.builds(
     lambda exposure, frequency, readout, iso, start, pattern: Scene().replace(
@@ -87,6 +82,10 @@ def test_at_the_equations_null_alternating_stripes_vanish() -> None:
     assert np.ptp(at_null) < 1e-3 * np.ptp(occ.column_profile(scene))
 
 
+def test_lessons_know_the_equations_by_their_names() -> None:
+    assert tuple(equation.name for equation in equations(Scene())) == tuple(EQUATIONS)
+
+
 def test_every_parameter_of_a_term_changes_its_equation() -> None:
     scene = occ.load_preset("phone-68us")
     for equation in equations(scene):
@@ -147,67 +146,3 @@ def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None
 def test_a_column_outside_the_picture_is_refused(column: object) -> None:
     with pytest.raises(ParameterError, match=r"^column is .*allowed: .*\.$"):
         exposure_window(Scene(), column)  # type: ignore[arg-type]
-
-
-def test_every_lesson_names_a_pane_and_photo_that_exist() -> None:
-    found = lessons()
-    assert [lesson.name[0] for lesson in found] == list("12345")
-    for lesson in found:
-        assert lesson.title
-        for step in lesson.steps:
-            assert step.text.endswith((".", ")"))
-            assert step.question.endswith("?")
-            assert step.answer.endswith(".")
-            assert step.pane in PANES
-            if step.photo:
-                assert resource_path("photos", f"{step.photo}.jpg").is_file()
-
-
-STEP = 'preset = "phone-68us", text = "one", question = "two?", answer = "three."'
-
-
-def test_a_file_of_one_s_own_is_read_as_an_lesson(tmp_path: Path) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(f'title = "x"\nstep = [{{{STEP}, set = {{iso = 200}}}}]', encoding="utf-8")
-    lesson = read_lesson(path)
-    (step,) = lesson.steps
-    assert (lesson.name, lesson.title, step.text) == ("mine", "x", "one")
-    assert step.scene == occ.load_preset("phone-68us").replace(iso=200)
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
-        "title = 1",
-        "no toml",
-        'title = "x"\nstep = [{}]',
-        'title = "x"\nstep = 3',
-        'title = "x"\n[[step]]\npreset = "none such"\ntext = "a"\nquestion = "b"\nanswer = "c"',
-        'title = "x"\n[[step]]\npreset = "phone-68us"\nset = { iso = "-1" }\n'
-        'text = "a"\nquestion = "b"\nanswer = "c"',
-        f'title = "x"\nstep = [{{{STEP}, set = 3}}]',
-        f'title = "x"\nstep = [{{{STEP}, pane = 1}}]',
-        f'title = "x"\nstep = [{{{STEP.replace("one", "1")}}}]'.replace('"1"', "1"),
-        f"title = 1\nstep = [{{{STEP}}}]",
-        f"title = 0x{'f' * 4000}\nstep = []",
-        f"{'a.' * 1500}a = 1\nstep = 3",
-        f"title = {'[' * 3000}",
-        f"title = {'9' * 5000}",
-        f'title = "x"\nstep = [{{preset = 0x{"f" * 4000}}}]',
-        f'title = "x"\nstep = [{{{STEP}, set = {{iso = 0x{"f" * 4000}}}}}]',
-        "#" * 2_000_000,
-    ],
-    ids=lambda content: content[:20],
-)
-def test_a_file_that_is_no_lesson_is_refused_in_a_sentence(
-    tmp_path_factory: pytest.TempPathFactory, content: str
-) -> None:
-    path = tmp_path_factory.mktemp("lessons") / "mine.toml"
-    path.write_text(content, encoding="utf-8")
-    with pytest.raises(SceneFileError) as refused:
-        read_lesson(path)
-    assert str(refused.value).endswith(".")
-    assert str(refused.value).isprintable()
-    assert len(str(refused.value)) < 1000
-    with pytest.raises(SceneFileError, match=r"missing\.toml"):
-        read_lesson(path.with_name("missing.toml"))

@@ -1,0 +1,129 @@
+"""Lessons: steps with a goal, a scene, a question and its answer, and what a student found."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Literal
+
+from occ_model.scene.scene import Scene
+
+Outcome = Literal["right", "near", "wrong", "unreadable"]
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """How a student's number is checked against the model.
+
+    Parameters
+    ----------
+    quantity
+        Name of what is asked for, one of ``occ_model.teaching.quantities.QUANTITIES``.
+    tolerance
+        Largest difference that is right, as a fraction of the model's value.
+    scene
+        The scene that the question is about, which may differ from the one that the step sets.
+    """
+
+    quantity: str
+    tolerance: float
+    scene: Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of a lesson.
+
+    Parameters
+    ----------
+    goal
+        What to reach, in one sentence.
+    text
+        What to look at.
+    question
+        What to find out.
+    answer
+        The explanation, to compare with.
+    scene
+        The scene to show.
+    pane
+        The pane to show it in, empty for the current one.
+    photo
+        Name of the sample photo to open, empty for none.
+    control
+        The one parameter to change, empty where several or none are meant.
+    check
+        How the student's number is checked; None where the answer is in words.
+    equation
+        Name of the equation that explains the answer, empty for none.
+    animation
+        Whether the step shows how a rolling shutter exposes one column after the other.
+    """
+
+    goal: str
+    text: str
+    question: str
+    answer: str
+    scene: Scene
+    pane: str = ""
+    photo: str = ""
+    control: str = ""
+    check: Check | None = None
+    equation: str = ""
+    animation: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """A lesson.
+
+    Parameters
+    ----------
+    name
+        The file's name.
+    title
+        Its title.
+    summary
+        What one can do after it, in one sentence.
+    steps
+        Its steps, in order.
+    """
+
+    name: str
+    title: str
+    summary: str
+    steps: tuple[Step, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedAnswer:
+    """A student's answer to a step, checked.
+
+    Parameters
+    ----------
+    text
+        As it was typed.
+    outcome
+        Whether it is right, near, wrong, or no number; None where the answer is in words.
+    sentence
+        What to tell the student.
+    """
+
+    text: str
+    outcome: Outcome | None
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class LessonList:
+    """The lessons that were found.
+
+    Parameters
+    ----------
+    lessons
+        Those that come with the program, then those of the user's own folder.
+    problems
+        Why files of the user's own folder are no lessons: sentences by the file's name.
+    """
+
+    lessons: tuple[Lesson, ...]
+    problems: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))

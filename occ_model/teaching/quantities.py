@@ -1,0 +1,165 @@
+"""Quantities that a lesson can ask for: each computed by the model from the step's scene."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from occ_model.errors import OccError
+from occ_model.files.resources import resource_path
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, NONE, SECOND, Unit
+from occ_model.study.theory import band_model_frequency, null_frequency
+from occ_model.transmitter.packet import packet, packet_length
+
+FRAME_RATE = 30.0
+"""Frames a second of the film that a question about films means."""
+
+_BITS_A_SECOND = Unit("bit/s", ("", "k", "M"), spellings=(("bits/s", 1.0), ("bps", 1.0)))
+_PERCENT = Unit("%", shown=("%", 0.01))
+_COLUMN = Unit("columns", spellings=(("column", 1.0), ("px", 1.0)))
+_CHIP = Unit("chips", spellings=(("chip", 1.0),))
+
+
+@dataclass(frozen=True, slots=True)
+class LessonQuantity:
+    """Something that can be read off the window and computed by the model.
+
+    Parameters
+    ----------
+    meaning
+        What it is, in words.
+    unit
+        Its unit.
+    asked_in
+        The unit of an answer that is a number alone.
+    compute
+        Function of the scene and the name of the step's photo that gives its value in SI units.
+    """
+
+    meaning: str
+    unit: Unit
+    asked_in: str
+    compute: Callable[[Scene, str], float]
+
+
+def _limit(decoder: str) -> Callable[[Scene, str], float]:
+    def compute(scene: Scene, _photo: str) -> float:
+        # Some tenths of a second to import, and needed by few steps.
+        from occ_model.study.limits import limits
+
+        highest = limits(scene, decoder, images=5).highest_frequency
+        if highest is None:
+            raise OccError(f"The {decoder} decoder reads this scene at no frequency.")
+        return highest
+
+    return compute
+
+
+def _matched(scene: Scene, photo: str) -> Scene:
+    # Slow to import, and needed by few steps.
+    from occ_model.photo.match import match_photo
+    from occ_model.photo.reading.load import load_photo
+
+    return match_photo(load_photo(resource_path("photos", f"{photo}.jpg")), scene).scene
+
+
+def _chip_columns(scene: Scene, _photo: str = "") -> float:
+    return scene.transmitter.switching_period / scene.camera.readout_time
+
+
+def _bit_rate(scene: Scene, _photo: str = "") -> float:
+    transmitter = scene.transmitter
+    return transmitter.bits * transmitter.switching_frequency / packet_length(transmitter.bits)
+
+
+def _share_seen(scene: Scene, _photo: str = "") -> float:
+    camera = scene.camera
+    return min(1.0, FRAME_RATE * camera.columns * camera.readout_time)
+
+
+QUANTITIES: dict[str, LessonQuantity] = {
+    "chip-columns": LessonQuantity(
+        "columns that are read out while a chip lasts, t_LED / t_r",
+        _COLUMN,
+        "columns",
+        _chip_columns,
+    ),
+    "slope-columns": LessonQuantity(
+        "columns of a slope between two states, t / t_r",
+        _COLUMN,
+        "columns",
+        lambda scene, _: scene.camera.exposure_time / scene.camera.readout_time,
+    ),
+    "exposure-chips": LessonQuantity(
+        "chips that an exposure covers, t / t_LED",
+        _CHIP,
+        "chips",
+        lambda scene, _: scene.camera.exposure_time * scene.transmitter.switching_frequency,
+    ),
+    "packet-columns": LessonQuantity(
+        "columns of a packet",
+        _COLUMN,
+        "columns",
+        lambda scene, _: len(packet(scene)) * _chip_columns(scene),
+    ),
+    "frame-time": LessonQuantity(
+        "time from the first column's start to the last one's, columns times t_r",
+        SECOND,
+        "ms",
+        lambda scene, _: scene.camera.columns * scene.camera.readout_time,
+    ),
+    "band-model-end": LessonQuantity(
+        "switching frequency from which the band model is undefined, 1 / t",
+        HERTZ,
+        "kHz",
+        lambda scene, _: band_model_frequency(scene),
+    ),
+    "null-frequency": LessonQuantity(
+        "switching frequency at which an alternating pattern has no stripes, 2 / t",
+        HERTZ,
+        "kHz",
+        lambda scene, _: null_frequency(scene),
+    ),
+    "second-null": LessonQuantity(
+        "switching frequency at which they vanish for the second time, 4 / t",
+        HERTZ,
+        "kHz",
+        lambda scene, _: 2.0 * null_frequency(scene),
+    ),
+    "threshold-limit": LessonQuantity(
+        "highest switching frequency that the threshold decoder reads",
+        HERTZ,
+        "kHz",
+        _limit("threshold"),
+    ),
+    "bit-rate": LessonQuantity(
+        "bits sent a second, f times the bits over the chips of a packet",
+        _BITS_A_SECOND,
+        "bit/s",
+        _bit_rate,
+    ),
+    "share-seen": LessonQuantity(
+        f"share of the time that a film of {FRAME_RATE:g} frames a second sees",
+        _PERCENT,
+        "%",
+        _share_seen,
+    ),
+    "bit-rate-seen": LessonQuantity(
+        f"bits a second that a film of {FRAME_RATE:g} frames a second sees",
+        _BITS_A_SECOND,
+        "bit/s",
+        lambda scene, _: _bit_rate(scene) * _share_seen(scene),
+    ),
+    "photo-readout-time": LessonQuantity(
+        "readout time of the photo's camera",
+        SECOND,
+        "µs",
+        lambda scene, photo: _matched(scene, photo).camera.readout_time,
+    ),
+    "photo-code": LessonQuantity(
+        "code that the photo shows",
+        NONE,
+        "",
+        lambda scene, photo: float(_matched(scene, photo).transmitter.code),
+    ),
+}
+"""The quantities, by the name that a lesson's file uses."""

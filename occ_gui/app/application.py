@@ -86,8 +86,9 @@ class Application(QObject):
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
         self.learning = LearningPanes(
-            self.window, self.store, self.photos, self.image, self.profile
-        )
+            self.window, self.store, self.photos, self.image, self.profile,
+            controls=self.controls, preferences=self.preferences,
+        )  # fmt: skip
         self.simulation.picture_ready.connect(self.image.show_picture)
         # The profile follows what is drawn in it: the results before, and the comparison.
         comparison = self.photo_wiring.comparison
@@ -207,7 +208,9 @@ class Application(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all requested results are shown."""
-        parts = (self.simulation, self.outdated, self.photo_wiring, self.desktop)
+        parts = (
+            self.simulation, self.outdated, self.photo_wiring, self.desktop, self.learning,
+        )  # fmt: skip
         return all(part.is_idle for part in parts)
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
@@ -305,4 +308,5 @@ class Application(QObject):
         self.study.stop()
         self.photo_wiring.stop()
         self.detection_map.stop()
+        self.learning.stop()
         self.desktop.stop()

@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QDockWidget, QWidget
 
+from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import UserState
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.before_controller import BeforeController
@@ -15,14 +16,15 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.pins.pinned import Pinned
 from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.lazy_pane import LazyPane, PaneContent
 
 if TYPE_CHECKING:
     from occ_gui.explanation.wiring import ExplanationWiring
-    from occ_gui.lessons.lesson_controller import LessonController
     from occ_gui.lessons.lesson_view import LessonView
+    from occ_gui.lessons.wiring import LessonWiring
     from occ_gui.pins.compare_view import CompareView
 
 
@@ -56,6 +58,10 @@ class LearningPanes(QObject):
     image, profile
         The panes that show the results before the last change; columns are selected in the
         profile.
+    controls
+        The controls, of which a lesson marks one.
+    preferences
+        Stores the folder of a lesson's report.
     """
 
     status_message = Signal(str)
@@ -71,11 +77,15 @@ class LearningPanes(QObject):
         photos: PhotoController,
         image: ImageView,
         profile: ProfileView,
+        *,
+        controls: ControlPanel,
+        preferences: Preferences,
     ) -> None:
         super().__init__()
         self._window = window
         self._scenes, self._photos = scenes, photos
         self._profile = profile
+        self._controls, self._preferences = controls, preferences
         self._snapshot: Snapshot | None = None
         self.before = BeforeController(scenes, [profile, image.before])
         self.pins = PinController(scenes, self, self._is_present)
@@ -113,28 +123,35 @@ class LearningPanes(QObject):
         return LessonView()
 
     @cached_property
-    def lessons(self) -> "LessonController":
-        """The controller of the lessons, connected with their pane."""
-        from occ_gui.lessons.lesson_controller import LessonController
+    def lessons(self) -> "LessonWiring":
+        """The lessons, connected with their pane."""
+        from occ_gui.lessons.wiring import LessonWiring
 
-        pane = self.lessons_pane
-        controller = LessonController(self._scenes, self._photos, pane)
-        pane.chosen.connect(controller.choose)
-        pane.moved.connect(controller.go)
-        pane.list_asked.connect(controller.leave)
-        pane.again_asked.connect(controller.set_again)
-        controller.status_message.connect(self.status_message)
-        controller.pane_wanted.connect(self._window.bring_to_front)
-        return controller
+        wiring = LessonWiring(
+            self._scenes, self._photos, self.lessons_pane, self._controls, self._preferences
+        )
+        wiring.status_message.connect(self.status_message)
+        wiring.controller.pane_wanted.connect(self._window.bring_to_front)
+        return wiring
 
     def users_own(self) -> UserState | None:
         """Return what the user was working on, if a lesson is under way."""
-        return self.lessons.users_own() if "lessons" in vars(self) else None
+        return self.lessons.controller.users_own() if "lessons" in vars(self) else None
 
     def end_lesson(self) -> None:
         """Restore what the user was working on, if a lesson is under way."""
         if "lessons" in vars(self):
-            self.lessons.restore_user()
+            self.lessons.end()
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all answers are checked and all reports written."""
+        return "lessons" not in vars(self) or self.lessons.is_idle
+
+    def stop(self) -> None:
+        """Stop all work in the background."""
+        if "lessons" in vars(self):
+            self.lessons.stop()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Pass new results on to the panes and controllers that use them."""
@@ -171,7 +188,7 @@ class LearningPanes(QObject):
         return self.compare, self.compare.set_seen
 
     def _learn(self) -> PaneContent:
-        return self.lessons_pane, self.lessons.set_seen
+        return self.lessons_pane, self.lessons.controller.set_seen
 
     def _connect_menus(self) -> None:
         actions = self._window.actions_by_name

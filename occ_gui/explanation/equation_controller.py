@@ -37,6 +37,7 @@ class EquationController(QObject):
         self._pane = pane
         self._seen = False
         self._shown: Scene | None = None
+        self._only = ""
         scenes.changed.connect(self._show)
 
     def set_seen(self, seen: bool) -> None:
@@ -46,6 +47,11 @@ class EquationController(QObject):
             self._shown = None  # changes made while hidden are not recent
             self._show(self._scenes.scene)
 
+    def show_only(self, name: str) -> None:
+        """Show the equation of this name only; an empty one means all."""
+        self._only, self._shown = name, None
+        self._show(self._scenes.scene)
+
     def _show(self, scene: Scene) -> None:
         if not self._seen:
             return
@@ -53,4 +59,5 @@ class EquationController(QObject):
         changed = frozenset[str]()
         if last is not None:
             changed = frozenset(n for n in _NAMES if last.value(n) != scene.value(n))
-        self._pane.show_equations(equations(scene), changed)
+        chosen = [e for e in equations(scene) if self._only in ("", e.name)]
+        self._pane.show_equations(chosen, changed)

@@ -1,14 +1,14 @@
 """Lesson controller: each step sets its scene, opens its photo and shows its pane."""
 
-from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import UserState
+from occ_gui.lessons.answers import LessonAnswers
+from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
@@ -16,20 +16,9 @@ from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
-from occ_model.results.teaching import Lesson, Step
+from occ_model.results.lessons import CheckedAnswer, Lesson, LessonList, Step
 from occ_model.teaching.lessons import lessons
-
-
-class LessonPane(Protocol):
-    """A pane that shows lessons and their steps."""
-
-    def list_lessons(
-        self, found: Sequence[Lesson], reached: Mapping[str, int], failure: str
-    ) -> None:
-        """List lessons with the steps reached, or the reason why there are none."""
-
-    def show_step(self, lesson: Lesson, place: int) -> None:
-        """Show a step of a lesson."""
+from occ_model.teaching.rolling_shutter import rolling_shutter
 
 
 class LessonController(QObject):
@@ -46,6 +35,8 @@ class LessonController(QObject):
         Opens the photo of a step.
     pane
         Shows the lessons.
+    answers
+        Checks and keeps the answers.
     """
 
     status_message = Signal(str)
@@ -54,22 +45,49 @@ class LessonController(QObject):
     pane_wanted = Signal(str)
     """The name of the pane that a step refers to."""
 
-    def __init__(self, scenes: SceneStore, photos: PhotoController, pane: LessonPane) -> None:
+    control_wanted = Signal(str)
+    """The name of the parameter that a step is about; empty for none."""
+
+    equation_wanted = Signal(str)
+    """The name of the equation that explains a step; empty for none."""
+
+    report_asked = Signal(Lesson)
+    """The lesson whose report is to be written."""
+
+    def __init__(
+        self,
+        scenes: SceneStore,
+        photos: PhotoController,
+        pane: LessonView,
+        answers: LessonAnswers,
+    ) -> None:
         super().__init__()
         self._scenes = scenes
         self._photos = photos
         self._pane = pane
-        self._all: tuple[Lesson, ...] = ()
+        self._answers = answers
+        self._all = LessonList(())
         self._current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
         self._open: Path | None = None
         self._user: UserState | None = None
+        self._last: Lesson | None = None
         photos.opened.connect(self._note_photo)
+        answers.checked.connect(self._show_checked)
+        answers.failed.connect(self._show_failed)
+        scenes.changed.connect(self._draw_shutter)
+        pane.list.chosen.connect(self.choose)
+        pane.list_asked.connect(self.leave)
+        pane.step.moved.connect(self.go)
+        pane.step.again_asked.connect(self.set_again)
+        pane.step.control_asked.connect(self._want_control)
+        pane.step.answer_given.connect(self._check)
+        pane.end.report_asked.connect(self._ask_report)
 
     def set_seen(self, seen: bool) -> None:
-        """Read the lessons when their pane is first shown."""
-        if seen and not self._all:
+        """Read the lessons when their pane is shown, unless one is under way."""
+        if seen and self._current is None and self._last is None:
             failure = ""
             try:
                 self._all = lessons()
@@ -78,18 +96,20 @@ class LessonController(QObject):
             except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
                 failure = self.tr("The lessons cannot be read: {reason}.").format(reason=reason)
-            self._pane.list_lessons(self._all, {}, failure)
+            self._pane.list_lessons(
+                self._all.lessons, self._places | self._done, failure, self._all.problems
+            )
 
     def choose(self, name: str) -> None:
         """Continue a lesson at the step reached."""
-        for lesson in self._all:
+        for lesson in self._all.lessons:
             if lesson.name == name:
                 self._begin()
-                self._current = lesson
+                self._current, self._last = lesson, None
                 self._go(self._places.get(name, 0))
 
     def go(self, steps: int) -> None:
-        """Go forward or back by some steps; after the last one return to the list."""
+        """Go forward or back by some steps; after the last one end the lesson."""
         if self._current is None:
             return
         name, count = self._current.name, len(self._current.steps)
@@ -99,13 +119,20 @@ class LessonController(QObject):
             return
         self._done[name] = count
         self._places[name] = 0
-        self.leave()
+        self._last, self._current = self._current, None
+        self.control_wanted.emit("")
+        self.restore_user()
+        given = [each.answer for each in self._answers.all_of(self._last)]
+        self._pane.show_end(self._last, given)
 
     def leave(self) -> None:
         """End the lesson and return to the list; the step reached is kept."""
-        self._current = None
+        self._current = self._last = None
+        self.control_wanted.emit("")
         self.restore_user()
-        self._pane.list_lessons(self._all, self._places | self._done, "")
+        self._pane.list_lessons(
+            self._all.lessons, self._places | self._done, "", self._all.problems
+        )
 
     def users_own(self) -> UserState | None:
         """Return what the end of the lesson restores; None where none is under way."""
@@ -146,8 +173,12 @@ class LessonController(QObject):
             return
         self._places[lesson.name] = place
         self._done.pop(lesson.name, None)
-        self._pane.show_step(lesson, place)
+        step = lesson.steps[place]
+        self._pane.show_step(lesson, place, self._answers.of(lesson, place))
+        self.equation_wanted.emit(step.equation)
         self._set(lesson, place)
+        self.control_wanted.emit(step.control)
+        self._draw_shutter()
 
     def _set(self, lesson: Lesson, place: int) -> None:
         step = lesson.steps[place]
@@ -171,3 +202,35 @@ class LessonController(QObject):
 
     def _note_photo(self, photo: Photo | None) -> None:
         self._open = None if photo is None else photo.path
+
+    def _step(self) -> Step | None:
+        """Return the step under way."""
+        lesson = self._current
+        return None if lesson is None else lesson.steps[self._places[lesson.name]]
+
+    def _want_control(self) -> None:
+        step = self._step()
+        self.control_wanted.emit("" if step is None else step.control)
+
+    def _draw_shutter(self) -> None:
+        step = self._step()
+        if step is not None and step.animation:
+            self._pane.step.animation.show_shutter(rolling_shutter(self._scenes.scene))
+
+    def _check(self, text: str) -> None:
+        lesson = self._current
+        if lesson is not None:
+            self._pane.step.answer_field.show_waiting()
+            self._answers.check(lesson, self._places[lesson.name], text, self._scenes.scene)
+
+    def _show_checked(self, lesson: Lesson, place: int) -> None:
+        answer = self._answers.of(lesson, place)
+        if lesson is self._current and place == self._places[lesson.name] and answer is not None:
+            self._pane.step.answer_field.show_checked(answer)
+
+    def _show_failed(self, sentence: str) -> None:
+        self._pane.step.answer_field.show_checked(CheckedAnswer("", None, sentence))
+
+    def _ask_report(self) -> None:
+        if self._last is not None:
+            self.report_asked.emit(self._last)

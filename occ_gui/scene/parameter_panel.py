@@ -25,12 +25,14 @@ class ParameterPanel(QWidget):
     def __init__(self, names: Iterable[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.rows: dict[str, ParameterRow] = {}
+        self.labels: dict[str, QLabel] = {}
         layout = QVBoxLayout(self)
         layout.setSpacing(2)
         for name in names:
             row = row_for(PARAMETERS[name])
             self.rows[name] = row
-            layout.addWidget(_label(PARAMETERS[name]))
+            self.labels[name] = _label(PARAMETERS[name])
+            layout.addWidget(self.labels[name])
             layout.addWidget(row)
             layout.addSpacing(6)
         layout.addStretch(1)

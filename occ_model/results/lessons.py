@@ -127,3 +127,22 @@ class LessonList:
 
     lessons: tuple[Lesson, ...]
     problems: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+
+@dataclass(frozen=True, slots=True)
+class AnsweredStep:
+    """A step with a student's answer to it.
+
+    Parameters
+    ----------
+    step
+        The step.
+    answer
+        The answer; None where there is none.
+    scene
+        The scene at which it was given, which the report draws.
+    """
+
+    step: Step
+    answer: CheckedAnswer | None
+    scene: Scene

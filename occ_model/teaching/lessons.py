@@ -124,7 +124,7 @@ def _line(text: str, step: int | None, key: str) -> int:
         end = heads[step + 1] if step + 1 < len(heads) else len(lines)
     else:  # steps that are not written as tables of their own
         begin, end = 0, len(lines)
-    wanted = re.compile(rf"\s*(?:\[\s*step\s*\.\s*)?{re.escape(key)}\s*(?:=|\.|\])")
+    wanted = re.compile(rf"\s*(?:\[+\s*(?:step\s*\.\s*)?)?{re.escape(key)}\s*(?:=|\.|\])")
     found = (i for i in range(begin, end) if key and wanted.match(lines[i]))
     return next(found, begin) + 1
 

@@ -20,7 +20,7 @@ from occ_gui.scene.gesture import NO_GESTURE, new_gesture
 from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
-from occ_model.results.teaching import Lesson
+from occ_model.results.lessons import LessonList
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.provenance import ENDINGS
@@ -46,11 +46,13 @@ def smaller(scene: Scene) -> Scene:
     return scene.replace(rows=150, columns=1200)
 
 
-def smaller_lessons() -> tuple[Lesson, ...]:
+def smaller_lessons() -> LessonList:
     """Give the lessons with pictures that take a few milliseconds."""
-    return tuple(
-        replace(each, steps=tuple(replace(step, scene=smaller(step.scene)) for step in each.steps))
-        for each in lessons()
+    return LessonList(
+        tuple(
+            replace(each, steps=tuple(replace(s, scene=smaller(s.scene)) for s in each.steps))
+            for each in lessons().lessons
+        )
     )
 
 
@@ -111,7 +113,7 @@ class Monkey:
             self.pin: 20,
             self.go_to_what_is_pinned: 10,
             self.clear_the_pins: 6,
-            self.choose_an_lesson: 10,
+            self.choose_a_lesson: 10,
             self.step_on_or_back: 20,
             self.leave_the_lesson: 6,
             self.choose_a_theme: 6,
@@ -262,25 +264,26 @@ class Monkey:
 
     def _guide(self) -> LessonView:
         guide = self._application.learning.lessons_pane
-        if not guide.choices:
+        if not guide.list.choices:
             self._trigger("lessons")
-            self._qtbot.waitUntil(lambda: bool(guide.choices))
+            self._qtbot.waitUntil(lambda: bool(guide.list.choices))
         return guide
 
-    def choose_an_lesson(self) -> None:
+    def choose_a_lesson(self) -> None:
         guide = self._guide()
-        guide.all.click()
-        self._random.choice(guide.choices).click()
+        guide.step.all.click()
+        self._random.choice(guide.list.choices).click()
 
     def step_on_or_back(self) -> None:
         guide = self._guide()
-        if not guide.next.isVisibleTo(guide):
-            guide.choices[0].click()
-        buttons = (guide.next, guide.next, guide.back, guide.again, guide.reveal)
+        if not guide.step.next.isVisibleTo(guide):
+            guide.list.choices[0].click()
+        step = guide.step
+        buttons = (step.next, step.next, step.back, step.again, step.reveal, step.control)
         self._random.choice(buttons).click()
 
     def leave_the_lesson(self) -> None:
-        self._guide().all.click()
+        self._guide().step.all.click()
 
     def save_the_scene(self) -> None:
         self._dialogs.path = self._folder / "scene.toml"

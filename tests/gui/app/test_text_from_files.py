@@ -16,10 +16,12 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.files.document import Document
+from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip, plain
+from occ_model.results.lessons import LessonList
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
@@ -112,18 +114,19 @@ def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> 
     assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
 
 
-def test_an_lessons_title_is_text(
+def test_a_lessons_title_is_text(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    hostile = tuple(replace(each, title=f"{TAG} & co") for each in lessons())
-    monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: hostile)
-    view = LessonView()
+    hostile = tuple(replace(each, title=f"{TAG} & co") for each in lessons().lessons)
+    monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: LessonList(hostile))
+    view, answers = LessonView(), LessonAnswers()
     qtbot.addWidget(view)
-    controller = LessonController(application.store, application.photos, view)
+    controller = LessonController(application.store, application.photos, view, answers)
     controller.set_seen(True)
-    assert plain(view.choices[0].text()).startswith(f"{TAG} & co")
+    assert plain(view.list.choices[0].text()).startswith(f"{TAG} & co")
     controller.choose(hostile[0].name)
-    assert seen(view.place.text()).startswith(f"{TAG} & co, step 1")
+    assert seen(view.step.place.text()).startswith(f"{TAG} & co, step 1")
+    answers.runner.stop()
 
 
 def test_a_name_that_is_no_utf_8_is_shown_and_remembered(

@@ -18,6 +18,7 @@ from occ_gui.app.start import kept_settings
 from occ_gui.files.kept_file import LARGEST, MOST_NAMES, usable_settings_path
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
+from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_model.effects.registry import NAMES
@@ -246,7 +247,9 @@ def test_unreadable_lessons_are_reported(
     monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", fail)
     view = LessonView()
     qtbot.addWidget(view)
-    LessonController(application.store, application.photos, view).set_seen(True)
+    answers = LessonAnswers()
+    LessonController(application.store, application.photos, view, answers).set_seen(True)
+    answers.runner.stop()
     told = [label.text() for label in view.findChildren(QLabel)]
     assert any(type(error).__name__ in text for text in told)
-    assert not view.choices
+    assert not view.list.choices

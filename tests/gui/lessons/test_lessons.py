@@ -27,7 +27,7 @@ def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
     """Open the lessons by the menu."""
     user.choose("&Lessons")
     guide = application.learning.lessons_pane
-    qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.choices))
+    qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
     return guide
 
 
@@ -38,9 +38,9 @@ def in_front(application: Application, name: str) -> bool:
 def test_opening_the_lessons_lists_them_and_changes_nothing(
     application: Application, guide: LessonView, small_scene: Scene
 ) -> None:
-    titles = [lesson.title for lesson in lessons()]
-    assert len(titles) == 5
-    for button, title in zip(guide.choices, titles, strict=True):
+    titles = [lesson.title for lesson in lessons().lessons]
+    assert len(titles) == 7
+    for button, title in zip(guide.list.choices, titles, strict=True):
         assert button.text().startswith(title)
         assert button.toolTip()
     assert application.store.scene == small_scene
@@ -48,55 +48,55 @@ def test_opening_the_lessons_lists_them_and_changes_nothing(
 
 
 def test_each_pane_that_a_step_names_is_a_dock() -> None:
-    named = {step.pane for lesson in lessons() for step in lesson.steps}
+    named = {step.pane for lesson in lessons().lessons for step in lesson.steps}
     assert named <= set(PANES)
 
 
 def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
     application: Application, guide: LessonView, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    lesson = lessons()[0]
-    guide.choices[0].click()
+    lesson = lessons().lessons[0]
+    guide.list.choices[0].click()
     user.wait_until_idle()
     step = lesson.steps[0]
     assert application.store.scene == step.scene
     assert application.store.undo_stack.count() == 1
-    assert guide.question.text() == step.question
-    assert "step 1 of 3" in guide.place.text()
-    assert not guide.back.isEnabled()
+    assert guide.step.question.text() == step.question
+    assert "step 1 of 3" in guide.step.place.text()
+    assert not guide.step.back.isEnabled()
     qtbot.waitUntil(lambda: in_front(application, step.pane))
     user.choose("&Undo")
     assert application.store.scene == small_scene
 
 
 def test_the_answer_is_shown_on_demand_until_the_next_step(guide: LessonView, user: User) -> None:
-    guide.choices[0].click()
-    assert not guide.answer.isVisible()
-    guide.reveal.click()
-    assert guide.answer.isVisible()
-    assert "<i>t</i><sub>r</sub>" in guide.answer.text()
-    assert guide.reveal.text() == "Hide the answer"
-    guide.next.click()
-    assert not guide.answer.isVisible()
-    assert guide.reveal.text() == "Show the answer"
+    guide.list.choices[1].click()
+    assert not guide.step.answer.isVisible()
+    guide.step.reveal.click()
+    assert guide.step.answer.isVisible()
+    assert "<i>t</i><sub>r</sub>" in guide.step.answer.text()
+    assert guide.step.reveal.text() == "Hide the explanation"
+    guide.step.next.click()
+    assert not guide.step.answer.isVisible()
+    assert guide.step.reveal.text() == "Show the explanation"
     user.wait_until_idle()
 
 
 def test_back_next_and_again_move_and_set_the_scene(
     application: Application, guide: LessonView, user: User
 ) -> None:
-    steps = lessons()[0].steps
-    guide.choices[0].click()
-    guide.next.click()
+    steps = lessons().lessons[0].steps
+    guide.list.choices[0].click()
+    guide.step.next.click()
     assert application.store.scene == steps[1].scene
     application.store.change(switching_frequency=9e3)
-    guide.again.click()
+    guide.step.again.click()
     assert application.store.scene == steps[1].scene
-    guide.back.click()
+    guide.step.back.click()
     assert application.store.scene == steps[0].scene
-    guide.next.click()
-    guide.next.click()
-    assert guide.next.text() == "Done"
+    guide.step.next.click()
+    guide.step.next.click()
+    assert guide.step.next.text() == "Done"
     assert application.store.scene == steps[2].scene
     user.wait_until_idle()
 
@@ -104,20 +104,22 @@ def test_back_next_and_again_move_and_set_the_scene(
 def test_progress_is_kept_and_what_is_done_is_ticked(
     application: Application, guide: LessonView, user: User
 ) -> None:
-    guide.choices[0].click()
-    guide.next.click()
-    guide.all.click()
-    assert "step 2 of 3" in guide.choices[0].text()
+    guide.list.choices[0].click()
+    guide.step.next.click()
+    guide.step.all.click()
+    assert "step 2 of 3" in guide.list.choices[0].text()
     application.window.docks["lessons"].hide()
     user.choose("&Lessons")
-    guide.choices[0].click()
-    assert "step 2 of 3" in guide.place.text()
-    guide.next.click()
-    guide.next.click()
-    assert guide.choices[0].text().startswith("✓ ")
-    assert "steps" in guide.choices[1].text()
-    guide.choices[0].click()
-    assert "step 1 of 3" in guide.place.text()
+    guide.list.choices[0].click()
+    assert "step 2 of 3" in guide.step.place.text()
+    guide.step.next.click()
+    guide.step.next.click()
+    assert guide.end.title.text() == "Done: What is a rolling shutter?"
+    guide.end.all.click()
+    assert guide.list.choices[0].text().startswith("✓ ")
+    assert "steps" in guide.list.choices[1].text()
+    guide.list.choices[0].click()
+    assert "step 1 of 3" in guide.step.place.text()
     user.wait_until_idle()
 
 
@@ -126,17 +128,17 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(
 ) -> None:
     opened: list[str] = []
     application.photos.opened.connect(lambda p: opened.append("" if p is None else p.path.stem))
-    guide.choices[4].click()
+    guide.list.choices[5].click()
     user.wait_until_idle()
     qtbot.waitUntil(lambda: in_front(application, "photo"))
-    assert application.store.scene == lessons()[4].steps[0].scene
-    guide.again.click()
+    assert application.store.scene == lessons().lessons[5].steps[0].scene
+    guide.step.again.click()
     user.wait_until_idle()
-    guide.next.click()
+    guide.step.next.click()
     user.wait_until_idle()
     assert opened == ["led-1khz", "packets-6khz"]
-    guide.all.click()
-    guide.choices[1].click()
+    guide.step.all.click()
+    guide.list.choices[1].click()
     user.wait_until_idle()
     assert opened == ["led-1khz", "packets-6khz", ""]
 
@@ -146,7 +148,7 @@ def test_a_photo_of_the_users_own_stays_open(
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
-    guide.choices[1].click()
+    guide.list.choices[1].click()
     user.wait_until_idle()
     assert application.window.actions_by_name["close_photo"].isEnabled()
 
@@ -154,7 +156,7 @@ def test_a_photo_of_the_users_own_stays_open(
 def test_the_photos_give_the_numbers_that_the_answers_state(
     application: Application, guide: LessonView, user: User
 ) -> None:
-    guide.choices[4].click()
+    guide.list.choices[5].click()
     user.wait_until_idle()
     for expected in ("12.8", "8.9"):
         user.choose("&Match photo")
@@ -162,7 +164,7 @@ def test_the_photos_give_the_numbers_that_the_answers_state(
         value = float(found.partition(": ")[2].split()[0])
         assert f"{value:.1f}" == expected, found
         if expected == "12.8":
-            guide.next.click()
+            guide.step.next.click()
             user.wait_until_idle()
     user.choose("&Apply to the scene")
     assert application.store.scene.transmitter.code == 345
@@ -178,8 +180,8 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
     monkeypatch.setattr(lesson_controller, "lessons", fail)
     user.choose("&Lessons")
     guide = application.learning.lessons_pane
-    qtbot.waitUntil(lambda: "&lt;song&gt;" in guide._invitation.text())
-    assert guide.choices == []
+    qtbot.waitUntil(lambda: "<song>" in guide.list.message.text())
+    assert guide.list.choices == []
 
 
 def test_a_missing_photo_is_reported(
@@ -189,7 +191,7 @@ def test_a_missing_photo_is_reported(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(lesson_controller, "sample_photos", list)
-    guide.choices[4].click()
+    guide.list.choices[5].click()
     assert user.message == "The photo led-1khz is missing."
     user.wait_until_idle()
 
@@ -209,61 +211,61 @@ def test_the_list_follows_the_theme(application: Application, guide: LessonView)
     for theme, is_light in (("dark", False), ("light", True), ("dark", False), ("system", True)):
         application.desktop.theme.choose(theme)
         QApplication.processEvents()
-        picture = guide.choices[0].grab().toImage()
+        picture = guide.list.choices[0].grab().toImage()
         back = picture.pixelColor(picture.width() - 12, picture.height() // 2)
         assert (back.lightness() > 128) == is_light, theme
 
 
 @pytest.mark.parametrize("how", ["all", "done"])
-def test_an_lesson_has_a_state_of_its_own_and_returns_the_users(
+def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(
     application: Application, guide: LessonView, user: User, small_scene: Scene, how: str
 ) -> None:
     application.settings.set_tolerance(7.0)
     application.settings.set_noise("exact")
     application.store.force("jpeg", True)
     mine = application.settings.settings
-    guide.choices[0].click()
+    guide.list.choices[0].click()
     user.wait_until_idle()
     assert application.settings.settings == FIRST_SETTINGS
     application.store.force("vignetting", True)
     application.store.change(distance=2.0)
-    guide.next.click()
+    guide.step.next.click()
     assert application.settings.settings == FIRST_SETTINGS
     if how == "all":
-        guide.all.click()
+        guide.step.all.click()
     else:
-        guide.next.click()
-        guide.next.click()
+        guide.step.next.click()
+        guide.step.next.click()
     user.wait_until_idle()
     assert (application.store.scene, application.settings.settings) == (small_scene, mine)
     assert "end of the lesson" in user.entry("&Undo").text()
 
 
-def test_the_users_photo_returns_after_an_lesson(
+def test_the_users_photo_returns_after_a_lesson(
     application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
-    guide.choices[4].click()
+    guide.list.choices[5].click()
     user.wait_until_idle()
     assert application.desktop._photo != photo_file
-    guide.all.click()
+    guide.step.all.click()
     user.wait_until_idle()
     assert application.desktop._photo == photo_file
 
 
-def test_a_photo_opened_during_an_lesson_stays_open(
+def test_a_photo_opened_during_a_lesson_stays_open(
     application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:
-    guide.choices[1].click()
+    guide.list.choices[1].click()
     application.open_photo(photo_file)
     user.wait_until_idle()
-    guide.all.click()
+    guide.step.all.click()
     user.wait_until_idle()
     assert application.desktop._photo == photo_file
 
 
-def test_a_crash_during_an_lesson_leaves_the_users_own_state(
+def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     application: Application,
     guide: LessonView,
     user: User,
@@ -277,7 +279,7 @@ def test_a_crash_during_an_lesson_leaves_the_users_own_state(
     application.open_photo(photo_file)
     user.wait_until_idle()
     before = UserState(small_scene, application.settings.settings, photo_file)
-    guide.choices[4].click()
+    guide.list.choices[5].click()
     user.wait_until_idle()
     assert application.store.scene != before.scene
     assert application.desktop._photo != before.photo
@@ -287,7 +289,7 @@ def test_a_crash_during_an_lesson_leaves_the_users_own_state(
     assert Scene.from_toml(record["scene"]) == before.scene
     assert record["settings"] == asdict(before.settings)
     assert record["photo"] == str(before.photo)
-    guide.all.click()
+    guide.step.all.click()
     user.wait_until_idle()
     application.store.change(distance=2.0)
     autosave.write()
@@ -296,7 +298,7 @@ def test_a_crash_during_an_lesson_leaves_the_users_own_state(
     autosave.end()
 
 
-def test_a_window_closed_during_an_lesson_keeps_the_users_scene(
+def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
     application: Application,
     guide: LessonView,
     user: User,
@@ -306,7 +308,7 @@ def test_a_window_closed_during_an_lesson_keeps_the_users_scene(
     written: list[Scene] = []
     autosave = application.desktop.autosave
     monkeypatch.setattr(autosave, "end", lambda: written.append(application.store.scene))
-    guide.choices[0].click()
+    guide.list.choices[0].click()
     user.wait_until_idle()
     assert application.store.scene != small_scene
     application.window.close()

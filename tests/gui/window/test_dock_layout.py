@@ -192,11 +192,11 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
     window.bring_to_front("lessons")
     assert_faultless(qtbot, window, "list of lessons")
     for place in (0, 2):
-        learning.lessons_pane.choices[place].click()
-        learning.lessons_pane.reveal.click()
+        learning.lessons_pane.list.choices[place].click()
+        learning.lessons_pane.step.reveal.click()
         user.wait_until_idle()
         assert_faultless(qtbot, window, "answer")
-        learning.lessons_pane.all.click()
+        learning.lessons_pane.step.all.click()
     assert window.size() == size
 
 

@@ -1,0 +1,82 @@
+"""Answer field: what a student types, a button to check it, and what the check says."""
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
+
+from occ_gui.lessons.texts import button, paragraph
+from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_model.results.lessons import CheckedAnswer
+
+_LONGEST = 300
+"""Characters of an answer."""
+
+_SIGNS = {"right": "✓", "near": "≈", "wrong": "✗", "unreadable": "?", None: "→"}
+"""The outcome as a sign, so that it is not told by colour alone."""
+
+
+class AnswerField(QWidget):
+    """A field for a number or for words, with a button and a sentence."""
+
+    checked = Signal(str)
+    """The text that is to be checked."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.field = QLineEdit()
+        self.field.setMaxLength(_LONGEST)
+        self.field.setAccessibleName(self.tr("Your answer"))
+        leave_undo_to_window(self.field)
+        self.unit = QLabel()
+        self.check = button(self.tr("Check"), self.tr("Compare it with the model (Enter)."))
+        self.check.clicked.connect(self._ask)
+        self.field.returnPressed.connect(self._ask)
+        self.field.textEdited.connect(self._forget)
+        self.sentence = paragraph()
+        self.sentence.setAccessibleName(self.tr("What the check says"))
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.field, 1)
+        row.addWidget(self.unit)
+        row.addWidget(self.check)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(row)
+        layout.addWidget(self.sentence)
+
+    def begin(self, unit: str, is_number: bool, before: CheckedAnswer | None) -> None:
+        """Show an empty field, or the answer given before."""
+        self.unit.setText(unit)
+        self.unit.setVisible(bool(unit))
+        self.field.setPlaceholderText(
+            self.tr("a number") if is_number else self.tr("in your own words")
+        )
+        self.check.setText(self.tr("Check") if is_number else self.tr("Keep"))
+        self.field.setText("" if before is None else before.text)
+        if before is None:
+            self._forget()
+        else:
+            self.show_checked(before)
+
+    def show_checked(self, answer: CheckedAnswer) -> None:
+        """Show what the check says."""
+        self.check.setEnabled(True)
+        self.sentence.setText(f"{_SIGNS[answer.outcome]}  {answer.sentence}")
+        self.sentence.show()
+
+    def show_waiting(self) -> None:
+        """Show that the model computes the answer."""
+        self.check.setEnabled(False)
+        self.sentence.setForegroundRole(QPalette.ColorRole.WindowText)
+        self.sentence.setText(self.tr("The model computes…"))
+        self.sentence.show()
+
+    def _ask(self) -> None:
+        if self.field.text().strip():
+            self.checked.emit(self.field.text())
+
+    def _forget(self) -> None:
+        self.check.setEnabled(True)
+        self.sentence.clear()
+        self.sentence.hide()

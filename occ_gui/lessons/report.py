@@ -1,0 +1,84 @@
+"""Report of a lesson: asks for a file, and writes it on a thread."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QWidget
+
+from occ_gui.background.latest_wins import LatestWins
+from occ_gui.files.preferences import Preferences
+from occ_model.errors import one_line
+from occ_model.results.lessons import AnsweredStep, Lesson
+
+_AUTHOR = "lessons/author"
+_ENDING = ".pdf"
+
+
+@dataclass(frozen=True, slots=True)
+class _Job:
+    path: Path
+    lesson: Lesson
+    steps: Sequence[AnsweredStep]
+    author: str
+
+
+class LessonReports(QObject):
+    """Writes the reports of lessons.
+
+    Parameters
+    ----------
+    window
+        The parent of the dialogs.
+    preferences
+        Stores the folder and the student's name.
+    """
+
+    status_message = Signal(str)
+    """The outcome."""
+
+    def __init__(self, window: QWidget | None, preferences: Preferences) -> None:
+        super().__init__()
+        self._window, self._preferences = window, preferences
+        self.runner: LatestWins[_Job, Path] = LatestWins(_write, "lesson report")
+        self.runner.finished.connect(self._report)
+        self.runner.failed.connect(self.status_message)
+
+    def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep]) -> None:
+        """Let the user enter a name and choose a file, and write the report."""
+        author, wanted = QInputDialog.getText(
+            self._window, self.tr("Report"), self.tr("Your name, as it shall stand on the report:"),
+            text=self._preferences.recall(_AUTHOR),
+        )  # fmt: skip
+        if not wanted:
+            return
+        author = one_line(author.strip())
+        self._preferences.keep(_AUTHOR, author)
+        start = Path(self._preferences.folder, f"{lesson.name}{_ENDING}")
+        chosen, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save the report"), str(start),
+            self.tr("PDF document (*.pdf);;PNG picture (*.png);;SVG drawing (*.svg)"),
+        )  # fmt: skip
+        if chosen:
+            path = Path(chosen)
+            self.write(path if path.suffix else path.with_suffix(_ENDING), lesson, steps, author)
+
+    def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
+        """Write the report of a lesson to a file."""
+        self.status_message.emit(self.tr("Drawing…"))
+        self.runner.submit(_Job(path, lesson, tuple(steps), author))
+
+    def _report(self, path: Path) -> None:
+        self._preferences.visit(path)
+        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+
+
+def _write(job: _Job) -> Path:
+    # matplotlib takes half a second to import.
+    from occ_model.figures.lesson_report import write_lesson_report
+
+    today = date.today().isoformat()
+    write_lesson_report(job.path, job.lesson, job.steps, author=job.author, date=today)
+    return job.path

@@ -1,0 +1,185 @@
+"""Slow animation of a rolling shutter: columns are exposed one after the other."""
+
+from PySide6.QtCore import QRectF, QSize, Qt, QTimer
+from PySide6.QtGui import (
+    QColor,
+    QHideEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QPen,
+    QShowEvent,
+)
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.teaching.rolling_shutter import RollingShutter
+
+_LOOP_MS = 9000
+_TURN_MS = 33
+_PAUSE = 0.12
+"""Share of a loop for which the finished picture stays."""
+
+_LIT, _DARK = QColor("#f2c14e"), QColor("#3c4048")
+_LAMP_HEIGHT, _STRIPE_HEIGHT, _GAP = 18, 26, 6
+_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_Return)
+
+
+class ShutterAnimation(QWidget):
+    """The LED over time at the top, a bar for each column's exposure, and the stripes below.
+
+    Time runs to the right. A click or the space bar stops it and lets it go on.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._shutter: RollingShutter | None = None
+        self.moment = 0.0
+        """Share of the animation that has passed, from 0 to 1."""
+        self._is_stopped = False
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
+        self._turns.timeout.connect(self._advance)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(self.tr("Animation of a rolling shutter"))
+        self.setAccessibleDescription(
+            self.tr("Each column gathers light a little later than the one before.")
+        )
+        self.setToolTip(self.tr("Click, or press the space bar, to stop and to go on."))
+
+    @property
+    def is_playing(self) -> bool:
+        """Whether the animation runs."""
+        return self._turns.isActive()
+
+    def show_shutter(self, shutter: RollingShutter) -> None:
+        """Show these exposures, from where the animation stands."""
+        self._shutter = shutter
+        self.update()
+
+    def toggle(self) -> None:
+        """Stop, or go on."""
+        self._is_stopped = not self._is_stopped
+        self._run()
+
+    def _run(self) -> None:
+        if self.isVisible() and not self._is_stopped:
+            self._turns.start()
+        else:
+            self._turns.stop()
+
+    def _advance(self) -> None:
+        self.moment = (self.moment + _TURN_MS / _LOOP_MS) % 1.0
+        self.update()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Begin to move when visible."""
+        super().showEvent(event)
+        self._run()
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
+        """Rest while hidden."""
+        super().hideEvent(event)
+        self._turns.stop()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Stop, or go on."""
+        self.toggle()
+        event.accept()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Stop, or go on, by the keys of a button."""
+        if event.key() in _KEYS:
+            self.toggle()
+        else:
+            super().keyPressEvent(event)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a size that fits a narrow column."""
+        return QSize(280, 200)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the least size in which the bars can be told apart."""
+        return QSize(160, 140)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the present moment."""
+        if self._shutter is None:
+            return
+        painter = QPainter(self)
+        _Drawing(painter, self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)).draw()
+        painter.end()
+
+
+class _Drawing:
+    """One moment of the animation."""
+
+    def __init__(
+        self, painter: QPainter, widget: QWidget, shutter: RollingShutter, moment: float
+    ) -> None:
+        self._painter, self._shutter = painter, shutter
+        self._now = moment * shutter.duration
+        self._width, self._height = widget.width(), widget.height()
+        self._ink = widget.palette().color(QPalette.ColorRole.WindowText)
+        self._accent = widget.palette().color(QPalette.ColorRole.Highlight)
+
+    def draw(self) -> None:
+        self._draw_lamp()
+        self._draw_bars()
+        self._draw_stripes()
+        x = self._x(self._now)
+        self._painter.setPen(QPen(self._accent, 2))
+        self._painter.drawLine(int(x), 0, int(x), self._height - _STRIPE_HEIGHT - _GAP)
+
+    def _x(self, time: float) -> float:
+        return self._width * time / self._shutter.duration
+
+    def _draw_lamp(self) -> None:
+        edges, lit = self._shutter.edges, self._shutter.lit
+        for begin, end, on in zip(edges[:-1], edges[1:], lit, strict=True):
+            left, right = self._x(max(begin, 0.0)), self._x(min(end, self._shutter.duration))
+            if right > left:
+                self._painter.fillRect(
+                    QRectF(left, 0, right - left, _LAMP_HEIGHT), _LIT if on else _DARK
+                )
+
+    def _draw_bars(self) -> None:
+        shutter = self._shutter
+        top = _LAMP_HEIGHT + _GAP
+        height = self._height - _STRIPE_HEIGHT - _GAP - top
+        step = height / len(shutter.columns)
+        outline = QColor(self._ink)
+        outline.setAlpha(90)
+        for place, (start, share) in enumerate(
+            zip(shutter.starts, shutter.lit_fraction, strict=True)
+        ):
+            x, y = self._x(start), top + place * step
+            width = max(self._x(shutter.exposure_time), 2.0)
+            passed = min(max(self._now - start, 0.0), shutter.exposure_time)
+            bar = QRectF(x, y, width, max(step - 1.0, 1.0))
+            filled = QRectF(x, y, width * passed / shutter.exposure_time, bar.height())
+            self._painter.fillRect(filled, _grey(share))
+            self._painter.setPen(QPen(outline, 1))
+            self._painter.drawRect(bar)
+
+    def _draw_stripes(self) -> None:
+        shutter = self._shutter
+        top = self._height - _STRIPE_HEIGHT
+        width = self._width / len(shutter.columns)
+        for place, (start, share) in enumerate(
+            zip(shutter.starts, shutter.lit_fraction, strict=True)
+        ):
+            if self._now >= start + shutter.exposure_time * (1.0 - 1e-9):
+                self._painter.fillRect(
+                    QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT), _grey(share)
+                )
+        self._painter.setPen(QPen(self._ink, 1))
+        self._painter.drawRect(QRectF(0.5, top + 0.5, self._width - 1.0, _STRIPE_HEIGHT - 1.0))
+
+
+def _grey(share: float) -> QColor:
+    level = round(40 + 215 * min(max(share, 0.0), 1.0))
+    return QColor(level, level, level)

@@ -1,0 +1,173 @@
+"""Page of one step of a lesson: goal, text, question, answer, explanation, and where to go."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSize, QTimer, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+
+from occ_gui.explanation.equation_text import EquationText
+from occ_gui.lessons.answer_field import AnswerField
+from occ_gui.lessons.shutter_animation import ShutterAnimation
+from occ_gui.lessons.texts import bold, button, heading, paragraph, typeset, typeset_paragraph
+from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.results.lessons import CheckedAnswer, Lesson
+from occ_model.results.teaching import Equation
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.teaching.quantities import QUANTITIES
+
+LEAST = QSize(200, 160)
+"""Smallest size in pixels: then a question with its text scrolls."""
+
+_EQUATION_HEIGHT = 112
+_ANIMATION_HEIGHT = 200
+
+
+class StepPage(QWidget):
+    """One step of a lesson."""
+
+    moved = Signal(int)
+    """The number of steps to go forward; negative to go back."""
+
+    list_asked = Signal()
+    again_asked = Signal()
+
+    control_asked = Signal()
+    """The control that the step speaks of is to be shown."""
+
+    answer_given = Signal(str)
+    """An answer that is to be checked."""
+
+    explained = Signal(bool)
+    """Whether the explanation is shown."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.place, self.goal = paragraph(), heading()
+        self.text, self.question = typeset_paragraph(), bold(typeset_paragraph())
+        self.progress = QProgressBar()
+        self.progress.setTextVisible(False)
+        self.progress.setFixedHeight(6)
+        self.progress.setAccessibleName(self.tr("Progress of the lesson"))
+        self.animation = ShutterAnimation()
+        self.animation.setFixedHeight(_ANIMATION_HEIGHT)
+        self.control = button(
+            "", self.tr("Show the control that this step is about, with all others dimmed.")
+        )
+        self.control.clicked.connect(self.control_asked)
+        self.answer_field = AnswerField()
+        self.answer_field.checked.connect(self.answer_given)
+        self._make_explanation()
+        self._make_buttons()
+        self._lay_out()
+
+    def _make_explanation(self) -> None:
+        self.answer = typeset_paragraph()
+        self.answer.setFrameShape(QFrame.Shape.StyledPanel)
+        self.answer.setMargin(8)
+        self.answer.setAccessibleName(self.tr("Explanation"))
+        self.equation = EquationText()
+        self.equation.setFixedHeight(_EQUATION_HEIGHT)
+        self.reveal = button(
+            self.tr("Show the explanation"),
+            self.tr("Show what one finds, to compare with what you found."),
+        )
+        self.reveal.setCheckable(True)
+        self.reveal.toggled.connect(self._show_answer)
+        self.answer.hide()
+        self.equation.hide()
+        self._has_equation = False
+
+    def _make_buttons(self) -> None:
+        self.all = button(
+            self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")
+        )
+        self.back = button(self.tr("Back"), self.tr("Go to the step before, and set its scene."))
+        self.next = button(self.tr("Next"), self.tr("Go to the next step, and set its scene."))
+        self.again = button(
+            self.tr("Set the scene again"),
+            self.tr("Set the scene of this step again, as one step that can be undone."),
+        )
+        self.all.clicked.connect(self.list_asked)
+        self.back.clicked.connect(self._go_back)
+        self.next.clicked.connect(self._go_on)
+        self.again.clicked.connect(self.again_asked)
+
+    def _lay_out(self) -> None:
+        content = QWidget()
+        column = QVBoxLayout(content)
+        column.setContentsMargins(8, 8, 8, 8)
+        column.setSpacing(8)
+        for widget in (
+            self.place, self.progress, self.goal, self.animation, self.text, self.control,
+            self.question, self.answer_field, self.reveal, self.answer, self.equation,
+        ):  # fmt: skip
+            column.addWidget(widget)
+        column.addStretch()
+        self._scroll = ScrollPane(content, LEAST)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addWidget(self._scroll, 1)
+        for buttons in ((self.all, self.again), (self.back, self.next)):
+            layout.addLayout(_row(buttons))
+
+    def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
+        """Show a step of a lesson, with the answer given to it before."""
+        step, count = lesson.steps[place], len(lesson.steps)
+        self.place.setText(
+            self.tr("{title}, step {place} of {count}").format(
+                title=lesson.title, place=place + 1, count=count
+            )
+        )
+        self.progress.setRange(0, count)
+        self.progress.setValue(place + 1)
+        self.goal.setText(step.goal)
+        self.goal.setVisible(bool(step.goal))
+        self.animation.setVisible(step.animation)
+        self.text.setText(typeset(step.text))
+        self.question.setText(typeset(step.question))
+        self.answer.setText(typeset(step.answer))
+        label = PARAMETERS[step.control].label if step.control else ""
+        self.control.setText(self.tr("Change: {control}").format(control=label))
+        self.control.setVisible(bool(step.control))
+        unit = QUANTITIES[step.check.quantity].asked_in if step.check else ""
+        self.answer_field.begin(unit, step.check is not None, before)
+        self._has_equation = bool(step.equation)
+        self.reveal.setChecked(False)
+        self.back.setEnabled(place > 0)
+        self.next.setText(self.tr("Next") if place + 1 < count else self.tr("Done"))
+        self._scroll.verticalScrollBar().setValue(0)
+
+    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
+        """Show the equation that explains the answer, with its present numbers."""
+        self.equation.show_equations(equations, changed)
+
+    def _go_back(self) -> None:
+        self.moved.emit(-1)
+
+    def _go_on(self) -> None:
+        self.moved.emit(1)
+
+    def _show_answer(self, shown: bool) -> None:
+        self.answer.setVisible(shown)
+        self.equation.setVisible(shown and self._has_equation)
+        self.reveal.setText(
+            self.tr("Hide the explanation") if shown else self.tr("Show the explanation")
+        )
+        self.explained.emit(shown and self._has_equation)
+        if shown:
+            # After the layout has changed.
+            QTimer.singleShot(0, self._scroll, self._show_end)
+
+    def _show_end(self) -> None:
+        last = self.equation if self._has_equation else self.answer
+        self._scroll.ensureWidgetVisible(last, 0, 8)
+
+
+def _row(buttons: Sequence[QWidget]) -> QHBoxLayout:
+    row = QHBoxLayout()
+    row.setContentsMargins(8, 0, 8, 4)
+    row.setSpacing(8)
+    for each in buttons:
+        row.addWidget(each, 1)
+    return row

@@ -1,0 +1,93 @@
+"""Connects the lessons with their pane, the controls, the equations and the report."""
+
+from PySide6.QtCore import QObject, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
+
+from occ_gui.explanation.equation_controller import EquationController
+from occ_gui.files.preferences import Preferences
+from occ_gui.lessons.answers import LessonAnswers
+from occ_gui.lessons.lesson_controller import LessonController
+from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.lessons.report import LessonReports
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.spotlight import Spotlight
+from occ_model.errors import OccError
+from occ_model.files.writing import make_folder
+from occ_model.results.lessons import Lesson
+from occ_model.teaching.lessons import lessons_folder
+
+
+class LessonWiring(QObject):
+    """The lessons and all that they move.
+
+    Parameters
+    ----------
+    scenes
+        The store of the scene.
+    photos
+        Opens the photo of a step.
+    pane
+        Shows the lessons.
+    controls
+        The controls, of which a step marks one.
+    preferences
+        Stores the folder of a report and the student's name.
+    """
+
+    status_message = Signal(str)
+    """The outcome of an action."""
+
+    def __init__(
+        self,
+        scenes: SceneStore,
+        photos: PhotoController,
+        pane: LessonView,
+        controls: ControlPanel,
+        preferences: Preferences,
+    ) -> None:
+        super().__init__()
+        self.answers = LessonAnswers()
+        self.controller = LessonController(scenes, photos, pane, self.answers)
+        self.reports = LessonReports(pane, preferences)
+        self.spotlight = Spotlight(controls)
+        self._equations = EquationController(scenes, pane.step)
+        self.controller.control_wanted.connect(self.spotlight.show_only)
+        self.controller.equation_wanted.connect(self._equations.show_only)
+        self.controller.report_asked.connect(self._write_report)
+        pane.step.explained.connect(self._equations.set_seen)
+        pane.list.folder_asked.connect(self.open_folder)
+        for speaker in (self.controller, self.reports):
+            speaker.status_message.connect(self.status_message)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all answers are checked and all reports written."""
+        return self.answers.runner.is_idle and self.reports.runner.is_idle
+
+    def open_folder(self) -> None:
+        """Open the folder of the user's own lessons, which is made where there is none."""
+        folder = lessons_folder()
+        try:
+            make_folder(folder)
+        except OccError as error:
+            self.status_message.emit(str(error))
+            return
+        if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder))):
+            self.status_message.emit(
+                self.tr("Your own lessons belong into {folder}").format(folder=folder)
+            )
+
+    def end(self) -> None:
+        """Restore what the user was working on."""
+        self.spotlight.end()
+        self.controller.restore_user()
+
+    def stop(self) -> None:
+        """Stop all work in the background."""
+        self.answers.runner.stop()
+        self.reports.runner.stop()
+
+    def _write_report(self, lesson: Lesson) -> None:
+        self.reports.ask(lesson, self.answers.all_of(lesson))

@@ -1,0 +1,110 @@
+"""Spotlight: one control is marked and scrolled into view, all others are dimmed."""
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtWidgets import QGraphicsOpacityEffect, QScrollArea, QTabWidget, QWidget
+
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.parameter_panel import ParameterPanel
+from occ_gui.widgets.guarded_paint import guarded
+
+_DIMMED = 0.4
+_MARGIN = 4
+
+
+class Spotlight(QObject):
+    """Marks one control of the panel.
+
+    Parameters
+    ----------
+    controls
+        The panel.
+    """
+
+    def __init__(self, controls: ControlPanel) -> None:
+        super().__init__(controls)
+        self._controls = controls
+        self._dimmed: list[QWidget] = []
+        self._frame: _Frame | None = None
+
+    @property
+    def is_on(self) -> bool:
+        """Whether a control is marked."""
+        return self._frame is not None
+
+    def show_only(self, name: str) -> None:
+        """Mark the control of a parameter; an unknown or empty name marks none."""
+        self.end()
+        for panel in self._controls.panels.values():
+            if name in panel.rows:
+                self._mark(panel, name)
+
+    def end(self) -> None:
+        """Show all controls alike."""
+        for widget in self._dimmed:
+            # PySide takes None here, which removes the effect, whatever its stubs say.
+            widget.setGraphicsEffect(None)  # type: ignore[arg-type]
+        self._dimmed = []
+        if self._frame is not None:
+            self._frame.hide()
+            self._frame.setParent(None)
+            self._frame.deleteLater()
+            self._frame = None
+
+    def _mark(self, panel: ParameterPanel, name: str) -> None:
+        row, label = panel.rows[name], panel.labels[name]
+        _bring_into_view(panel, row)
+        children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        for widget in children:
+            if widget not in (row, label):
+                effect = QGraphicsOpacityEffect(widget)
+                effect.setOpacity(_DIMMED)
+                widget.setGraphicsEffect(effect)
+                self._dimmed.append(widget)
+        self._frame = _Frame(panel, label, row)
+
+
+def _bring_into_view(panel: QWidget, row: QWidget) -> None:
+    """Show the page and the part of it in which a row stands."""
+    parent = panel.parentWidget()
+    scroll: QScrollArea | None = None
+    while parent is not None:
+        if isinstance(parent, QScrollArea) and scroll is None:
+            scroll = parent
+        if isinstance(parent, QTabWidget) and scroll is not None:
+            parent.setCurrentWidget(scroll)
+        parent = parent.parentWidget()
+    if scroll is not None:
+        scroll.ensureWidgetVisible(row, 0, 4 * _MARGIN)
+
+
+class _Frame(QWidget):
+    """A frame around a label and its row, which lets the mouse through."""
+
+    def __init__(self, panel: QWidget, label: QWidget, row: QWidget) -> None:
+        super().__init__(panel)
+        self._label, self._row = label, row
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        row.installEventFilter(self)
+        self._follow()
+        self.show()
+
+    def _follow(self) -> None:
+        both = self._label.geometry().united(self._row.geometry())
+        self.setGeometry(both.adjusted(-_MARGIN, -_MARGIN, _MARGIN, _MARGIN))
+        self.raise_()
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Stay around the row."""
+        if event.type() in (QEvent.Type.Move, QEvent.Type.Resize):
+            self._follow()
+        return False
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the frame."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Highlight), 2))
+        painter.drawRoundedRect(self.rect().adjusted(1, 1, -1, -1), 4, 4)
+        painter.end()

@@ -1,0 +1,84 @@
+"""Give some columns' exposures on the LED's waveform: how a rolling shutter makes stripes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.camera.exposure import on_time
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.transmitter.packet import sent_chips
+
+_CHIPS = 4
+"""Chips that the shown columns begin in."""
+
+_MOST_CHIPS = 400
+"""Largest number of chips that a drawing resolves; of a longer exposure only these are given."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RollingShutter:
+    """Exposures of evenly chosen columns, in time from the first column's start.
+
+    Parameters
+    ----------
+    columns : ndarray of int, shape (shown,)
+        The columns.
+    starts : ndarray of float64, shape (shown,)
+        When the exposure of each begins, in seconds.
+    exposure_time
+        How long each lasts, in seconds.
+    lit_fraction : ndarray of float64, shape (shown,)
+        Share of each exposure for which the LED is on.
+    edges : ndarray of float64, shape (chips + 1,)
+        When each chip begins, and when the last one ends, in seconds.
+    lit : ndarray of uint8, shape (chips,)
+        Whether the LED is on in each.
+    """
+
+    columns: IndexArray
+    starts: FloatArray
+    exposure_time: float
+    lit_fraction: FloatArray
+    edges: FloatArray
+    lit: ByteArray
+
+    @property
+    def duration(self) -> float:
+        """Time from the first start to the last end, in seconds."""
+        return float(self.starts[-1]) + self.exposure_time
+
+
+def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
+    """Give the exposures of some of the first columns, which begin within four chips.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    shown
+        Number of columns; fewer where the picture has fewer.
+
+    Returns
+    -------
+    RollingShutter
+        The columns' exposures and the waveform over the time that they take.
+    """
+    check_scene(scene)
+    camera, period = scene.camera, scene.transmitter.switching_period
+    last = min(camera.columns - 1, max(int(_CHIPS * period / camera.readout_time), 1))
+    columns = np.unique(np.linspace(0, last, min(shown, last + 1)).round().astype(np.intp))
+    starts = np.multiply(columns, camera.readout_time, dtype=np.float64)
+    chips = sent_chips(scene.transmitter)
+    phase = (scene.model.start_time * scene.transmitter.switching_frequency) % len(chips)
+    first = int(phase)
+    needed = (float(starts[-1]) + camera.exposure_time) / period
+    count = int(min(np.ceil(needed) + 1, _MOST_CHIPS))
+    return RollingShutter(
+        columns=columns,
+        starts=starts,
+        exposure_time=camera.exposure_time,
+        lit_fraction=on_time(scene)[columns] / camera.exposure_time,
+        edges=np.asarray((first - phase + np.arange(count + 1)) * period, dtype=np.float64),
+        lit=chips[(first + np.arange(count)) % len(chips)],
+    )

@@ -1,0 +1,163 @@
+"""A step of a lesson: its answer is checked, its control marked, its end reported."""
+
+from pathlib import Path
+
+import pytest
+from gui.user import User
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QFileDialog, QInputDialog
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.lessons.lesson_view import LessonView
+
+
+@pytest.fixture
+def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
+    """Open the lessons by the menu."""
+    user.choose("&Lessons")
+    guide = application.learning.lessons_pane
+    qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
+    return guide
+
+
+def answer(guide: LessonView, user: User, text: str) -> str:
+    """Type an answer, and return what the check says."""
+    guide.step.answer_field.field.setText(text)
+    guide.step.answer_field.check.click()
+    user.wait_until_idle()
+    return guide.step.answer_field.sentence.text()
+
+
+def test_a_number_is_checked_against_the_model_and_kept(guide: LessonView, user: User) -> None:
+    guide.list.choices[0].click()
+    assert guide.step.answer_field.unit.text() == "columns"
+    assert answer(guide, user, "40") == "✗  Not yet: that is too low. Try again."
+    assert answer(guide, user, "65") == "≈  Close, but a little too high. Look once more."
+    assert answer(guide, user, "many").startswith("?  ")
+    assert answer(guide, user, "62.5") == "✓  Right. The model gives 62.5 columns."
+    guide.step.next.click()
+    assert guide.step.answer_field.field.text() == ""
+    assert not guide.step.answer_field.sentence.isVisible()
+    guide.step.back.click()
+    assert guide.step.answer_field.field.text() == "62.5"
+    assert "Right" in guide.step.answer_field.sentence.text()
+    user.wait_until_idle()
+
+
+def test_a_change_of_the_scene_does_not_change_what_is_right(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    guide.list.choices[0].click()
+    application.store.change(readout_time=20e-6)
+    assert "too low" in answer(guide, user, "25")
+    assert "Right" in answer(guide, user, "62.5")
+
+
+def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    guide.list.choices[0].click()
+    rows = application.controls.panels["Main"].rows
+    assert guide.step.control.text() == "Change: Readout time"
+    assert application.learning.lessons.spotlight.is_on
+    assert rows["readout_time"].graphicsEffect() is None
+    assert rows["iso"].graphicsEffect() is not None
+    qtbot.waitUntil(lambda: not rows["readout_time"].visibleRegion().isEmpty())
+    guide.step.all.click()
+    assert not application.learning.lessons.spotlight.is_on
+    assert rows["iso"].graphicsEffect() is None
+    user.wait_until_idle()
+
+
+def test_the_explanation_has_its_equation_with_the_present_numbers(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    guide.list.choices[0].click()
+    guide.step.reveal.click()
+    assert "62.50 columns" in guide.step.equation.toPlainText()
+    assert guide.step.equation.toPlainText().count("Columns") == 1
+    application.store.change(readout_time=20e-6)
+    assert "25.00 columns" in guide.step.equation.toPlainText()
+    user.wait_until_idle()
+
+
+def test_the_animation_moves_while_it_is_seen_and_stops_at_a_click(
+    guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    guide.list.choices[0].click()
+    animation = guide.step.animation
+    begun = animation.moment
+    qtbot.waitUntil(lambda: animation.moment > begun)
+    qtbot.mouseClick(animation, Qt.MouseButton.LeftButton)
+    assert not animation.is_playing
+    qtbot.keyClick(animation, Qt.Key.Key_Space)
+    assert animation.is_playing
+    guide.step.next.click()
+    guide.step.next.click()
+    assert not animation.is_playing
+    user.wait_until_idle()
+
+
+def test_the_end_shows_the_answers_and_saves_them_as_a_report(
+    application: Application,
+    guide: LessonView,
+    user: User,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    guide.list.choices[0].click()
+    answer(guide, user, "62.5")
+    for _ in range(3):
+        guide.step.next.click()
+    assert "62.5. Right." in guide.end.answers.text()
+    assert guide.end.answers.text().count("no answer") == 2
+    path = tmp_path / "report"
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("Ada $x_1$", True))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    guide.end.report.click()
+    user.wait_until_idle()
+    assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
+    assert user.message == "Saved report.pdf"
+
+
+def test_a_report_that_is_not_wanted_writes_nothing(
+    guide: LessonView, user: User, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    guide.list.choices[0].click()
+    for _ in range(3):
+        guide.step.next.click()
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("", False))
+    guide.end.report.click()
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("", True))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
+    guide.end.report.click()
+    user.wait_until_idle()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_teachers_lesson_is_listed_and_a_bad_one_is_named(
+    application: Application, user: User, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    step = 'preset = "phone-68us"\ntext = "a"\nquestion = "b?"\nanswer = "c"'
+    (tmp_path / "mine.toml").write_text(f'title = "Mine"\n[[step]]\n{step}', encoding="utf-8")
+    (tmp_path / "bad.toml").write_text(f'title = "Bad"\n[[stop]]\n{step}', encoding="utf-8")
+    monkeypatch.setenv("OCC_LESSONS", str(tmp_path))
+    user.choose("&Lessons")
+    guide = application.learning.lessons_pane
+    assert guide.list.choices[-1].text().startswith("Mine")
+    assert "bad is no lesson: line 2: a lesson has no key 'stop'" in guide.list.problems.text()
+
+
+def test_the_folder_of_lessons_is_made_and_opened(
+    guide: LessonView, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setenv("OCC_LESSONS", str(tmp_path / "own"))
+    monkeypatch.setattr(
+        QDesktopServices, "openUrl", lambda url: opened.append(url.toLocalFile()) is None
+    )
+    guide.list.folder.click()
+    assert opened == [str(tmp_path / "own")]
+    assert (tmp_path / "own").is_dir()

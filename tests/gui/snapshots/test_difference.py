@@ -20,7 +20,7 @@ from occ_gui.simulation.snapshot import Snapshot
 def profile(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> ProfileView:
     view = ProfileView()
     show(qtbot, view, 560, 260)
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     return view
 
 
@@ -28,7 +28,7 @@ def profile(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> ProfileView:
 def decode(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> DecodeView:
     view = DecodeView()
     show(qtbot, view, 380, 560)
-    view.show_snapshot(snapshot_of())
+    view.show_reading(snapshot_of())
     return view
 
 

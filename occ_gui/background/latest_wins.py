@@ -1,6 +1,7 @@
 """Work off the window's thread: the newest request wins, and every finished result is shown."""
 
 from collections.abc import Callable
+from threading import Event
 from typing import Any, Generic, TypeVar
 
 from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
@@ -12,12 +13,16 @@ Request = TypeVar("Request")
 Result = TypeVar("Result")
 
 
+class Superseded(Exception):  # noqa: N818 - no error: a newer request is there
+    """Ends work whose result is not needed any more; nothing is reported of it."""
+
+
 class LatestWins(QObject, Generic[Request, Result]):
     """Runs one function on a thread of its own, for one request at a time.
 
     A request that comes while another is at work waits; a newer one takes its place. The running
-    one is never cancelled: cancelling it at every move of a slider would show nothing until the
-    slider stops.
+    one goes on: cancelling it at every move of a slider would show nothing until the slider stops.
+    Work that has shown something already may end itself: see :meth:`give_way`.
 
     Parameters
     ----------
@@ -46,6 +51,7 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._busy = False
         self._stopped = False
         self._waiting: tuple[Request] | None = None
+        self._newer = Event()
         self._worker = _Worker(work, name)
         self._thread = QThread()
         self._thread.setObjectName(name)
@@ -63,14 +69,30 @@ class LatestWins(QObject, Generic[Request, Result]):
         """Ask for a result; a request still waiting is forgotten."""
         if self._busy:
             self._waiting = (request,)
+            self._newer.set()
             return
         self._busy = True
+        self._newer.clear()
         self._ask.emit(request)
+
+    def give_way(self, seconds: float = 0.0) -> None:
+        """End the running work if a newer request waits, or comes within some seconds.
+
+        To be called by the work itself, on its thread.
+
+        Raises
+        ------
+        Superseded
+            There is one.
+        """
+        if self._newer.wait(seconds):
+            raise Superseded
 
     def stop(self) -> None:
         """Let the running work end and stop the thread; nothing arrives any more."""
         self._waiting = None
         self._stopped = True
+        self._newer.set()
         self._thread.quit()
         self._thread.wait()
 
@@ -84,7 +106,9 @@ class LatestWins(QObject, Generic[Request, Result]):
             (request,) = self._waiting
             self._waiting = None
             self.submit(request)
-        if failure:
+        if isinstance(result, Superseded):
+            pass
+        elif failure:
             self.failed.emit(failure)
             self.failed_for.emit(failure, parameters)
         else:
@@ -109,6 +133,8 @@ class _Worker(QObject):
         parameters: tuple[str, ...] = ()
         try:
             result = self._work(request)
+        except Superseded as reason:
+            result = reason
         except Exception as error:  # noqa: BLE001 - the window must outlive any error
             failure = sentence_of(error, self._name, request)
             parameters = error.parameters if isinstance(error, OccError) else ()

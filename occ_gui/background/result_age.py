@@ -54,8 +54,14 @@ class ResultAges(Generic[Request]):
         end = next(ends, -math.inf)
         return self._clock() - end
 
-    def rest(self) -> float:
-        """Return for how many seconds the movement may go on; zero after a single change."""
+    def rest(self, pause: float = PAUSE) -> float:
+        """Return for how many seconds the movement may go on; zero after a single change.
+
+        Parameters
+        ----------
+        pause
+            Seconds without a change after which a movement has ended.
+        """
         if not self._is_moving:
             return 0.0
-        return max(0.0, self._changed_at + PAUSE - self._clock())
+        return max(0.0, self._changed_at + pause - self._clock())

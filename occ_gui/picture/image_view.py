@@ -1,5 +1,6 @@
 """Pane of the picture: the simulated one, and a photo beside it or over it."""
 
+import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
@@ -134,6 +135,9 @@ class ImageView(QWidget):
         picture = self.tr("Simulated picture")
         if frame is not None:
             picture = frame.picture_title(self._whose)
+            if frame.rows_step > 1:
+                text = self.tr("Draft, one row in {step}: {picture}")
+                picture = text.format(step=frame.rows_step, picture=picture)
         if self._photo is None or mode == "beside":
             return picture
         if mode == "blend":
@@ -158,9 +162,18 @@ class ImageView(QWidget):
         self._frame = frame = picture.frame
         image = frame.picture(self._whose)
         # The user may have chosen the other picture since this one was prepared.
-        self.simulation.show_picture(image, picture.halves if picture.whose == self._whose else ())
-        self.overlay.set_simulated(image)
+        halves = picture.halves if picture.whose == self._whose else ()
+        self.simulation.show_picture(image, halves, frame.rows_step)
+        if frame.rows_step == 1:
+            self.overlay.set_simulated(image)
+        elif self._photo is not None:
+            whole = np.repeat(image, frame.rows_step, axis=0)[: frame.scene.camera.rows]
+            self.overlay.set_simulated(whole)
         self._show_caption()
+
+    def rows_per_pixel(self) -> float:
+        """Return how many rows of the picture share a pixel of the screen."""
+        return self.simulation.rows_per_pixel()
 
     @property
     def whose(self) -> str:
@@ -183,9 +196,10 @@ class ImageView(QWidget):
         frame = self._frame
         if frame is None:
             return None
-        rows, columns = frame.image.shape
-        if not (0 <= row < rows and 0 <= column < columns):
+        camera = frame.scene.camera
+        if not (0 <= row < camera.rows and 0 <= column < camera.columns):
             return None
+        row //= frame.rows_step
         return {whose: int(frame.picture(whose)[row, column]) for whose in PICTURES}
 
     def show_photo(self, photo: Photo | None) -> None:

@@ -54,6 +54,7 @@ class PicturePane(QWidget):
         self.box.addItem(self._picture)
         self.box.addItem(self._region, ignoreBounds=True)
         self._image: ByteArray | None = None
+        self._rows_step = 1
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
@@ -62,7 +63,9 @@ class PicturePane(QWidget):
         layout.addLayout(self.caption_row)
         layout.addWidget(self.graphics, 1)
 
-    def show_picture(self, image: ByteArray, halves: Sequence[ByteArray] = ()) -> None:
+    def show_picture(
+        self, image: ByteArray, halves: Sequence[ByteArray] = (), rows_step: int = 1
+    ) -> None:
         """Show a picture; the view changes only if its size does.
 
         Parameters
@@ -71,15 +74,26 @@ class PicturePane(QWidget):
             The picture.
         halves
             The same at a half of its size, a quarter and so on, if already computed.
+        rows_step
+            Height of a row: more than 1 in a draft, which lies where the whole picture does.
         """
-        self._picture.set_image(image, halves=halves)
+        rows, columns = image.shape
+        rect = QRectF(-0.5, -0.5, columns, rows * rows_step)
+        self._picture.set_image(image, rect, halves)
         before, self._image = self._image, image
-        if before is None or before.shape != image.shape:
+        step, self._rows_step = self._rows_step, rows_step
+        if before is None or before.shape[1] != columns or _differ(before, step, image, rows_step):
             self.fit()
+
+    def rows_per_pixel(self) -> float:
+        """Return how many rows of the picture share a pixel of the screen."""
+        height = self.graphics.height() * self.graphics.devicePixelRatioF()
+        return float(self.box.viewRect().height() / max(height, 1.0))
 
     def level_at(self, column: int, row: int) -> int | None:
         """Return the grey level of a pixel, None outside the picture."""
         image = self._image
+        row //= self._rows_step
         if image is None or not (0 <= row < image.shape[0] and 0 <= column < image.shape[1]):
             return None
         return int(image[row, column])
@@ -106,3 +120,9 @@ class PicturePane(QWidget):
     def fit(self) -> None:
         """Show the whole picture."""
         self.box.setRange(self._picture.boundingRect(), padding=0.01)
+
+
+def _differ(one: ByteArray, step: int, other: ByteArray, other_step: int) -> bool:
+    """Return whether two pictures have different heights; a draft's last row can reach beyond."""
+    difference: int = abs(one.shape[0] * step - other.shape[0] * other_step)
+    return difference >= max(step, other_step)

@@ -6,14 +6,18 @@ The results of a change arrive in this order, each by a signal:
 2. ``reading_shown`` with a Reading by the profile path, a few milliseconds later: the profile, the
    band model and the verdict of every decoder, without a pixel. Scenes whose rows differ (a lens, a
    file, a panel that is not level) have none.
-3. ``picture_ready`` with the Picture, before it is decoded.
-4. ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read from that picture.
+3. ``picture_ready`` with a Picture of some rows, a draft, where the whole one takes long; and
+   ``reading_shown`` with the Reading of that draft, where the profile path had none. While the
+   scene goes on changing, it begins again at 1.
+4. ``picture_ready`` with the exact Picture, before it is decoded.
+5. ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read from that picture.
    It is a Reading, too, and has the last word.
 
 A reading is never replaced by one of an earlier scene. ``failed`` says why a scene has no picture.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from time import sleep
 from typing import Protocol
 
@@ -23,13 +27,28 @@ from occ_gui.background.latest_wins import LatestWins
 from occ_gui.background.result_age import ResultAges
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
-from occ_gui.simulation.jobs import reading_by_profile, snapshot_of
+from occ_gui.simulation.jobs import (
+    draft_of,
+    needs_pixels,
+    reading_by_profile,
+    reading_of_draft,
+    snapshot_of,
+)
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import SOURCES, Reading, SimulationRequest, Snapshot
+from occ_gui.simulation.snapshot import (
+    LEAST_DRAFT_STEP,
+    SOURCES,
+    Reading,
+    SimulationRequest,
+    Snapshot,
+)
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
+
+_REST = 0.05
+"""Seconds without a change after which a hand rests, and the exact picture is begun."""
 
 _PAINT_TIME = 0.004
 """Seconds between the delivery of a picture and its decoding, for the window to paint it."""
@@ -99,6 +118,7 @@ class SimulationController(QObject):
     """The scene or a setting has changed: results of the last request are outdated."""
 
     _rendered = Signal(object)
+    _drafted = Signal(object)
 
     def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
         super().__init__()
@@ -108,8 +128,10 @@ class SimulationController(QObject):
         self._readers: Sequence[ReadingView] = ()
         self._read: Reading | None = None
         self._whose = PICTURES[0]
+        self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
+        self._drafted.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
         )
@@ -147,8 +169,21 @@ class SimulationController(QObject):
         """Prepare the picture of the camera or of the receiver for drawing from now on."""
         self._whose = whose
 
+    def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
+        """Draft as many rows from now on as the screen shows.
+
+        Parameters
+        ----------
+        rows_per_pixel
+            Returns how many rows of the picture share a pixel of the screen.
+        """
+        self._rows_per_pixel = rows_per_pixel
+
     def _request(self) -> SimulationRequest:
-        return SimulationRequest(self._scenes.scene, self._settings.settings, self._whose)
+        scene = self._scenes.scene
+        step = max(LEAST_DRAFT_STEP, math.floor(self._rows_per_pixel()))
+        step = min(step, scene.camera.rows)
+        return SimulationRequest(scene, self._settings.settings, self._whose, step)
 
     def _submit(self) -> None:
         request = self._request()
@@ -160,11 +195,22 @@ class SimulationController(QObject):
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
+        self._draft(request)
         frame = render_with(request.scene, request.settings)
         self._rendered.emit(Picture.of(frame, request.whose, request))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)
         return snapshot_of(request, frame)
+
+    def _draft(self, request: SimulationRequest) -> None:
+        """Show a draft of a picture that takes long, and wait until the hand rests."""
+        draft = draft_of(request)
+        if draft is None:
+            return
+        self._rendered.emit(Picture.of(draft, request.whose, request))
+        if needs_pixels(request):
+            self._drafted.emit(reading_of_draft(request, draft))
+        self.runner.give_way(self.ages.rest(_REST))
 
     def _show_early(self, reading: Reading | None) -> None:
         if reading is not None and self._is_news(reading):

@@ -8,12 +8,18 @@ from typing import TypedDict
 import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
 from occ_model.arrays import FloatArray
-from occ_model.effects.plan import called_for_by_signal
+from occ_model.camera.projection import check_size
+from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.plan import called_for_by_signal, plan_with
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
 from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import enhanced_band_profile
-from occ_model.study.profile_reading import read_profile
+from occ_model.simulation.render import render_with
+from occ_model.study.profile_reading import has_profile_path, read_profile, signal_plan
+
+SMALL = 1_000_000
+"""Pixels of a picture up to which it is there at once, with whatever effects."""
 
 
 class _Beside(TypedDict):
@@ -51,6 +57,58 @@ def reading_by_profile(request: SimulationRequest) -> Reading | None:
         others=tuple(others),
         **_beside(request.scene),
     )
+
+
+def draft_of(request: SimulationRequest) -> Frame | None:
+    """Simulate some rows of a picture; None where the whole one is there as soon.
+
+    Raises
+    ------
+    ParameterError
+        A setting is invalid.
+    ProjectionError
+        The panel has no picture in this pose.
+    """
+    scene, settings = request.scene, request.settings
+    camera = scene.camera
+    check_size(camera)
+    if camera.rows * camera.columns <= SMALL or plan_with(scene, settings).kinds <= {"column"}:
+        return None
+    return render_with(scene, settings, request.draft_step)
+
+
+def needs_pixels(request: SimulationRequest) -> bool:
+    """Return whether a scene cannot be read by its profile."""
+    view = paper_view_of(request.scene)
+    return not has_profile_path(request.scene, signal_plan(view, request.settings))
+
+
+def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
+    """Read a draft of a picture, in the rows of the whole one."""
+    scene = frame.scene
+    first = occ.decode(frame.image, scene)
+    results = [_in_whole_picture(first, frame)]
+    results += [_in_whole_picture(other, frame) for other in _decode_with_others(first, scene)]
+    return Reading(
+        request=request,
+        source="draft",
+        plan=frame.plan,
+        profile=frame.profile,
+        signal=frame.signal,
+        corners=frame.corners,
+        decoded=results[0],
+        others=tuple(results[1:]),
+        **_beside(scene),
+    )
+
+
+def _in_whole_picture(result: DecodeResult, draft: Frame) -> DecodeResult:
+    """Give the region in the rows of the picture; how it was found holds for the draft alone."""
+    region, step = result.region, draft.rows_step
+    if region is not None:
+        last = min(region.last_row * step, draft.scene.camera.rows)
+        region = replace(region, first_row=region.first_row * step, last_row=last)
+    return replace(result, region=region, location=None)
 
 
 def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:

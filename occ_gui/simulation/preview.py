@@ -35,6 +35,11 @@ class Picture:
     halves: tuple[ByteArray, ...]
     request: SimulationRequest | None = None
 
+    @property
+    def is_draft(self) -> bool:
+        """Whether it shows only some rows of the picture, and the exact one follows."""
+        return self.frame.rows_step > 1
+
     @classmethod
     def of(cls, frame: Frame, whose: str, request: SimulationRequest | None = None) -> Self:
         """Compute the smaller copies; to be called on a background thread."""

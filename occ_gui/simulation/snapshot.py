@@ -9,6 +9,9 @@ from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
+LEAST_DRAFT_STEP = 4
+"""Rows of the picture that a row of a draft stands for at least: fewer are no sooner there."""
+
 Source: TypeAlias = Literal["profile", "draft", "picture"]
 """What a reading was read from."""
 
@@ -28,11 +31,15 @@ class SimulationRequest:
         The settings of its simulation.
     whose
         Whose picture is shown first, the ``"camera"``'s or the ``"receiver"``'s.
+    draft_step
+        A draft shows one of so many rows of the picture.
     """
 
     scene: Scene
     settings: SimulationSettings
-    whose: str = field(default=PICTURES[0], compare=False)  # of the same results
+    # Neither changes the results.
+    whose: str = field(default=PICTURES[0], compare=False)
+    draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

@@ -11,6 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.projection import check_size
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
@@ -77,9 +78,10 @@ def read_profile(scene: Scene, settings: SimulationSettings) -> ProfileReading |
     ParameterError
         A setting is invalid.
     ProjectionError
-        Part of the panel is behind the camera.
+        Part of the panel is behind the camera, or the image would be too large.
     """
     check_scene(scene)
+    check_size(scene.camera)
     view = paper_view_of(scene)
     chosen = signal_plan(view, settings)
     span = panel_span(scene)

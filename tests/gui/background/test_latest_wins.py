@@ -34,6 +34,8 @@ class Bench:
         self.work_threads.add(threading.get_ident())
         self.begun.set()
         assert self.go_on.wait(PATIENCE_S)
+        if request == "gives way":
+            self.runner.give_way()
         if isinstance(request, Exception):
             raise request
         return f"result of {request}"
@@ -177,4 +179,31 @@ def test_nothing_arrives_after_stopping(bench: Bench) -> None:
     bench.runner.stop()
     QApplication.processEvents()
     assert bench.worked_on == [1]
+    assert bench.results == []
+
+
+def test_work_that_gives_way_ends_without_a_result(
+    bench: Bench, finish: Callable[[], None]
+) -> None:
+    bench.submit_and_hold("gives way")
+    bench.runner.submit("newer")
+    finish()
+    assert bench.worked_on == ["gives way", "newer"]
+    assert (bench.results, bench.failures) == (["result of newer"], [])
+
+
+def test_work_gives_way_to_a_newer_request_only(bench: Bench, finish: Callable[[], None]) -> None:
+    bench.submit_and_hold("older")
+    bench.runner.submit("gives way")
+    finish()
+    assert bench.results == ["result of older", "result of gives way"]
+
+
+def test_work_that_gives_way_ends_when_it_is_stopped(bench: Bench) -> None:
+    bench.submit_and_hold("gives way")
+    stopping = threading.Thread(target=bench.runner.stop)
+    stopping.start()
+    bench.go_on.set()
+    stopping.join(PATIENCE_S)
+    QApplication.processEvents()
     assert bench.results == []

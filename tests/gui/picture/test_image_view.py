@@ -10,14 +10,17 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QWidget
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.picture.placement import Placement
+from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo
 from occ_model.results import DecodeResult, Region
+from occ_model.scene.scene import Scene
 
 Grey = NDArray[np.uint8]
 SnapshotOf = Callable[..., Snapshot]
@@ -65,6 +68,60 @@ def test_each_pixel_is_shown_at_its_row_and_column(
     (picture,) = pictures(view.simulation)
     rows, columns = snapshot.frame.image.shape
     assert picture.boundingRect() == QRectF(-0.5, -0.5, columns, rows)
+
+
+def test_a_draft_lies_where_its_picture_will_and_says_so(
+    view: ImageView, small_scene: Scene
+) -> None:
+    whole, draft = (occ.render(small_scene, rows_step=step) for step in (1, 7))
+    view.show_picture(Picture.of(whole, "camera"))
+    seen, caption = view.simulation.box.viewRect(), view.simulation.caption.text()
+    view.show_picture(Picture.of(draft, "camera"))
+    (picture,) = pictures(view.simulation)
+    rows, columns = whole.image.shape
+    assert picture.boundingRect() == QRectF(-0.5, -0.5, columns, 7 * len(draft.rows))
+    assert 0 <= 7 * len(draft.rows) - rows < 7
+    assert view.simulation.box.viewRect() == seen
+    assert view.simulation.graphics.accessibleName() == "Draft, one row in 7: Camera's picture"
+    view.show_picture(Picture.of(whole, "camera"))
+    assert view.simulation.box.viewRect() == seen
+    assert view.simulation.caption.text() == caption
+
+
+def test_a_draft_gives_the_levels_of_its_rows(view: ImageView, small_scene: Scene) -> None:
+    draft = occ.render(small_scene, rows_step=7)
+    view.show_picture(Picture.of(draft, "camera"))
+    for row in (0, 6, 7, small_scene.camera.rows - 1):
+        levels = view.levels_at(1500, row)
+        assert levels is not None
+        assert levels["receiver"] == draft.image[row // 7, 1500]
+        assert view.simulation.level_at(1500, row) == levels["camera"]
+    assert view.levels_at(1500, small_scene.camera.rows) is None
+
+
+def test_a_photo_is_compared_with_all_rows_of_a_draft(
+    view: ImageView, small_scene: Scene, photo: Photo
+) -> None:
+    view.show_photo(photo)
+    view.set_mode("difference")
+    draft = occ.render(small_scene, rows_step=7)
+    view.show_picture(Picture.of(draft, "camera"))
+    simulated = view.overlay._simulated
+    assert simulated is not None
+    assert simulated.shape == (small_scene.camera.rows, small_scene.camera.columns)
+    assert np.array_equal(simulated[::7], draft.camera_image)
+
+
+def test_the_rows_in_a_pixel_of_the_screen_are_those_in_view(
+    view: ImageView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_snapshot(snapshot_of())
+    box, pane = view.simulation.box, view.simulation
+    height = pane.graphics.height() * pane.devicePixelRatioF()
+    assert view.rows_per_pixel() == pytest.approx(box.viewRect().height() / height)
+    before = view.rows_per_pixel()
+    box.setRange(box.viewRect().adjusted(100, 10, -100, -10), padding=0)
+    assert view.rows_per_pixel() < before
 
 
 def test_without_a_photo_the_simulation_stands_alone(

@@ -1,13 +1,15 @@
 """The panes end with the results of the latest scene; one without a picture keeps the last."""
 
+import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import astuple, replace
 from itertools import count
 from threading import Event
 from typing import Any
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -16,7 +18,8 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.controller import SimulationController, simulate
-from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP, Reading, Snapshot
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import render_with
@@ -154,6 +157,84 @@ def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
     of_pictures = [reading for reading in reader.read[1:] if reading.source == "picture"]
     assert [reading.scene.camera.iso for reading in of_pictures] == [200.0]
     assert reader.read[-1] is of_pictures[-1]
+
+
+@pytest.fixture
+def pictures(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
+    """Draft pictures of any size, and keep all that are delivered."""
+    monkeypatch.setattr(jobs, "SMALL", 0)
+    pictures: list[Picture] = []
+    bench.controller.picture_ready.connect(pictures.append)
+    return pictures
+
+
+def test_a_draft_of_the_scene_comes_before_its_exact_picture(
+    bench: Bench, pictures: list[Picture]
+) -> None:
+    bench.store.change(iso=200.0)
+    bench.wait_until_idle()
+    draft, exact = pictures
+    assert (draft.is_draft, exact.is_draft) == (True, False)
+    assert draft.frame.scene == exact.frame.scene == bench.store.scene
+    assert draft.frame.plan == exact.frame.plan
+    assert bench.views[0].shown[-1].frame is exact.frame
+
+
+def test_drafts_have_the_rows_that_the_screen_shows(bench: Bench, pictures: list[Picture]) -> None:
+    bench.controller.draft_for(lambda: 7.9)
+    bench.store.change(iso=200.0)
+    bench.controller.draft_for(lambda: 0.5)  # fewer rows than four are no sooner there
+    bench.wait_until_idle()
+    bench.store.change(iso=300.0)
+    bench.wait_until_idle()
+    steps = [picture.frame.rows_step for picture in pictures if picture.is_draft]
+    assert steps == [7, LEAST_DRAFT_STEP]
+
+
+def test_a_picture_without_pixels_that_differ_needs_no_draft(
+    bench: Bench, pictures: list[Picture]
+) -> None:
+    bench.settings.set_tolerance(math.inf)
+    bench.wait_until_idle()
+    assert [picture.is_draft for picture in pictures] == [False]
+
+
+def test_where_only_pixels_are_read_the_draft_is_first(
+    bench: Bench, pictures: list[Picture]
+) -> None:
+    bench.store.change(jpeg_quality=80)
+    bench.wait_until_idle()
+    early, exact = bench.views[1].read[-2:]
+    assert (early.source, exact.source) == ("draft", "picture")
+    assert early.scene == exact.scene == bench.store.scene
+    for of_draft, of_picture in zip(early.results, exact.results, strict=True):
+        assert of_draft.code == of_picture.code
+        assert of_draft.region is not None
+        assert of_picture.region is not None
+        ends = np.subtract(astuple(of_draft.region), astuple(of_picture.region))
+        assert np.abs(ends).max() <= 2 * LEAST_DRAFT_STEP
+
+
+def test_while_the_scene_changes_only_drafts_are_made(
+    bench: Bench, pictures: list[Picture]
+) -> None:
+    """Each draft brings about the next change; the second change is replaced by the third."""
+    isos = iter([110.0, 120.0, 130.0])
+
+    def change_again(_picture: Picture) -> None:
+        iso = next(isos, None)
+        if iso is not None:
+            bench.store.change(iso=iso)
+
+    bench.controller._rendered.connect(change_again, Qt.ConnectionType.BlockingQueuedConnection)
+    bench.store.change(iso=90.0)
+    bench.store.change(iso=100.0)
+    bench.wait_until_idle()
+    assert [picture.is_draft for picture in pictures] == [True] * 4 + [
+        False
+    ]  # the second was not begun
+    assert pictures[-1].frame.scene == bench.store.scene
+    assert bench.scenes[1:] == [bench.store.scene]
 
 
 def test_a_scene_without_a_picture_says_why_and_views_stay(

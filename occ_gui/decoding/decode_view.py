@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
 
@@ -27,6 +28,7 @@ class DecodeView(QWidget):
         super().__init__(parent)
         self._reading: Reading | None = None
         self._early: Reading | None = None
+        self._drawn: DecodeResult | None = None
         self._is_outdated = False
         self.decoders = QTabBar()
         self.decoders.setDrawBase(False)
@@ -95,7 +97,7 @@ class DecodeView(QWidget):
         if before is not None and before.request == reading.request:
             self._early = before if before.source != reading.source else self._early
         else:
-            self._early = None
+            self._early = self._drawn = None
         self._reading = reading
         with QSignalBlocker(self.decoders):
             while self.decoders.count() < len(reading.results):
@@ -154,8 +156,10 @@ class DecodeView(QWidget):
         for name, text in self._measured(decoded).items():
             self._steps[name].setText(text)
             self._form.setRowVisible(self._steps[name], bool(text))
-        self.signal.show_result(decoded, reading.packet_columns)
-        self.run_lengths.show_result(decoded)
+        if not _same_steps(decoded, self._drawn):  # painting takes longer than comparing
+            self._drawn = decoded
+            self.signal.show_result(decoded, reading.packet_columns)
+            self.run_lengths.show_result(decoded)
 
     def _origin(self, reading: Reading) -> str:
         """Say what was read, and what it had seemed to be before where that differs."""
@@ -217,3 +221,15 @@ class DecodeView(QWidget):
 
 def _number(text: str, value: float | None) -> str | None:
     return None if value is None else text.format(value)
+
+
+def _same_steps(one: DecodeResult, other: DecodeResult | None) -> bool:
+    """Return whether two results would be drawn alike: of one decoder, from the same signal."""
+    return (
+        other is not None
+        and one.decoder == other.decoder
+        and one.signal is not None
+        and other.signal is not None
+        and np.array_equal(one.signal, other.signal)
+        and (one.failure, one.code, one.threshold) == (other.failure, other.code, other.threshold)
+    )

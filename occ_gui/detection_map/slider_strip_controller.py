@@ -67,7 +67,7 @@ class SliderStripPane(Protocol):
 
 
 def strip_stages(
-    missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"], slow: bool
+    missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"], present: SliderStripRequest
 ) -> Iterator[Stage]:
     """Give the stages of the work that is left.
 
@@ -75,9 +75,11 @@ def strip_stages(
     ----------
     missing
         For each slider its request and the positions that are not known.
-    slow
-        Whether points take long: then each is a job that a newer request ends.
+    present
+        The request for the scene. Where its points take long, each is a job that a newer request
+        ends; that is found out when the work begins, and holds up no slider.
     """
+    slow = bool(left_out(present.scene, present.settings))
     done: set[int] = set()
     for stride, rank in zip(STRIDES, RANKS, strict=True):
         now = set(range(0, POSITIONS, stride)) - done
@@ -177,8 +179,7 @@ class SliderStripController(QObject):
             self._pane.show_outdated(name, known is not None and not is_present)
             there = set(known[1]) if known is not None and is_present else set()
             missing[name] = (along, set(range(POSITIONS)) - there)
-        slow = bool(left_out(request.scene, request.settings))
-        self._channel.put(request, partial(strip_stages, missing, slow))
+        self._channel.put(request, partial(strip_stages, missing, request))
 
     def _take(self, request: SliderStripRequest, results: list[Along]) -> None:
         for result in results:

@@ -301,7 +301,11 @@ def _levels(reading: Reading, enhanced: bool) -> FloatArray:
 def _draw(
     curve: pg.PlotDataItem, values: FloatArray | None, first_column: float = 0.0, scale: float = 1.0
 ) -> None:
+    """Draw a curve, unless it is there already: painting takes longer than comparing."""
     if values is None:
-        curve.setData([], [])
+        columns, values = np.empty(0), np.empty(0)
     else:
-        curve.setData(first_column + scale * np.arange(len(values), dtype=np.float64), values)
+        columns = first_column + scale * np.arange(len(values), dtype=np.float64)
+    shown = curve.getOriginalDataset()
+    if shown[0] is None or not all(map(np.array_equal, shown, (columns, values))):
+        curve.setData(columns, values)

@@ -1,84 +1,167 @@
-"""From a slider's move to the painted frame, offscreen, at full phone resolution.
+"""From a slider's move to what is painted, offscreen, at full resolution.
 
-``python tests/benchmarks/slider.py`` prints the median and the 95th percentile of the time from a
-change of the exposure to the end of the paint that shows it, without noise and with it.
+``python tests/benchmarks/slider.py`` moves the exposure again and again, each time when all is
+shown that the last move called for, and prints for each kind of result the median and the 95th
+percentile of the time from the change to the end of the paint that shows it. Then it drags for
+three seconds, with a move every 16 ms, and prints how many pictures a second were painted, and when
+the exact picture followed the last move.
 """
 
+import argparse
 import math
 import os
 import sys
+from dataclasses import dataclass, field
 from time import perf_counter
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
-from PySide6.QtCore import QEventLoop, QObject
+from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Reading
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
-_MOVES = 150
-_WARM_UP = 20
+_WARM_UP = 5
+_DRAG_SECONDS = 3.0
+_MOVE_SECONDS = 0.016
+
+CASES = {
+    "noise-free": ("phone-136us", SimulationSettings(tolerance=math.inf)),
+    "noise from a reused plane": ("phone-136us", SimulationSettings(noise="reused")),
+    "phone-136us-real": ("phone-136us-real", SimulationSettings(noise="reused")),
+    "tablet-122us-real": ("tablet-122us-real", SimulationSettings(noise="reused")),
+}
+"""The preset of each case, and how it is simulated."""
+
+_ALWAYS = QEventLoop.ProcessEventsFlag.WaitForMoreEvents
 
 
-class _Painted(QObject):
-    """Notes when the picture of a scene has been given to its pane."""
+@dataclass
+class Painted:
+    """When the results of each scene were painted, by the kind of result."""
 
-    def __init__(self, application: Application) -> None:
+    times: dict[str, list[tuple[float, Scene]]] = field(default_factory=dict)
+
+    def add(self, kind: str, scene: Scene) -> None:
+        """Note that a result is on the screen now."""
+        self.times.setdefault(kind, []).append((perf_counter(), scene))
+
+    def first(self, scene: Scene, *kinds: str) -> float:
+        """Say when a result of one of these kinds was painted for a scene; infinity for never."""
+        found = [at for kind in kinds for at, of in self.times.get(kind, ()) if of == scene]
+        return min(found, default=math.inf)
+
+
+class Window(QObject):
+    """An application whose results are noted once they are painted."""
+
+    def __init__(self, qt: QApplication, case: str, size: tuple[int, int]) -> None:
         super().__init__()
-        self.shown = False
-        # The picture comes first, what was read from it a little later.
-        application.simulation.picture_ready.connect(self._note)
+        preset, settings = CASES[case]
+        self._qt = qt
+        self.application = Application(occ.load_preset(preset), settings)
+        self.painted = Painted()
+        self._waiting: list[tuple[str, Scene]] = []
+        self.application.simulation.picture_ready.connect(self._on_picture)
+        self.application.simulation.reading_shown.connect(self._on_reading)
+        self.application.window.resize(*size)
+        self.application.window.show()
+        self.come_to_rest()
 
-    def _note(self) -> None:
-        self.shown = True
+    def _on_picture(self, picture: Picture) -> None:
+        self._waiting.append(("draft" if picture.is_draft else "exact", picture.frame.scene))
+
+    def _on_reading(self, reading: Reading) -> None:
+        self._waiting.append(("verdict", reading.scene))
+
+    def paint(self, flags: QEventLoop.ProcessEventsFlag = _ALWAYS) -> None:
+        """Handle events, and note what they have painted."""
+        self._qt.processEvents(flags)
+        if self._waiting:
+            waiting, self._waiting = self._waiting, []
+            self._qt.processEvents()  # the paint that these have asked for
+            for kind, scene in waiting:
+                self.painted.add(kind, scene)
+
+    def come_to_rest(self) -> None:
+        """Handle events until all results are shown."""
+        while not self.application.is_idle or self._waiting:
+            self.paint()
+        self._qt.processEvents()
+
+    def single_moves(self, moves: int) -> list[tuple[float, float, float]]:
+        """Move and wait; give the seconds until picture, verdict and exact picture are painted."""
+        rows = []
+        for move in range(moves + _WARM_UP):
+            start = perf_counter()
+            self.application.store.change(1, exposure_time=60e-6 + 1e-7 * move)
+            scene = self.application.store.scene
+            self.come_to_rest()
+            first = self.painted.first
+            kinds = (("draft", "exact"), ("verdict",), ("exact",))
+            picture, verdict, exact = (first(scene, *names) - start for names in kinds)
+            rows.append((picture, verdict, exact))
+        return rows[_WARM_UP:]
+
+    def drag(self) -> tuple[float, float]:
+        """Drag; give the pictures painted a second, and the seconds from the end to the exact."""
+        moves = round(_DRAG_SECONDS / _MOVE_SECONDS)
+        made: list[float] = []
+        loop = QTimer(timerType=Qt.TimerType.PreciseTimer)
+
+        def move() -> None:
+            made.append(perf_counter())
+            self.application.store.change(2, exposure_time=80e-6 + 1e-7 * len(made))
+            if len(made) == moves:
+                loop.stop()
+
+        loop.timeout.connect(move)
+        loop.start(round(1e3 * _MOVE_SECONDS))
+        while len(made) < moves:
+            self.paint()
+        times = [at for kind in ("draft", "exact") for at, _ in self.painted.times.get(kind, ())]
+        during = sum(made[0] <= at <= made[-1] for at in times)
+        self.come_to_rest()
+        exact = self.painted.first(self.application.store.scene, "exact")
+        return during / (made[-1] - made[0]), exact - made[-1]
+
+    def close(self) -> None:
+        """End the application."""
+        self.application.window.close()
+        self.application.stop()
 
 
-def frame_times(settings: SimulationSettings, size: tuple[int, int]) -> list[float]:
-    """Move the exposure again and again; give the seconds until each change is on the screen."""
-    qt = QApplication.instance() or QApplication(sys.argv[:1])
-    assert isinstance(qt, QApplication)
-    application = Application(occ.load_preset("phone-136us"), settings)
-    application.window.resize(*size)
-    application.window.show()
-    painted = _Painted(application)
-    _until_painted(qt, painted)
-    times = []
-    for move in range(_MOVES + _WARM_UP):
-        painted.shown = False
-        start = perf_counter()
-        exposure = 60e-6 + 1e-7 * move
-        application.store.change(1, exposure_time=exposure)
-        _until_painted(qt, painted)
-        times.append(perf_counter() - start)
-        while not application.is_idle:  # a hand moves no faster than what it moves is read
-            qt.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
-        qt.processEvents()
-    application.window.close()
-    return times[_WARM_UP:]
-
-
-def _until_painted(qt: QApplication, painted: _Painted) -> None:
-    while not painted.shown:
-        qt.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
-    # What the snapshot changed is painted by the events that wait now.
-    qt.processEvents()
+def _measure(qt: QApplication, case: str, size: tuple[int, int], moves: int) -> None:
+    window = Window(qt, case, size)
+    ms = 1e3 * np.array(window.single_moves(moves))
+    rate, exact = window.drag()
+    window.close()
+    print(f"{case}, {size[0]} x {size[1]}:")
+    names = ("picture or its draft", "profile and verdict", "exact picture")
+    for name, values in zip(names, ms.T, strict=True):
+        median, late = np.percentile(values, (50, 95))
+        print(f"  {name:22s} median {median:6.1f} ms, 95th percentile {late:6.1f} ms")
+    print(f"  a drag of {_DRAG_SECONDS:g} s: {rate:.1f} pictures a second painted, the exact one")
+    print(f"    {1e3 * exact:.0f} ms after the last move")
 
 
 def main() -> None:
     """Print the table."""
-    for name, settings in {
-        "noise-free": SimulationSettings(tolerance=math.inf),
-        "noise from a reused plane": SimulationSettings(noise="reused"),
-    }.items():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--case", action="append", choices=tuple(CASES), help="default: all")
+    parser.add_argument("--moves", type=int, default=60)
+    options = parser.parse_args()
+    qt = QApplication.instance() or QApplication(sys.argv[:1])
+    assert isinstance(qt, QApplication)
+    for case in options.case or CASES:
         for size in ((1280, 800), (1920, 1080)):
-            ms = 1e3 * np.array(frame_times(settings, size))
-            print(
-                f"{name}, {size[0]} x {size[1]}: median {np.median(ms):.1f} ms, "
-                f"95th percentile {np.percentile(ms, 95):.1f} ms"
-            )
+            _measure(qt, case, size, options.moves)
 
 
 if __name__ == "__main__":

@@ -217,6 +217,7 @@ def start(
     from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector
     from occ_gui.scene.settings_store import FIRST_SETTINGS
+    from occ_gui.window.theme import show_theme
 
     # Short time slices, because the threads that start processes delay that of the window.
     sys.setswitchinterval(_TURN_S)
@@ -225,6 +226,7 @@ def start(
     QLocale.setDefault(QLocale.c())
     qt = QApplication(arguments)
     log_qt_messages()
+    show_theme(THEMES[0])  # before there are panes that would have to follow
     garbage = GarbageCollector(qt)
     application = Application(scene, settings or FIRST_SETTINGS, preferences)
     garbage.spare()

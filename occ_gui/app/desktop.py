@@ -99,6 +99,7 @@ class Desktop(QObject):
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
+        window.dress()
         self.layout = DockLayout(window, window.modes, preferences)
         lamps = parts.photo_wiring.lamps
         self.autosave = Autosave(
@@ -122,6 +123,7 @@ class Desktop(QObject):
         self.pointer.moved.connect(window.pointed.set_full_text)
         window.closing.connect(self.end)
         self.theme.chosen.connect(self._on_theme)
+        self.theme.coloured.connect(window.dress)
         actions = window.actions_by_name
         self.brightness.switched.connect(self._on_hold)
         window.menus.themes.triggered.connect(self._choose_theme)

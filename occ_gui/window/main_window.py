@@ -10,7 +10,7 @@ from PySide6.QtGui import (
     QShowEvent,
     QUndoStack,
 )
-from PySide6.QtWidgets import QMainWindow, QWidget
+from PySide6.QtWidgets import QApplication, QMainWindow, QWidget
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
@@ -26,9 +26,11 @@ from occ_gui.window.menus import Menus
 from occ_gui.window.modes.mode import HOMES, PICTURE
 from occ_gui.window.modes.mode_switch import ModeSwitch
 from occ_gui.window.status_line import StatusLine
+from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar
 
 _FIRST_SIZE = QSize(1280, 800)
+_PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _LEAST_DECODING = QSize(320, 300)
 
 
@@ -63,6 +65,10 @@ class MainWindow(QMainWindow):
     ) -> None:
         super().__init__()
         self.setWindowTitle(self.tr("Optical Camera Communication"))
+        # Else what is inside keeps the colours of the theme that it was first shown in.
+        QApplication.setAttribute(_PROPAGATED)
+        self.dress()
+        self.setFocus()  # on no control, until a key or the mouse chooses one
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
         self.setCentralWidget(story)
@@ -171,6 +177,12 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         if not self.modes.is_shown:
             self.modes.begin()
+
+    def dress(self) -> None:
+        """Set the style sheet in the colours of the present theme."""
+        sheet = style_sheet(QApplication.palette())
+        if sheet != self.styleSheet():
+            self.setStyleSheet(sheet)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         """Accept what may be files."""

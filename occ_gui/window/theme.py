@@ -5,39 +5,35 @@ from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication
 
 THEMES = ("system", "light", "dark")
-"""Names of the themes; the first follows the system."""
+"""Names of the themes; the first is light or dark as the system is."""
 
 _SCHEMES = dict(
     zip(THEMES, (Qt.ColorScheme.Unknown, Qt.ColorScheme.Light, Qt.ColorScheme.Dark), strict=True)
 )
+_STYLE = "fusion"
+"""The style that draws any palette, on every system."""
 
 _ROLE = QPalette.ColorRole
 
 _DARK = {
-    _ROLE.Window: "#343434", _ROLE.WindowText: "#ececec", _ROLE.Base: "#1c1c1c",
-    _ROLE.AlternateBase: "#262626", _ROLE.Text: "#ececec", _ROLE.Button: "#525252",
-    _ROLE.ButtonText: "#ffffff", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#2f7fc0",
-    _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#3a3a3a", _ROLE.ToolTipText: "#ececec",
-    _ROLE.Link: "#6cb6f5", _ROLE.LinkVisited: "#b79cf0", _ROLE.PlaceholderText: "#9a9a9a",
-    _ROLE.Light: "#4a4a4a", _ROLE.Midlight: "#404040", _ROLE.Mid: "#7a7a7a",
-    _ROLE.Dark: "#161616", _ROLE.Shadow: "#000000", _ROLE.Accent: "#2f7fc0",
+    _ROLE.Window: "#1f2226", _ROLE.WindowText: "#eceef0", _ROLE.Base: "#141619",
+    _ROLE.AlternateBase: "#1a1d20", _ROLE.Text: "#eceef0", _ROLE.Button: "#2c3036",
+    _ROLE.ButtonText: "#f4f5f6", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#2b76c9",
+    _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#32363d", _ROLE.ToolTipText: "#eceef0",
+    _ROLE.Link: "#7ab8f5", _ROLE.LinkVisited: "#c0a6f2", _ROLE.PlaceholderText: "#9aa0a8",
+    _ROLE.Light: "#3a3f47", _ROLE.Midlight: "#353a41", _ROLE.Mid: "#7e858f",
+    _ROLE.Dark: "#3a3f47", _ROLE.Shadow: "#000000", _ROLE.Accent: "#4a94e0",
 }  # fmt: skip
 _LIGHT = {
-    _ROLE.Window: "#efefef", _ROLE.WindowText: "#000000", _ROLE.Base: "#ffffff",
-    _ROLE.AlternateBase: "#f7f7f7", _ROLE.Text: "#000000", _ROLE.Button: "#efefef",
-    _ROLE.ButtonText: "#000000", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#308cc6",
-    _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#ffffdc", _ROLE.ToolTipText: "#000000",
-    _ROLE.Link: "#0000ff", _ROLE.LinkVisited: "#800080", _ROLE.PlaceholderText: "#7f7f7f",
-    _ROLE.Light: "#ffffff", _ROLE.Midlight: "#cacaca", _ROLE.Mid: "#b8b8b8",
-    _ROLE.Dark: "#9f9f9f", _ROLE.Shadow: "#767676", _ROLE.Accent: "#308cc6",
+    _ROLE.Window: "#f3f4f6", _ROLE.WindowText: "#1a1c1f", _ROLE.Base: "#ffffff",
+    _ROLE.AlternateBase: "#f7f8f9", _ROLE.Text: "#1a1c1f", _ROLE.Button: "#ffffff",
+    _ROLE.ButtonText: "#1a1c1f", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#0f62ad",
+    _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#ffffff", _ROLE.ToolTipText: "#1a1c1f",
+    _ROLE.Link: "#0b57a0", _ROLE.LinkVisited: "#6b2fa0", _ROLE.PlaceholderText: "#666b73",
+    _ROLE.Light: "#ffffff", _ROLE.Midlight: "#dfe2e6", _ROLE.Mid: "#80858e",
+    _ROLE.Dark: "#b9bdc4", _ROLE.Shadow: "#767676", _ROLE.Accent: "#0f62ad",
 }  # fmt: skip
-_SYSTEMS = "systemsStyleAndPalette"
-"""Application property that stores the system's style and palette while another theme is shown."""
-
-_BOX = "#8a8a8a"
-"""Colour of an empty check box in the dark theme: a contrast of 3.6 to the window."""
-
-_DISABLED = {"dark": "#7f7f7f", "light": "#a0a0a0"}
+_DISABLED = {"dark": "#7d838b", "light": "#8f949b"}
 _FADED = (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText)
 
 
@@ -51,24 +47,22 @@ def palette_of(theme: str) -> QPalette:
     return palette
 
 
-def _boxed(palette: QPalette) -> QPalette:
-    """Make empty check boxes visible: Fusion draws their frames darker than the window."""
-    palette.setColor(_ROLE.Base, QColor(_BOX))
-    return palette
-
-
 class ThemeController(QObject):
-    """Sets the application's colours.
-
-    A theme that is not the system's is drawn in the style Fusion, which applies any palette.
-    """
+    """Sets the application's colours: at once those of the system, later any others."""
 
     chosen = Signal(str)
     """The theme that is shown from now on, one of THEMES."""
 
+    coloured = Signal()
+    """The application may have other colours."""
+
     def __init__(self) -> None:
         super().__init__()
         self.theme = THEMES[0]
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            application.styleHints().colorSchemeChanged.connect(self._follow_system)
+        show_theme(self.theme)
 
     def choose(self, theme: str) -> None:
         """Change to a theme; an unknown name means that of the system."""
@@ -76,27 +70,29 @@ class ThemeController(QObject):
         if theme == self.theme:
             return
         self.theme = theme
-        application = QApplication.instance()
-        if not isinstance(application, QApplication):  # there is no window
-            return
-        application.styleHints().setColorScheme(_SCHEMES[theme])
-        if application.property(_SYSTEMS) is None:
-            found = (application.style().objectName(), application.palette())
-            application.setProperty(_SYSTEMS, found)
-        if theme == THEMES[0]:
-            style, palette = application.property(_SYSTEMS)
-            application.setProperty(_SYSTEMS, None)
-            application.setStyle(style)
-            application.setPalette(palette if _is_followed(application) is None else QPalette())
-        else:
-            application.setStyle("Fusion")
-            application.setPalette(palette_of(theme))
-            if theme == "dark":
-                # PySide takes a text here, whatever its stubs say.
-                application.setPalette(_boxed(palette_of(theme)), "QCheckBox")  # type: ignore[arg-type]
-        self.chosen.emit(theme)
+        if show_theme(theme):
+            self.coloured.emit()
+            self.chosen.emit(theme)
+
+    def _follow_system(self) -> None:
+        if self.theme == THEMES[0]:
+            show_theme(self.theme)
+            self.coloured.emit()
 
 
-def _is_followed(application: QApplication) -> bool | None:
-    """Return True where Qt follows the system's colours, None where it does not."""
-    return None if application.styleHints().colorScheme() == Qt.ColorScheme.Unknown else True
+def show_theme(theme: str) -> bool:
+    """Draw the application in a theme, one of THEMES; return whether there is an application."""
+    application = QApplication.instance()
+    if not isinstance(application, QApplication):  # there is no window
+        return False
+    hints = application.styleHints()
+    hints.setColorScheme(_SCHEMES[theme])
+    if theme == THEMES[0]:
+        theme = "dark" if hints.colorScheme() == Qt.ColorScheme.Dark else "light"
+    if application.style().objectName() != _STYLE:
+        application.setStyle(_STYLE)
+    palette = palette_of(theme)
+    # The text for a disabled one is not part of the key: all colours are compared.
+    if application.palette() != palette:
+        application.setPalette(palette)
+    return True

@@ -66,14 +66,14 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             main="map",
             left=(("controls",),),
             right=(("map",),),
-            widths={"controls": 340, "map": 940},
+            widths={"controls": 340},
         ),
         "effects": Mode(
             centre="",
             main="accuracy",
             left=(("controls",),),
             right=(("accuracy",),),
-            widths={"controls": 340, "accuracy": 940},
+            widths={"controls": 340},
         ),
         "lessons": Mode(
             centre=STORY,

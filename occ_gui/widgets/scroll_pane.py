@@ -26,7 +26,10 @@ class ScrollPane(QScrollArea):
         self.setWidget(content)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the least size, or the smaller height of the content."""
+        """Return the least size: no narrower than the content, which only scrolls up and down."""
         content = self.widget()
-        least = self._least if content is None else content.minimumSizeHint()
-        return QSize(self._least.width(), min(self._least.height(), least.height()))
+        if content is None:
+            return self._least
+        least, bar = content.minimumSizeHint(), self.verticalScrollBar().sizeHint().width()
+        width = max(self._least.width(), least.width() + bar)
+        return QSize(width, min(self._least.height(), least.height()))

@@ -33,23 +33,25 @@ QTabBar#modes::tab:selected {
 QTabBar#modes::tab:selected:focus { border: 2px solid palette(accent); }
 
 QPushButton {
-    padding: 4px 12px; min-height: 16px; border: 1px solid palette(mid); border-radius: 4px;
+    padding: 4px 9px; min-height: 16px; border: 1px solid palette(mid); border-radius: 4px;
     background: palette(button);
 }
 QPushButton:hover:enabled { background: palette(midlight); }
 QPushButton:pressed { background: palette(mid); }
 QPushButton:checked { background: palette(highlight); color: palette(highlighted-text); }
 QPushButton:disabled { border-color: palette(midlight); }
-QPushButton:focus { border: 2px solid palette(accent); padding: 3px 11px; }
+QPushButton:focus { border: 2px solid palette(accent); padding: 3px 8px; }
 
 QLineEdit, QAbstractSpinBox, QComboBox {
     border: 1px solid palette(mid); border-radius: 4px; background: palette(base);
     padding: 2px 6px; min-height: 18px; selection-background-color: palette(highlight);
 }
+QAbstractSpinBox { padding: 2px 0px 2px 4px; }
 QAbstractSpinBox QLineEdit, QComboBox QLineEdit { border: none; padding: 0px; }
 QLineEdit:focus, QAbstractSpinBox:focus, QComboBox:focus {
     border: 2px solid palette(accent); padding: 1px 5px;
 }
+QAbstractSpinBox:focus { padding: 1px 0px 1px 3px; }
 QAbstractSpinBox QLineEdit:focus { border: none; padding: 0px; }
 QLineEdit:disabled, QAbstractSpinBox:disabled, QComboBox:disabled {
     border-color: palette(midlight); background: palette(window);

@@ -63,7 +63,8 @@ def in_light(signal: FloatArray, scene: Scene) -> Light:
         is estimated, exposure time, switching frequency and number of bits.
     """
     model = scene.model
-    clipped = signal >= WHITE - 0.5
+    # Above white, the signal's levels are not those of a picture, and none is the largest.
+    clipped = (signal >= WHITE - 0.5) & (signal.max() <= WHITE)
     if not is_curve_known(scene):
         return Light(by_rank(signal, expected_light(scene)), np.zeros_like(clipped), True)
     if model.enhancement == "stretch":

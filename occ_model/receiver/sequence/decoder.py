@@ -23,7 +23,7 @@ from occ_model.receiver.sequence.fit import (
     improve,
 )
 from occ_model.receiver.sequence.packets import likeliest_packet
-from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
@@ -33,8 +33,8 @@ from occ_model.transmitter.packet import code_of, packet_length
 _IMPROVEMENTS = 4
 """Most times that the fit is improved from the chips that were detected."""
 
-_SETTLED = 0.95
-"""Share of the noise before an improvement above which no other one is tried."""
+_SETTLED = 0.9
+"""Share of the noise's variance before an improvement above which no other one is tried."""
 
 _LEAST_CERTAINTY = 0.9
 """Least probability that all bits are right, of a code that is read."""
@@ -42,11 +42,11 @@ _LEAST_CERTAINTY = 0.9
 _MOST_CHIPS_A_COLUMN = 1.0
 """Chips from one column to the next above which a chip may fall between two columns."""
 
-_LONGEST_MEMORY = 16
-"""Most chips that an exposure reaches back to; the states double with every second one."""
+_LONGEST_MEMORY = 32
+"""Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""
 
-_LEAST_NOISE = 1e-4
-"""Least noise that is assumed, in shares of full light: below it the model itself is not exact."""
+_MOST_UNEXPLAINED = 0.1
+"""Largest share of the signal's variance that may be neither the chips' light nor noise."""
 
 _PAIRS = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
 """The pairs of chips of differential Manchester: either may follow any level."""
@@ -118,17 +118,23 @@ def _fit(
 ) -> tuple[Fit, Light]:
     """Detect the chips, and improve what they were detected with."""
     light, expected = in_light(signal, scene), expected_light(scene)
-    rows = Rows(light.values, np.where(light.clipped, 0.0, 1.0), expected)
-    trellis = trellis_of(words, timing.memory)
+    rows = Rows(light.values, expected)
     brightness = first_guess(rows, timing, PER_CHIP)
-    timing = find_phase(rows, timing, brightness, trellis)
-    fit = detect(rows, timing, brightness, trellis)
+    timing = find_phase(rows, timing, brightness, words)
+    fit = detect(rows, timing, brightness, words)
     for _ in range(_IMPROVEMENTS):
         if light.is_estimated:
             # The chips found have a distribution of light of their own, nearer to the picture's.
             light = replace(light, values=by_rank(signal, fit.model))
-            rows = replace(rows, light=light.values)
-        before, fit = fit, detect(rows, *improve(rows, fit), trellis)
+        elif light.clipped.any():
+            # A white column had that light or more, as the chips found say.
+            least = fit.brightness.dark + fit.brightness.swing * fit.model
+            more = np.where(
+                light.clipped, np.maximum(in_light(signal, scene).values, least), light.values
+            )
+            light = replace(light, values=more)
+        rows = replace(rows, light=light.values)
+        before, fit = fit, detect(rows, *improve(rows, fit), words)
         if fit.noise > _SETTLED * before.noise:
             break
     return fit, light
@@ -157,7 +163,7 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
 def _framed(result: DecodeResult, fit: Fit, bits: int) -> DecodeResult:
     """Read the packet, if it is certain enough."""
     lit = np.where(fit.chips.values == 1, 1.0, -1.0)
-    ratios = lit * fit.chips.margins / (2.0 * max(fit.noise, _LEAST_NOISE) ** 2)
+    ratios = lit * fit.chips.margins / (2.0 * fit.noise_of_sums())
     packet = likeliest_packet(ratios, bits)
     result = replace(
         result,
@@ -165,6 +171,14 @@ def _framed(result: DecodeResult, fit: Fit, bits: int) -> DecodeResult:
         bit_likelihoods=packet.likelihoods,
         confidence=packet.certainty,
     )
+    unexplained = fit.unexplained()
+    if unexplained > _MOST_UNEXPLAINED:
+        return replace(
+            result,
+            failure="The chips found do not explain the signal: "
+            f"{100.0 * unexplained:.0f} % of its variance is neither theirs nor noise. No such "
+            "code is sent, or exposure time, switching frequency or readout time is another one.",
+        )
     if packet.certainty < _LEAST_CERTAINTY:
         worst = int(packet.likelihoods.argmin())
         return replace(

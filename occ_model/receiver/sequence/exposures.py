@@ -92,15 +92,13 @@ def features_of(words: FloatArray) -> FloatArray:
     return np.concatenate([-2.0 * words, words, words[..., upper] * words[..., lower]], axis=-1)
 
 
-def gather(light: FloatArray, weights: FloatArray, timing: Timing) -> ChipStatistics:
+def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
     """Gather rows by the chip that each of them ends in.
 
     Parameters
     ----------
     light : ndarray of float64, shape (rows,)
         The share of full light of each row.
-    weights : ndarray of float64, shape (rows,)
-        What each row counts; 0 where it is clipped.
     timing
         The timing.
     """
@@ -108,13 +106,12 @@ def gather(light: FloatArray, weights: FloatArray, timing: Timing) -> ChipStatis
     last, shares = taps(timing, starts)
     first, count = int(last[0]), int(last[-1] - last[0]) + 1
     upper, lower = np.triu_indices(shares.shape[1], 1)
-    weighted = shares * weights[:, None]
     terms = np.concatenate(
         [
-            weighted * light[:, None],
-            weighted * shares,
-            2.0 * weighted[:, upper] * shares[:, lower],
-            (weights * light**2)[:, None],
+            shares * light[:, None],
+            shares**2,
+            2.0 * shares[:, upper] * shares[:, lower],
+            light[:, None] ** 2,
         ],
         axis=1,
     )

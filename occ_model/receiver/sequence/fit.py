@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.receiver.sequence.exposures import Timing, gather, taps
+from occ_model.receiver.sequence.beam import beam_chips
+from occ_model.receiver.sequence.exposures import ChipStatistics, Timing, gather, taps
 from occ_model.receiver.sequence.max_log import Chips, best_chips, least_distances
-from occ_model.receiver.sequence.trellis import Trellis
+from occ_model.receiver.sequence.trellis import Word, most_states, trellis_of
 
 _PHASES = 8
 """Phases of the chips that are tried, evenly over one chip."""
@@ -22,6 +23,15 @@ _TRIED_CHIPS = 96
 
 _LAGS = 3
 """Rows apart whose products give the contrast without the noise, which no two rows share."""
+
+_LEAST_NOISE = 1e-8
+"""Least variance that is assumed, in shares of full light squared: no model is more exact."""
+
+_SINGULAR = 1e-10
+"""Share of the largest singular value below which one is rounding error."""
+
+_MOST_STATES = 2048
+"""States of a trellis above which only the best ways are followed."""
 
 _MOST_STEP = 0.1
 """Largest change of the phase in one improvement, in chips."""
@@ -49,15 +59,40 @@ class Fit:
         They.
     model : ndarray of float64, shape (rows,)
         The lit share of each row that the chips have.
-    noise
-        Standard deviation of the rows about the model, in shares of full light.
+    residual : ndarray of float64, shape (rows,)
+        The share of full light of each row less that of the model.
     """
 
     chips: Chips
     timing: Timing
     brightness: Brightness
     model: FloatArray
-    noise: float
+    residual: FloatArray
+
+    @property
+    def noise(self) -> float:
+        """Variance of the rows about the model, in shares of full light squared."""
+        free = max(1, len(self.residual) - len(self.chips.values))
+        return max(float(self.residual @ self.residual) / free, _LEAST_NOISE)
+
+    def noise_of_sums(self) -> float:
+        """Variance a row of the residual's sum over rows, up to an exposure apart.
+
+        It is the noise where the residual of neighbours is independent. What the model does not
+        explain is alike in neighbours and does not average out: then it is more.
+        """
+        reach = min(round(self.timing.exposure / self.timing.step), len(self.residual) // 4)
+        own = _autocorrelation(self.residual, reach)
+        return self.noise * max(1.0, 1.0 + 2.0 * float(own[1:].sum()))
+
+    def unexplained(self) -> float:
+        """Share of the signal's variance that is neither the model's nor noise.
+
+        Noise is independent from row to row; so it is the residual's covariance of neighbours.
+        """
+        own = _autocorrelation(self.residual, 1)
+        variance = float((self.model + self.residual).var())
+        return float(own[1:].sum()) * float(self.residual.var()) / max(variance, _LEAST_NOISE)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -68,14 +103,11 @@ class Rows:
     ----------
     light : ndarray of float64, shape (rows,)
         Proportional to the light of each, up to a constant.
-    weights : ndarray of float64, shape (rows,)
-        What each counts, 0 or 1.
     expected : ndarray of float64, shape (exposures,)
         The lit shares of exposures of random data in the order of time, for a first guess.
     """
 
     light: FloatArray
-    weights: FloatArray
     expected: FloatArray
 
 
@@ -94,8 +126,7 @@ def lit_shares(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, Flo
 def first_guess(rows: Rows, timing: Timing, per_chip: int) -> Brightness:
     """Guess the brightness from the mean of the rows and the covariance of neighbours."""
     light, expected = rows.light, rows.expected
-    seen = rows.weights > 0.0
-    about = np.where(seen, light - light[seen].mean(), 0.0)
+    about = light - light.mean()
     lags = np.arange(1, _LAGS + 1)
     own = np.array([about[lag:] @ about[:-lag] for lag in lags]) / len(light)
     swing = expected - expected.mean()
@@ -103,11 +134,13 @@ def first_guess(rows: Rows, timing: Timing, per_chip: int) -> Brightness:
     model = np.array([np.roll(swing, shift) @ swing for shift in shifts]) / len(swing)
     ratio = max(float(own.sum()), 1e-12) / max(float(model.sum()), 1e-12)
     scale = float(np.sqrt(ratio))
-    dark = float(light[seen].mean()) - scale * float(expected.mean())
+    dark = float(light.mean()) - scale * float(expected.mean())
     return Brightness(np.full(len(light), dark), np.full(len(light), scale))
 
 
-def find_phase(rows: Rows, timing: Timing, brightness: Brightness, trellis: Trellis) -> Timing:
+def find_phase(
+    rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
+) -> Timing:
     """Find the phase at which the chips in the middle of the picture fit best."""
     count = min(len(rows.light), round((_TRIED_CHIPS + timing.exposure) / timing.step))
     first = (len(rows.light) - count) // 2
@@ -116,19 +149,29 @@ def find_phase(rows: Rows, timing: Timing, brightness: Brightness, trellis: Trel
     tried = [
         replace(timing, phase=timing.step * first + place / _PHASES) for place in range(_PHASES)
     ]
-    distances = least_distances(trellis, [gather(light, rows.weights[part], one) for one in tried])
+    seen = [gather(light, one) for one in tried]
+    if most_states(words, timing.memory) <= _MOST_STATES:
+        distances = least_distances(trellis_of(words, timing.memory), seen)
+    else:
+        chips = [_likeliest(words, timing, one) for one in seen]
+        models = [lit_shares(c, t, count)[0] for c, t in zip(chips, tried, strict=True)]
+        distances = np.array([float(np.sum((light - model) ** 2)) for model in models])
     best = tried[int(np.argmin(distances))]
     return replace(best, phase=best.phase - timing.step * first)
 
 
-def detect(rows: Rows, timing: Timing, brightness: Brightness, trellis: Trellis) -> Fit:
+def detect(rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]) -> Fit:
     """Detect the chips at a timing and a brightness."""
     share = brightness.lit_share(rows.light)
-    chips = best_chips(trellis, gather(share, rows.weights, timing))
+    chips = _likeliest(words, timing, gather(share, timing))
     model, _ = lit_shares(chips, timing, len(share))
-    residual = (share - model) * rows.weights
-    free = max(1.0, float(rows.weights.sum()) - len(chips.values))
-    return Fit(chips, timing, brightness, model, float(np.sqrt(residual @ residual / free)))
+    return Fit(chips, timing, brightness, model, share - model)
+
+
+def _likeliest(words: tuple[Word, ...], timing: Timing, statistics: ChipStatistics) -> Chips:
+    if most_states(words, timing.memory) <= _MOST_STATES:
+        return best_chips(trellis_of(words, timing.memory), statistics)
+    return beam_chips(words, timing.memory, statistics)
 
 
 def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
@@ -142,10 +185,7 @@ def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
     columns = np.concatenate(
         [powers, powers * model[:, None], (slope * swing)[:, None] * powers[:, :2]], axis=1
     )
-    weighted = columns * rows.weights[:, None]
-    normal = weighted.T @ columns
-    normal[np.diag_indices(len(normal))] *= 1.0 + 1e-9
-    found = np.linalg.lstsq(normal, weighted.T @ rows.light, rcond=None)[0]
+    found = np.linalg.lstsq(columns.T @ columns, columns.T @ rows.light, rcond=_SINGULAR)[0]
     dark, swing = powers @ found[:3], powers @ found[3:6]
     if not (swing > 0.0).all():
         return fit.timing, fit.brightness
@@ -154,3 +194,11 @@ def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
     step = fit.timing.step + 2.0 * drift / max(count - 1, 1)
     timing = replace(fit.timing, phase=fit.timing.phase + shift - drift, step=step)
     return timing, Brightness(dark, swing)
+
+
+def _autocorrelation(values: FloatArray, reach: int) -> FloatArray:
+    """Return the correlation of values with those some places on, shape (reach + 1,)."""
+    about = values - values.mean()
+    energy = max(float(about @ about), _LEAST_NOISE)
+    ahead = [float(about[lag:] @ about[: len(about) - lag]) for lag in range(1, reach + 1)]
+    return np.array([energy, *ahead]) / energy

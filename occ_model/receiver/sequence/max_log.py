@@ -19,7 +19,7 @@ from occ_model.receiver.sequence.trellis import NO_STATE, Trellis
 _NEVER = 1e30
 """Distance of a state that cannot be reached."""
 
-_SURVIVAL = 5
+SURVIVAL = 5
 """Memories of a trellis after which the paths that survive have one beginning."""
 
 _LONGEST_PART = 128
@@ -46,10 +46,8 @@ class Chips:
     margins: FloatArray
 
 
-def best_chips(
-    trellis: Trellis, statistics: ChipStatistics, places: tuple[int, ...] | None = None
-) -> Chips:
-    """Find the chips whose light is nearest to the rows.
+def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
+    """Find the chips whose light is nearest to the rows, from the first that a row can show.
 
     Parameters
     ----------
@@ -57,18 +55,15 @@ def best_chips(
         The code.
     statistics
         What the rows say.
-    places
-        The places of a word at which the first row may end; all where they are not known.
     """
-    parts = _Parts.of(len(statistics.features), trellis.memory)
-    costs = _costs(trellis, parts.of_chips(statistics.features))
-    start = np.zeros(trellis.states)
-    if places is not None:
-        start[~np.isin(trellis.places, places)] = _NEVER
-    forward = _forward(trellis, costs, parts, start)
+    # The first row shows one chip more than the state after it holds: the state before it does.
+    features = np.pad(statistics.features, ((1, 0), (0, 0)))
+    parts = _Parts.of(len(features), trellis.memory)
+    costs = _costs(trellis, parts.of_chips(features))
+    forward = _forward(trellis, costs)
     both = _add_backward(trellis, costs, forward)
     values, margins = _decided(trellis, both, parts)
-    return Chips(statistics.first - trellis.memory + 1, values, margins)
+    return Chips(statistics.first - trellis.memory, values, margins)
 
 
 def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> FloatArray:
@@ -108,7 +103,7 @@ class _Parts:
 
     @classmethod
     def of(cls, count: int, memory: int) -> Self:
-        overlap = _SURVIVAL * (memory + 1)
+        overlap = SURVIVAL * (memory + 1)
         parts = -(-count // _LONGEST_PART)
         if parts == 1 or count <= 2 * overlap:
             return cls(count, count, 0, np.arange(count)[:, None])
@@ -142,13 +137,11 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
     return np.asarray(costs.reshape(len(costs), *trellis.before.shape, -1))
 
 
-def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts, start: FloatArray) -> FloatArray:
+def _forward(trellis: Trellis, costs: FloatArray) -> FloatArray:
     """Return the least distance of the ways to each state, shape (chips, states, parts)."""
     least = np.empty((len(costs), trellis.states, costs.shape[-1]))
     now, ways = np.zeros(least.shape[1:]), np.empty(costs.shape[1:])
     for step, cost in enumerate(costs):
-        if step == parts.overlap:
-            now[:, 0] += start
         np.add(now.take(trellis.before, axis=0, out=ways, mode="wrap"), cost, out=ways)
         now = np.minimum.reduce(ways, axis=0, out=least[step])
     return least

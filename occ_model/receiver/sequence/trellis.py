@@ -42,7 +42,7 @@ class Trellis:
     memory
         Chips that a state holds.
     places : ndarray of int64, shape (states,)
-        The place within a word; 0 is reached where any encoder's state 0 word has ended.
+        The place within the words, see :func:`places_of`.
     chips : ndarray of uint8, shape (states, memory)
         The last chips, the latest first.
     before : ndarray of int64, shape (steps, states)
@@ -85,6 +85,19 @@ def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...
             place = steps[place][key]
         steps[place][(word.chips[-1], word.after)] = word.after
     return tuple(tuple((chip, to) for (chip, _), to in one.items()) for one in steps)
+
+
+def most_states(words: tuple[Word, ...], memory: int) -> int:
+    """Return the most states that a trellis can have: the ways to go as many steps as it holds."""
+    steps = places_of(words)
+    ways = [1] * len(steps)
+    for _ in range(memory):
+        on = [0] * len(steps)
+        for place, one in enumerate(steps):
+            for _, to in one:
+                on[to] += ways[place]
+        ways = on
+    return sum(ways)
 
 
 @lru_cache(maxsize=16)

@@ -1,0 +1,202 @@
+"""Sequence detection: bit error rates of known timing, optimality, and honest likelihoods."""
+
+import itertools
+
+import numpy as np
+import pytest
+from physics.exposed_chips import manchester, noise_of, seen_by_rows
+
+import occ_model as occ
+from occ_model.receiver.sequence.beam import beam_chips
+from occ_model.receiver.sequence.exposures import Timing, gather, taps
+from occ_model.receiver.sequence.max_log import Chips, best_chips, least_distances
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
+from occ_model.scene.scene import Scene
+
+MANCHESTER = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
+STEP, PHASE = 0.2, 0.13
+"""Five rows a chip, none at a chip's edge."""
+
+POINTS = [(7, 15, 3e-2), (7, 20, 8e-4), (7, 30, 1e-4), (4, 10, 6e-2), (4, 20, 1e-4)]
+"""Exposure in chips, signal-to-noise ratio in decibels, and the bit error rate asked for."""
+
+
+def detect(light: np.ndarray, exposure: float, words: tuple[Word, ...] = MANCHESTER) -> Chips:
+    timing = Timing(exposure, STEP, PHASE)
+    return best_chips(trellis_of(words, timing.memory), gather(light, timing))
+
+
+def wrong_bits(exposure: float, decibels: float, bits: int, seed: int) -> tuple[int, int]:
+    random = np.random.default_rng(seed)
+    sent = manchester(random.integers(0, 2, bits))
+    light = seen_by_rows(sent, exposure, STEP, PHASE)
+    found = detect(light + noise_of(decibels) * random.standard_normal(len(light)), exposure)
+    place = found.first + np.arange(len(found.values))
+    second = (place >= 0) & (place < len(sent)) & (place % 2 == 1)
+    wrong = found.values[second] != sent[place[second]]
+    return int(wrong.sum()), int(wrong.size)
+
+
+@pytest.mark.parametrize(("exposure", "decibels", "most"), POINTS)
+def test_bit_errors_of_manchester_stay_below_the_rates(
+    exposure: float, decibels: float, most: float
+) -> None:
+    wrong, bits = wrong_bits(exposure, decibels, 20_000, seed=1)
+    assert bits >= 19_990
+    assert wrong / bits <= most
+
+
+def test_4_chips_at_15_db_have_a_rate_near_6_in_10000() -> None:
+    # That of the bitwise best detector, 6e-4, leaves no room below it: see decoders.md.
+    wrong, bits = wrong_bits(4, 15, 60_000, seed=1)
+    assert 3e-4 < wrong / bits < 9e-4
+
+
+@pytest.mark.whole
+def test_a_million_bits_at_7_chips_and_30_db_have_no_errors() -> None:
+    counts = [wrong_bits(7, 30, 100_000, seed) for seed in range(10)]
+    wrong, bits = np.sum(counts, axis=0)
+    assert bits > 999_000
+    assert wrong / bits < 1e-5
+
+
+@pytest.mark.parametrize("words", [MANCHESTER, FREE_CHIPS], ids=["Manchester", "free"])
+@pytest.mark.parametrize("exposure", [0.4, 1.0, 2.7])
+def test_no_other_sequence_is_nearer_to_the_rows(words: tuple[Word, ...], exposure: float) -> None:
+    random = np.random.default_rng(7)
+    count = 10
+    sent = manchester(random.integers(0, 2, count // 2))
+    light = seen_by_rows(sent, exposure, STEP, 0.0)
+    light = light + 0.2 * random.standard_normal(len(light))
+    timing = Timing(exposure, STEP, 0.0)
+    statistics = gather(light, timing)
+    trellis = trellis_of(words, timing.memory)
+    (least,) = least_distances(trellis, [statistics])
+    chips = best_chips(trellis, statistics)
+    every = np.array(list(itertools.product([0, 1], repeat=count)))
+    if words is MANCHESTER:
+        # Both ways that the pairs may lie, and a chip more at the end of each.
+        pairs = np.array([manchester(np.array(b)) for b in itertools.product([0, 1], repeat=6)])
+        every = np.concatenate([pairs[:, :count], pairs[:, 1 : count + 1]])
+    distances = [
+        float(((seen_by_rows(one, exposure, STEP, 0.0) - light) ** 2).sum()) for one in every
+    ]
+    assert least == pytest.approx(min(distances), abs=1e-9)
+    best = every[int(np.argmin(distances))]
+    np.testing.assert_array_equal(chips.values[-chips.first :][:count], best)
+
+
+def test_a_margin_is_what_the_opposite_chip_costs() -> None:
+    random = np.random.default_rng(5)
+    exposure, count = 1.6, 9
+    sent = random.integers(0, 2, count)
+    light = seen_by_rows(sent, exposure, STEP, 0.0)
+    light = light + 0.15 * random.standard_normal(len(light))
+    timing = Timing(exposure, STEP, 0.0)
+    found = best_chips(trellis_of(FREE_CHIPS, timing.memory), gather(light, timing))
+    every = np.array(list(itertools.product([0, 1], repeat=count)))
+    distances = np.array(
+        [((seen_by_rows(one, exposure, STEP, 0.0) - light) ** 2).sum() for one in every]
+    )
+    for chip in range(count - 1):
+        lit = every[:, chip] == 1
+        cost = abs(distances[lit].min() - distances[~lit].min())
+        assert found.margins[chip - found.first] == pytest.approx(cost, abs=1e-9)
+
+
+@pytest.mark.parametrize("exposure", [3.0, 5.3])
+def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
+    random = np.random.default_rng(2)
+    sent = manchester(random.integers(0, 2, 150))
+    light = seen_by_rows(sent, exposure, STEP, PHASE)
+    light = light + noise_of(25.0) * random.standard_normal(len(light))
+    timing = Timing(exposure, STEP, PHASE)
+    statistics = gather(light, timing)
+    whole = best_chips(trellis_of(MANCHESTER, timing.memory), statistics)
+    beam = beam_chips(MANCHESTER, timing.memory, statistics)
+    same = beam.values[whole.first - beam.first :][: len(whole.values)] == whole.values
+    # The beam has to find its way in first.
+    assert same[3 * timing.memory :].all()
+
+
+@pytest.mark.parametrize(
+    ("exposure", "start", "shares"),
+    [
+        (1.0, 0.25, [0.75, 0.25]),
+        (1.5, 0.0, [2 / 3, 1 / 3]),
+        (1.5, 0.75, [1 / 6, 2 / 3, 1 / 6]),
+        (2.5, 0.5, [0.2, 0.4, 0.4]),
+    ],
+)
+def test_taps_are_the_overlaps_of_exposure_and_chips(
+    exposure: float, start: float, shares: list[float]
+) -> None:
+    last, found = taps(Timing(exposure, 0.1), np.array([start]))
+    in_time = found[0, ::-1][-int(last[0]) - 1 :]
+    np.testing.assert_allclose(in_time[: len(shares)], shares, atol=1e-12)
+    assert found.sum() == pytest.approx(1.0)
+
+
+def test_stated_likelihoods_are_those_of_the_errors() -> None:
+    # Near the margin of what is readable: of the bits said to be right with a probability of p,
+    # about a share p is right.
+    random = np.random.default_rng(4)
+    exposure, decibels = 7.0, 14.0
+    sent = manchester(random.integers(0, 2, 20_000))
+    light = seen_by_rows(sent, exposure, STEP, PHASE)
+    found = detect(light + noise_of(decibels) * random.standard_normal(len(light)), exposure)
+    place = found.first + np.arange(len(found.values))
+    second = (place >= 0) & (place < len(sent)) & (place % 2 == 1)
+    wrong = found.values[second] != sent[place[second]]
+    ratio = found.margins[second] / (2.0 * noise_of(decibels) ** 2)
+    stated = 1.0 / (1.0 + np.exp(ratio))
+    for low, high in ((0.0, 0.02), (0.02, 0.1), (0.1, 0.3), (0.3, 0.5)):
+        some = (stated >= low) & (stated < high)
+        assert wrong[some].mean() == pytest.approx(stated[some].mean(), rel=0.35, abs=0.002)
+
+
+@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
+@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
+@pytest.mark.parametrize("frequency", [4e3, 14.7e3, 40e3])
+def test_codes_are_read_on_both_sides_of_the_null(
+    frequency: float, averaging: str, enhancement: str
+) -> None:
+    random = np.random.default_rng(int(frequency))
+    for code in random.integers(0, 1024, 3).tolist():
+        scene = occ.load_preset("phone-136us").replace(
+            rows=60, switching_frequency=frequency, code=code, averaging=averaging,
+            enhancement=enhancement, start_time=float(random.uniform(0.0, 1e-2)),
+        )  # fmt: skip
+        result = occ.decode(occ.render(scene).signal, scene, "sequence")
+        assert result.code == code
+        assert result.bit_likelihoods is not None
+        assert result.bit_likelihoods.min() > 0.99
+
+
+def test_what_no_chips_explain_is_refused() -> None:
+    random = np.random.default_rng(3)
+    noise = random.normal(100.0, 5.0, 3456)
+    smooth = np.convolve(random.normal(100.0, 20.0, 3472), np.ones(17) / 17.0, "valid")
+    for signal in (noise, smooth, np.resize(np.repeat([0.0, 255.0], 9), 3456)):
+        for frequency in (5e3, 10e3, 20e3, 40e3):
+            scene = Scene().replace(switching_frequency=frequency, enhancement="none")
+            result = occ.decode(signal, scene, "sequence")
+            assert result.code is None
+            assert result.failure is not None
+
+
+def test_codes_given_in_heavy_noise_are_right() -> None:
+    random = np.random.default_rng(8)
+    given, right = 0, 0
+    for _ in range(40):
+        code, noise = int(random.integers(1024)), float(random.uniform(5.0, 80.0))
+        scene = occ.load_preset("phone-136us").replace(
+            switching_frequency=25e3, code=code, enhancement="none",
+            start_time=float(random.uniform(0.0, 1e-3)),
+        )  # fmt: skip
+        signal = occ.column_profile(scene) + noise * random.standard_normal(3456)
+        read = occ.decode(signal, scene, "sequence").code
+        given += read is not None
+        right += read == code
+    assert 10 <= given < 40
+    assert right == given

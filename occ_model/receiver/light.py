@@ -15,10 +15,10 @@ import numpy as np
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import packets
+from occ_model.transmitter.scheme import scheme_named, scheme_of
 
-_CODES = 64
-"""Random codes that the distribution of light is computed from."""
+_CHIPS = 1500
+"""Chips of random payloads that the distribution of light is computed from."""
 
 PER_CHIP = 16
 """Exposures in each chip of :func:`expected_light`."""
@@ -95,18 +95,32 @@ def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
 def expected_light(scene: Scene) -> FloatArray:
     """Return the lit shares of exposures of random data in the order of time, 16 a chip."""
     transmitter = scene.transmitter
-    bits = 0 if transmitter.pattern else transmitter.bits
-    return _expected_light(bits, scene.camera.exposure_time * transmitter.switching_frequency)
+    exposure = scene.camera.exposure_time * transmitter.switching_frequency
+    if transmitter.pattern:
+        return _expected_light("", "", "", "none", 0, exposure)
+    return _expected_light(
+        transmitter.line_code,
+        transmitter.framing,
+        transmitter.preamble,
+        transmitter.error_correction,
+        scheme_of(transmitter).bits,
+        exposure,
+    )
 
 
 @lru_cache(maxsize=32)
-def _expected_light(bits: int, exposure: float) -> FloatArray:
+def _expected_light(
+    line_code: str, framing: str, preamble: str, correction: str, bits: int, exposure: float
+) -> FloatArray:
     random = np.random.default_rng(1)
     chips: ByteArray
     if bits:
-        chips = packets(random.integers(0, 2**bits, _CODES), bits).ravel()
+        scheme = scheme_named(line_code, framing, preamble, correction, bits)
+        count = max(1, _CHIPS // scheme.length)
+        payloads = random.integers(0, 2, (count, bits), dtype=np.uint8)
+        chips = np.concatenate([scheme.encode(payload) for payload in payloads])
     else:
-        chips = random.integers(0, 2, 16 * _CODES, dtype=np.uint8)
+        chips = random.integers(0, 2, _CHIPS, dtype=np.uint8)
     starts = (np.arange(len(chips) * PER_CHIP) + 0.5) / PER_CHIP
     lit = np.concatenate([[0.0], np.cumsum(chips)])
     ends = starts + exposure % len(chips)

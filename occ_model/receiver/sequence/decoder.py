@@ -13,6 +13,8 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.light import PER_CHIP, Light, by_rank, expected_light, in_light
+from occ_model.receiver.read_payload import with_bits
+from occ_model.receiver.sequence.code_words import code_words
 from occ_model.receiver.sequence.exposures import Timing
 from occ_model.receiver.sequence.fit import (
     Fit,
@@ -22,13 +24,12 @@ from occ_model.receiver.sequence.fit import (
     first_guess,
     improve,
 )
-from occ_model.receiver.sequence.packets import likeliest_packet
-from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word
+from occ_model.receiver.sequence.soft_frame import read_frame
+from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import code_of, packet_length
+from occ_model.transmitter.scheme import scheme_of
 
 _IMPROVEMENTS = 4
 """Most times that the fit is improved from the chips that were detected."""
@@ -48,9 +49,6 @@ _LONGEST_MEMORY = 32
 _MOST_UNEXPLAINED = 0.1
 """Largest share of the signal's variance that may be neither the chips' light nor noise."""
 
-_PAIRS = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
-"""The pairs of chips of differential Manchester: either may follow any level."""
-
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code from the chips whose exposures are most like the signal.
@@ -60,8 +58,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     signal : ndarray of float64, shape (columns,)
         Mean grey level of each column.
     scene
-        Its number of bits, switching frequency, exposure time, readout time, averaging, gamma and
-        enhancement are used.
+        Its scheme, number of bits, switching frequency, exposure time, readout time, averaging,
+        gamma and enhancement are used.
 
     Returns
     -------
@@ -78,8 +76,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     refusal = _why_not(timing, len(signal), scene)
     if refusal is not None:
         return replace(result, failure=refusal)
-    words = FREE_CHIPS if transmitter.pattern else (*_PAIRS, Word(0, HEADER, 0))
-    fit, light = _fit(signal, scene, timing, words)
+    code = code_words(transmitter, timing.memory)
+    fit, light = _fit(signal, scene, timing, code.words)
     result = _with_steps(result, fit, light)
     if transmitter.pattern:
         return replace(
@@ -87,7 +85,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure="A raw chip pattern is sent, which holds no packets; "
             f"{len(fit.chips.values)} chips were read.",
         )
-    return _framed(result, fit, transmitter.bits)
+    return _framed(result, fit, scene, code.header)
 
 
 def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
@@ -102,9 +100,9 @@ def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
             f"An exposure covers {timing.exposure:.3g} chips; the sequence detector undoes up to "
             f"{_LONGEST_MEMORY}."
         )
-    if scene.transmitter.pattern:
+    if scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers:
         return None
-    seen, length = int(rows * timing.step), packet_length(scene.transmitter.bits)
+    seen, length = int(rows * timing.step), scheme_of(scene.transmitter).length
     if seen < length:
         return (
             f"Less than one packet: {seen} of {length} chips fit the panel's image; come closer or "
@@ -160,34 +158,30 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
     )
 
 
-def _framed(result: DecodeResult, fit: Fit, bits: int) -> DecodeResult:
-    """Read the packet, if it is certain enough."""
+def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...]) -> DecodeResult:
+    """Read the payload, if it is certain enough."""
     lit = np.where(fit.chips.values == 1, 1.0, -1.0)
     ratios = lit * fit.chips.margins / (2.0 * fit.noise_of_sums())
-    packet = likeliest_packet(ratios, bits)
-    result = replace(
-        result,
-        bits=packet.bits,
-        bit_likelihoods=packet.likelihoods,
-        confidence=packet.certainty,
-    )
+    scheme = scheme_of(scene.transmitter)
+    frame = read_frame(ratios, scheme, header)
+    read = with_bits(result, replace(frame.framed, headers=()), scene)
+    read = replace(read, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
+    failure = read.failure
     unexplained = fit.unexplained()
     if unexplained > _MOST_UNEXPLAINED:
-        return replace(
-            result,
-            failure="The chips found do not explain the signal: "
+        failure = (
+            "The chips found do not explain the signal: "
             f"{100.0 * unexplained:.0f} % of its variance is neither theirs nor noise. No such "
-            "code is sent, or exposure time, switching frequency or readout time is another one.",
+            "code is sent, or exposure time, switching frequency or readout time is another one."
         )
-    if packet.certainty < _LEAST_CERTAINTY:
-        worst = int(packet.likelihoods.argmin())
-        return replace(
-            result,
-            failure=f"The chips are not certain enough: all {bits} bits are right with a "
-            f"probability of {packet.certainty:.2f}, bit {worst + 1} with "
-            f"{packet.likelihoods[worst]:.2f}.",
+    elif failure is None and frame.certainty < _LEAST_CERTAINTY and not scheme.framing.checks:
+        failure = (
+            "The chips are not certain enough: that all "
+            f"{scheme.bits} bits are right has a probability of {frame.certainty:.2g}."
         )
-    return replace(result, code=code_of(packet.bits))
+    if failure is None:
+        return read
+    return replace(read, code=None, payload="", failure=failure)
 
 
 DECODER = Decoder("sequence", "Sequence: the most likely chips", read_signal, is_quick=False)

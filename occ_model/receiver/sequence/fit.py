@@ -11,6 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.receiver.sequence.beam import beam_chips
+from occ_model.receiver.sequence.code_words import MOST_STATES
 from occ_model.receiver.sequence.exposures import ChipStatistics, Timing, gather, taps
 from occ_model.receiver.sequence.max_log import Chips, best_chips, least_distances
 from occ_model.receiver.sequence.trellis import Word, most_states, trellis_of
@@ -29,9 +30,6 @@ _LEAST_NOISE = 1e-8
 
 _SINGULAR = 1e-10
 """Share of the largest singular value below which one is rounding error."""
-
-_MOST_STATES = 2048
-"""States of a trellis above which only the best ways are followed."""
 
 _MOST_STEP = 0.1
 """Largest change of the phase in one improvement, in chips."""
@@ -150,7 +148,7 @@ def find_phase(
         replace(timing, phase=timing.step * first + place / _PHASES) for place in range(_PHASES)
     ]
     seen = [gather(light, one) for one in tried]
-    if most_states(words, timing.memory) <= _MOST_STATES:
+    if most_states(words, timing.memory) <= MOST_STATES:
         distances = least_distances(trellis_of(words, timing.memory), seen)
     else:
         chips = [_likeliest(words, timing, one) for one in seen]
@@ -169,7 +167,7 @@ def detect(rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word
 
 
 def _likeliest(words: tuple[Word, ...], timing: Timing, statistics: ChipStatistics) -> Chips:
-    if most_states(words, timing.memory) <= _MOST_STATES:
+    if most_states(words, timing.memory) <= MOST_STATES:
         return best_chips(trellis_of(words, timing.memory), statistics)
     return beam_chips(words, timing.memory, statistics)
 

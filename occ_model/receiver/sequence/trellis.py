@@ -70,8 +70,8 @@ class Trellis:
 def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...]:
     """Return the steps out of each place within the words, as pairs of a chip and a place.
 
-    The first places are the encoder's states, between words; the others stand within words, and
-    words that begin alike share them.
+    The places are the encoder's states, between words, and those within words. Words that begin
+    alike share places, and so do places from which the same chips can follow.
     """
     count = 1 + max(max(word.before, word.after) for word in words)
     steps: list[dict[tuple[int, int], int]] = [{} for _ in range(count)]
@@ -84,7 +84,24 @@ def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...
                 steps.append({})
             place = steps[place][key]
         steps[place][(word.chips[-1], word.after)] = word.after
-    return tuple(tuple((chip, to) for (chip, _), to in one.items()) for one in steps)
+    return _merged([tuple((chip, to) for (chip, _), to in one.items()) for one in steps])
+
+
+def _merged(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """Merge places from which the same chips can follow: refine classes of places until stable."""
+    classes, count = [0] * len(steps), 1
+    while True:
+        seen: dict[tuple[int, frozenset[tuple[int, int]]], int] = {}
+        finer = []
+        for own, one in zip(classes, steps, strict=True):
+            key = (own, frozenset((chip, classes[to]) for chip, to in one))
+            finer.append(seen.setdefault(key, len(seen)))
+        if len(seen) == count:
+            break
+        classes, count = finer, len(seen)
+    merged = {own: sorted(key[1]) for key, own in zip(seen, range(count), strict=True)}
+    # The classes are numbered alike in both rounds: each by the first of its places.
+    return tuple(tuple(merged[own]) for own in range(count))
 
 
 def most_states(words: tuple[Word, ...], memory: int) -> int:

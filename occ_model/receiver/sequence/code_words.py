@@ -1,0 +1,189 @@
+"""The words of any scheme, found by encoding: what chips its line code and framing can send.
+
+A line code is asked for the chips of every block after each of its states, which show in the chips
+that follow. What is at the start of every frame, whatever the payload, is one word more.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, most_states, places_of
+from occ_model.scene.scene import Transmitter
+from occ_model.transmitter.line_codes.line_code import LineCode
+from occ_model.transmitter.scheme import Scheme, scheme_named, scheme_of
+
+MOST_STATES = 2048
+"""States of a trellis that is searched whole."""
+
+_MOST_ENCODER_STATES = 16
+"""States of an encoder above which its words are not listed."""
+
+_MOST_BLOCK = 8
+"""Bits of a block above which its words are not listed."""
+
+_SAMPLE_BITS = 64
+"""Most bits of the payloads that show what is at the start of every frame."""
+
+_SAMPLES = 8
+"""Random payloads beside those of zeros and of ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class CodeWords:
+    """What a scheme can send.
+
+    Parameters
+    ----------
+    words
+        The words.
+    header
+        The chips at the start of every frame; empty where they are not known.
+    """
+
+    words: tuple[Word, ...]
+    header: tuple[int, ...] = ()
+
+
+def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
+    """Return the words that a transmitter can send, as a trellis of some memory can hold them.
+
+    Where the trellis of the code itself would have too many states, only its longest run is
+    kept, and where that has too many, the code: its best ways alone are followed.
+
+    Parameters
+    ----------
+    transmitter
+        Its scheme is used, not what it sends.
+    memory
+        Chips that a state holds.
+
+    Raises
+    ------
+    ParameterError
+        Line code and framing do not go together.
+    PluginError
+        A plug-in fails.
+    """
+    if transmitter.pattern:
+        return CodeWords(FREE_CHIPS)
+    whole = _of_scheme(
+        transmitter.line_code,
+        transmitter.framing,
+        transmitter.preamble,
+        transmitter.error_correction,
+        min(scheme_of(transmitter).bits, _SAMPLE_BITS),
+    )
+    if most_states(whole.words, memory) <= MOST_STATES:
+        return whole
+    limited = CodeWords(_of_runs(_longest_run(whole.words)), whole.header)
+    return limited if most_states(limited.words, memory) <= MOST_STATES else whole
+
+
+@lru_cache(maxsize=32)
+def _of_scheme(
+    line_code: str, framing: str, preamble: str, correction: str, bits: int
+) -> CodeWords:
+    scheme = scheme_named(line_code, framing, preamble, correction, bits)
+    periods = _sample_periods(scheme)
+    blocks = _blocks(scheme.line_code)
+    states = range(1 + max(word.before for word in blocks))
+    common = periods[0][: _common_prefix(periods)]
+    for length in range(len(common), -1, -1):
+        header = tuple(common[:length].tolist())
+        ends = product(states, states) if header else ()
+        words = (*blocks, *(Word(before, header, after) for before, after in ends))
+        if all(_accepts(words, period) for period in periods):
+            return CodeWords(words, header)
+    return CodeWords(FREE_CHIPS)
+
+
+def _sample_periods(scheme: Scheme) -> list[ByteArray]:
+    random = np.random.default_rng(1)
+    payloads = random.integers(0, 2, (_SAMPLES, scheme.bits), dtype=np.uint8)
+    edge = np.array([[0], [1]], dtype=np.uint8).repeat(scheme.bits, axis=1)
+    return [scheme.encode(payload) for payload in np.concatenate([payloads, edge])]
+
+
+def _common_prefix(periods: list[ByteArray]) -> int:
+    same = np.all(np.array(periods) == periods[0], axis=0)
+    return len(same) if same.all() else int(same.argmin())
+
+
+def _blocks(line_code: LineCode) -> tuple[Word, ...]:
+    """Return the words of a line code between the states of its encoder."""
+    if line_code.block_bits > _MOST_BLOCK:
+        return FREE_CHIPS
+    blocks = [np.array(one, dtype=np.uint8) for one in product((0, 1), repeat=line_code.block_bits)]
+    number: dict[bytes, int] = {}
+    states: list[tuple[ByteArray, int]] = []
+
+    def state_after(bits: ByteArray, level: int) -> int:
+        after = _after(line_code, bits, level, (blocks[0], blocks[-1], blocks[1]))
+        if after not in number:
+            number[after] = len(states)
+            states.append((bits, level))
+        return number[after]
+
+    for level in (0, 1):
+        state_after(np.empty(0, dtype=np.uint8), level)
+    words = []
+    for state, (bits, level) in enumerate(states):  # it grows meanwhile
+        if len(states) > _MOST_ENCODER_STATES:
+            return FREE_CHIPS
+        for block in blocks:
+            together = np.concatenate([bits, block])
+            chips = line_code.encode(together, level)[-line_code.block_chips :]
+            words.append(Word(state, tuple(chips.tolist()), state_after(together, level)))
+    return tuple(words)
+
+
+def _after(line_code: LineCode, bits: ByteArray, level: int, probes: Iterable[ByteArray]) -> bytes:
+    """Return the chips of some blocks after a number of bits: what tells the encoder's state."""
+    start = len(bits) // line_code.block_bits * line_code.block_chips
+    sent = [line_code.encode(np.concatenate([bits, probe]), level)[start:] for probe in probes]
+    return np.concatenate(sent).tobytes()
+
+
+def _accepts(words: tuple[Word, ...], period: ByteArray) -> bool:
+    """Whether a period, sent repeatedly, is a sequence of words."""
+    steps = places_of(words)
+    places = set(range(len(steps)))
+    for chip in np.concatenate([period, period, period]).tolist():
+        places = {to for place in places for sent, to in steps[place] if sent == chip}
+        if not places:
+            return False
+    return True
+
+
+def _longest_run(words: tuple[Word, ...]) -> int | None:
+    """Return the most equal chips in a row that words can make; None without a limit."""
+    steps = places_of(words)
+    longest = 0
+    for value in (0, 1):
+        places, run = set(range(len(steps))), 0
+        while places:
+            places = {to for place in places for chip, to in steps[place] if chip == value}
+            run += bool(places)
+            if run > len(steps):
+                return None
+        longest = max(longest, run)
+    return longest
+
+
+@lru_cache(maxsize=16)
+def _of_runs(longest: int | None) -> tuple[Word, ...]:
+    """Return the chips of all sequences with no run above the longest."""
+    if longest is None:
+        return FREE_CHIPS
+    words = []
+    for value, run in product((0, 1), range(longest)):
+        before = value * longest + run
+        words.append(Word(before, (1 - value,), (1 - value) * longest))
+        if run + 1 < longest:
+            words.append(Word(before, (value,), before + 1))
+    return tuple(words)

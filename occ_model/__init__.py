@@ -48,6 +48,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.receiver.read_payload import read_payload as read_payload
     from occ_model.results import (
         Alternative as Alternative,
+        BitErrors as BitErrors,
         ChipReading as ChipReading,
         Comparison as Comparison,
         Decision as Decision,
@@ -76,6 +77,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     )
     from occ_model.simulation.render import render as render
     from occ_model.study.accuracy import accuracy as accuracy
+    from occ_model.study.bit_error_rate import bit_error_rate as bit_error_rate
     from occ_model.study.confidence import wilson_interval as wilson_interval
     from occ_model.study.limits import limits as limits
     from occ_model.study.success_rate import success_rate as success_rate
@@ -102,6 +104,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
 _MODULES = {
     "Alternative": "results",
     "BandModelUndefined": "errors",
+    "BitErrors": "results",
     "ChipReading": "results",
     "Comparison": "results",
     "Decision": "results",
@@ -138,6 +141,7 @@ _MODULES = {
     "accuracy": "study.accuracy",
     "band_lengths": "simulation.band_model",
     "band_profile": "simulation.band_model",
+    "bit_error_rate": "study.bit_error_rate",
     "column_profile": "camera.photometry",
     "compare": "photo.comparison",
     "decode": "receiver.decode",

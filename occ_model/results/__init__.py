@@ -1,6 +1,7 @@
 """Result types of the model: pictures, plans, decodings, matches, studies."""
 
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
+from occ_model.results.bit_errors import BitErrors
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.effect_costs import (
     EffectCrop,
@@ -24,6 +25,7 @@ __all__ = [
     "LEAST_ERROR",
     "AccuracyPoint",
     "Alternative",
+    "BitErrors",
     "ChipReading",
     "CombinedEstimate",
     "Comparison",

@@ -11,8 +11,12 @@ import numpy as np
 from occ_model.camera.photometry import WHITE, luminance_levels, luminance_of
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
+
+_BOUND_BINS = 2**14
+"""Frequencies at which the bound of the rate is summed up."""
 
 
 def band_model_frequency(scene: Scene) -> float:
@@ -66,6 +70,62 @@ def two_packets_frequency(scene: Scene) -> float | None:
     if region is None:
         return None
     return 2.0 * len(sent_chips(scene.transmitter)) / (camera.readout_time * region.columns)
+
+
+def row_rate_frequency(scene: Scene) -> float:
+    """Give the highest frequency that the columns can show: f = 1/(2 t_r), half the row rate.
+
+    The columns sample the light each t_r; of anything faster they show another frequency. Chips
+    that alternate at a switching frequency f have the frequency f/2, so that 1/t_r is its limit.
+
+    Returns
+    -------
+    float
+        Hz.
+    """
+    return 1.0 / (2.0 * scene.camera.readout_time)
+
+
+def gaussian_rate_bound(
+    scene: Scene, signal_to_noise: float, frames_a_second: float = FRAMES_A_SECOND
+) -> float:
+    """Bound the bits a second that light of Gaussian levels can carry to the columns.
+
+    C = fps N t_r x integral from 0 to 1/(2 t_r) of log2(1 + S(F) sinc^2(F t) / N_0) dF, with the
+    light's power spectrum S water-filled: mu - N_0 / sinc^2(F t) where that is above 0, its
+    integral the light's power (R. G. Gallager, Information Theory and Reliable Communication, 1968,
+    section 8.3). N t_r is the part of a second's pictures in which columns are read out; of the
+    light in the gap nothing is seen. A lamp with two levels and a limited switching frequency
+    carries less.
+
+    Parameters
+    ----------
+    scene
+        Its exposure time, readout time and number of columns are used.
+    signal_to_noise
+        The light's variance over that of a column's noise.
+    frames_a_second
+        Pictures a second.
+
+    Returns
+    -------
+    float
+        Bits a second.
+    """
+    camera = scene.camera
+    half_rate = row_rate_frequency(scene)
+    # In the middle of each bin: at a null itself nothing passes.
+    frequency = (np.arange(_BOUND_BINS) + 0.5) * (half_rate / _BOUND_BINS)
+    passed = np.sinc(frequency * camera.exposure_time) ** 2
+    noise = 1.0 / half_rate  # of variance 1
+    levels = np.sort(noise / np.maximum(passed, np.finfo(float).tiny))
+    # Of the k best frequencies: the level that fills them with the whole power.
+    count = np.arange(1, _BOUND_BINS + 1)
+    filled = (signal_to_noise * _BOUND_BINS / half_rate + np.cumsum(levels)) / count
+    used = int(np.count_nonzero(filled > levels))
+    gained = float(np.log2(filled[used - 1] / levels[:used]).sum()) if used else 0.0
+    seconds = frames_a_second * camera.columns * camera.readout_time
+    return gained * half_rate / _BOUND_BINS * seconds
 
 
 def saturation_exposure(scene: Scene) -> float:

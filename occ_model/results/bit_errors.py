@@ -1,0 +1,71 @@
+"""Result of a bit error rate: the bits that were wrong, and what that leaves a second."""
+
+from dataclasses import dataclass
+
+FRAMES_A_SECOND = 30.0
+"""Pictures that a camera takes a second where nothing else is said."""
+
+
+@dataclass(frozen=True, slots=True)
+class BitErrors:
+    """Bits that a decoder read wrongly or not at all, of random payloads in a picture each.
+
+    Parameters
+    ----------
+    decoder
+        Its name.
+    bits
+        Bits sent.
+    errors
+        Bits of them that were wrong, those of a payload that was not read included.
+    low, high
+        The 95 % interval of the rate. The bits of one payload fail together; so it rests on how
+        much the pictures differ, and on the pictures alone where all or none of the bits are wrong.
+    pictures
+        Pictures, one payload each.
+    pictures_right
+        Pictures of which all bits were right.
+    picture_time
+        Time in seconds in which the columns of the panel are read out.
+    readout_time
+        Time in seconds in which all columns of the picture are read out.
+    """
+
+    decoder: str
+    bits: int
+    errors: int
+    low: float
+    high: float
+    pictures: int
+    pictures_right: int
+    picture_time: float
+    readout_time: float
+
+    @property
+    def rate(self) -> float:
+        """The share of the bits that are wrong, from 0 to 1."""
+        return self.errors / self.bits
+
+    @property
+    def bits_a_picture(self) -> float:
+        """Bits of a payload, times the share of the payloads that are right."""
+        return self.bits / self.pictures * (self.pictures_right / self.pictures)
+
+    @property
+    def bits_a_second_of_picture(self) -> float:
+        """Net bits a second while the panel is read out; 0 where no picture shows it."""
+        return self.bits_a_picture / self.picture_time if self.picture_time else 0.0
+
+    def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
+        """Return the net bits a second of a video, whose every picture shows another payload.
+
+        What is sent in the gap between two pictures is lost: see :meth:`gap`.
+        """
+        return self.bits_a_picture * frames_a_second
+
+    def gap(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
+        """Return the time between the last column of a picture and the first of the next, in s.
+
+        It is below 0 where the camera cannot take so many pictures.
+        """
+        return 1.0 / frames_a_second - self.readout_time

@@ -1,0 +1,156 @@
+"""Measure the bit error rate: random payloads, each sent in a picture of its own."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from occ_model.camera.projection import panel_corners
+from occ_model.effects.paper_view import region_of
+from occ_model.errors import ParameterError, shown
+from occ_model.parallel.job import Heartbeat
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results import BitErrors, RateSettings, SignalPath
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study.confidence import wilson_interval
+from occ_model.study.success_rate import check_rate, right_bits_of_images
+from occ_model.transmitter.packet import code_of
+
+MOST_BITS = 100_000_000
+"""Bits of a measurement."""
+
+
+def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
+    scene: Scene,
+    decoder: str = PAPER_DECODER,
+    bits: int = 10_000,
+    seed: int = 1,
+    *,
+    tolerance: float = TOLERANCE.default,
+    force: Mapping[str, bool] | None = None,
+    path: SignalPath = "auto",
+    heartbeat: Heartbeat = lambda: None,
+) -> BitErrors:
+    """Measure the share of bits that a decoder reads wrongly.
+
+    Random payloads of the scene's length are sent, each in a picture of its own with a random start
+    time and noise. A payload that is not read counts with all bits wrong, as in
+    :func:`occ_model.success_rate`, of which this is the complement.
+
+    Parameters
+    ----------
+    scene
+        The scene; its code or payload and its start time are not used.
+    decoder
+        The decoder's name.
+    bits
+        Bits to send at the least; whole payloads are sent.
+    seed
+        Seed of the payloads, the start times and the noise.
+    tolerance, force, path
+        As for :func:`occ_model.success_rate`.
+    heartbeat
+        Called before each picture; what it raises ends the measurement.
+
+    Returns
+    -------
+    BitErrors
+
+    Raises
+    ------
+    ParameterError
+        An argument is not allowed, or the scene sends a raw pattern.
+    ProjectionError
+        The scene has no picture.
+    """
+    check_scene(scene)
+    check_count("bits", bits, 1, MOST_BITS)
+    settings = RateSettings(1, (decoder,), seed, tolerance, force or {}, path)
+    check_rate(scene, settings)
+    length = scene.transmitter.payload_length
+    root = np.random.default_rng(seed)
+    wrong = []
+    for _ in range(-(-bits // length)):
+        sent = with_payload(scene, root.integers(0, 2, length).tolist())
+        own = RateSettings(
+            1, (decoder,), int(root.integers(2**32)), tolerance, settings.force, path
+        )
+        ((right,),) = right_bits_of_images(sent, own, heartbeat)
+        wrong.append(length - right)
+    return bit_errors_of(scene, decoder, wrong)
+
+
+def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
+    """Return the scene that sends these bits, as a code where it sends a code."""
+    if scene.transmitter.payload:
+        return scene.replace(payload="bits:" + "".join(map(str, bits)))
+    return scene.replace(code=code_of(bits))
+
+
+def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors:
+    """Make the result of the wrong bits of each picture."""
+    length, camera = scene.transmitter.payload_length, scene.camera
+    region = region_of(panel_corners(scene), camera.rows, camera.columns)
+    low, high = error_interval(wrong, length)
+    return BitErrors(
+        decoder=decoder,
+        bits=length * len(wrong),
+        errors=sum(wrong),
+        low=low,
+        high=high,
+        pictures=len(wrong),
+        pictures_right=list(wrong).count(0),
+        picture_time=(region.columns if region else 0) * camera.readout_time,
+        readout_time=camera.columns * camera.readout_time,
+    )
+
+
+def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
+    """Give the 95 % interval of a bit error rate whose bits fail together in pictures.
+
+    Wilson's interval of as many independent bits as would scatter as much: bits / D, with the
+    design effect D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates
+    (L. Kish, Survey Sampling, 1965). Where all or no bits are wrong nothing is seen of that, and
+    each picture counts as one bit.
+
+    Parameters
+    ----------
+    wrong
+        Wrong bits of each picture.
+    length
+        Bits of each picture.
+    """
+    pictures, errors = len(wrong), sum(wrong)
+    rate = errors / (pictures * length)
+    effect = float(length)
+    if 0.0 < rate < 1.0 and pictures > 1:
+        scatter = float(np.var(np.array(wrong) / length, ddof=1))
+        effect = min(max(scatter / (rate * (1.0 - rate) / length), 1.0), float(length))
+    bits = max(1, math.floor(pictures * length / effect))
+    return _interval(rate, bits)
+
+
+def _interval(rate: float, bits: int) -> tuple[float, float]:
+    """Give Wilson's interval of a rate among a number of bits, whole errors on either side."""
+    low, _ = wilson_interval(math.floor(rate * bits), bits)
+    _, high = wilson_interval(math.ceil(rate * bits), bits)
+    return low, high
+
+
+def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
+    """Refuse a frame rate that is none, or at which a picture is not read out in time.
+
+    Raises
+    ------
+    ParameterError
+        Naming the frame rate, and the largest that the scene's readout allows.
+    """
+    most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
+    is_number = isinstance(frames_a_second, int | float) and not isinstance(frames_a_second, bool)
+    if not is_number or not 0.0 < frames_a_second <= most:
+        raise ParameterError(
+            f"frames_a_second is {shown(frames_a_second)}; allowed: above 0 to {most:.4g}, where "
+            f"the readout of {scene.camera.columns} columns fills the time of a picture."
+        )

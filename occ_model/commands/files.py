@@ -14,6 +14,7 @@ INPUTS = {
     "file": "the photo",
     "more": "one of the photos",
     "scene": "the file of --scene",
+    "data": "the file of --data",
     "photo": "the file of --photo",
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",

@@ -144,6 +144,8 @@ class DecodeResult:
         The light of each column in shares of full light, the camera's tone curve undone.
     light_model : ndarray of float64, shape as ``signal``
         The light that the chips read would give, beside ``light``.
+    chip_likelihoods : ndarray of float64, shape as ``chips``
+        The probability that each chip is right.
     bit_likelihoods : ndarray of float64, shape as ``bits``
         The probability that each bit is right.
     """
@@ -170,4 +172,5 @@ class DecodeResult:
     equalized: FloatArray | None = None
     light: FloatArray | None = None
     light_model: FloatArray | None = None
+    chip_likelihoods: FloatArray | None = None
     bit_likelihoods: FloatArray | None = None

@@ -24,7 +24,7 @@ from occ_model.receiver.sequence.fit import (
     first_guess,
     improve,
 )
-from occ_model.receiver.sequence.soft_frame import read_frame
+from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
@@ -152,6 +152,7 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
         chip_length=1.0 / fit.timing.step,
         chips=fit.chips.values[seen],
         chip_starts=starts[seen],
+        chip_likelihoods=probability(fit.ratios())[seen],
         correlation=float(about @ model) / energy if energy > 0.0 else 0.0,
         light=share,
         light_model=fit.model,
@@ -160,8 +161,7 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
 
 def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...]) -> DecodeResult:
     """Read the payload, if it is certain enough."""
-    lit = np.where(fit.chips.values == 1, 1.0, -1.0)
-    ratios = lit * fit.chips.margins / (2.0 * fit.noise_of_sums())
+    ratios = np.where(fit.chips.values == 1, 1.0, -1.0) * fit.ratios()
     scheme = scheme_of(scene.transmitter)
     frame = read_frame(ratios, scheme, header)
     read = with_bits(result, replace(frame.framed, headers=()), scene)

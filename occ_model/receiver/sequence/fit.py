@@ -83,6 +83,10 @@ class Fit:
         own = _autocorrelation(self.residual, reach)
         return self.noise * max(1.0, 1.0 + 2.0 * float(own[1:].sum()))
 
+    def ratios(self) -> FloatArray:
+        """Log-likelihood ratio of each chip over its opposite, shape (chips,)."""
+        return np.asarray(self.chips.margins / (2.0 * self.noise_of_sums()))
+
     def unexplained(self) -> float:
         """Share of the signal's variance that is neither the model's nor noise.
 

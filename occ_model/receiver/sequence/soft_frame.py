@@ -93,9 +93,9 @@ def likeliest_packet(folded: FloatArray, bits: int) -> SoftFrame:
     # A bit is 1 where the level changes: wrong where one of both levels is.
     least = np.minimum(sureness, np.concatenate([[_SURE], sureness[:-1]]))
     lead = min(float(score[start] - np.delete(score, start).max()), _SURE)
-    right = _probability(sureness).prod() / (1.0 + np.exp(-lead))
+    right = probability(sureness).prod() / (1.0 + np.exp(-lead))
     framed = Framed((start,), level[1:] ^ level[:-1])
-    return SoftFrame(framed, float(right), _probability(least))
+    return SoftFrame(framed, float(right), probability(least))
 
 
 def _start(folded: FloatArray, sent: ByteArray) -> int:
@@ -117,7 +117,7 @@ def _sureness(
         As for :func:`read_frame`.
     """
     sent, code = scheme.encode(framed.bits), scheme.line_code
-    right = _probability(np.where(sent == 1, ratios, -ratios))
+    right = probability(np.where(sent == 1, ratios, -ratios))
     # The chips of a block say the same, so that the least sure of them stands for it.
     blocks = -(-len(framed.bits) // code.block_bits)
     first, size = len(header), code.block_chips
@@ -132,5 +132,6 @@ def _sureness(
     return float(of_blocks.prod()), of_bits
 
 
-def _probability(ratio: FloatArray) -> FloatArray:
+def probability(ratio: FloatArray) -> FloatArray:
+    """Return the probability that a log-likelihood ratio stands for."""
     return np.asarray(1.0 / (1.0 + np.exp(-np.clip(ratio, -_SURE, _SURE))))

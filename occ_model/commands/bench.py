@@ -1,0 +1,139 @@
+"""The command ``occ-model bench``: bit error rates of schemes and decoders."""
+
+import argparse
+from pathlib import Path
+
+from occ_model.commands.files import folder_of_figures
+from occ_model.commands.options import Commands, number, whole_number
+from occ_model.commands.progress_bar import progress_bar
+from occ_model.files.writing import make_folder
+from occ_model.receiver.decoders import decoders
+from occ_model.study.bench.bench import BenchPoint, BenchRequest, bench, check_bench
+from occ_model.study.bench.data_set import SampleReading, load_samples, read_samples
+
+_OWN = BenchRequest()
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser(
+        "bench", help="compare bit error rates over exposure and noise, or read a data set"
+    )
+    parser.add_argument(
+        "--scheme", action="append", metavar="LINE_CODE[/FRAMING]",
+        help=f"may be repeated; default: {_OWN.schemes[0]}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--decoder", action="append", choices=decoders(), help="may be repeated; default: all"
+    )
+    parser.add_argument(
+        "--exposure", action="append", type=number, metavar="SYMBOLS",
+        help=f"may be repeated; default: {_list(_OWN.exposures)}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--snr", action="append", type=number, metavar="DB",
+        help="the chips' variance over that of a row's noise; may be repeated; default: "
+        f"{_list(_OWN.decibels)}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--at-exposure", type=number, default=_OWN.at_exposure, metavar="SYMBOLS",
+        help="of the curve over noise; default: %(default)g",
+    )  # fmt: skip
+    parser.add_argument(
+        "--at-snr", type=number, default=_OWN.at_decibels, metavar="DB",
+        help="of the curve over exposure; default: %(default)g",
+    )  # fmt: skip
+    parser.add_argument(
+        "--rows", type=number, default=_OWN.rows_a_symbol,
+        help="read out while a symbol lasts; default: %(default)g",
+    )  # fmt: skip
+    parser.add_argument(
+        "--payload-bits", type=whole_number, default=_OWN.payload_bits, metavar="BITS",
+        help="of a payload, one a picture; default: %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--bits", type=whole_number, default=_OWN.bits,
+        help="at each point at the least; default: %(default)s",
+    )  # fmt: skip
+    parser.add_argument("--seed", type=whole_number, default=_OWN.seed, help="default: %(default)s")
+    parser.add_argument(
+        "--data", type=Path, metavar="CSV",
+        help="read the pictures of a data set instead, whose table this is",
+    )  # fmt: skip
+    parser.add_argument(
+        "--out", type=Path, metavar="FOLDER", help="write bench.csv, bench.pdf and bench.png there"
+    )
+    parser.set_defaults(command=_run, writes={"out": folder_of_figures("bench")})
+
+
+def _run(options: argparse.Namespace) -> int:
+    names = tuple(dict.fromkeys(options.decoder or decoders()))
+    if options.data is not None:
+        return _read_data_set(options, names)
+    request = BenchRequest(
+        schemes=tuple(dict.fromkeys(options.scheme or _OWN.schemes)),
+        decoders=names,
+        exposures=tuple(options.exposure or _OWN.exposures),
+        decibels=tuple(options.snr or _OWN.decibels),
+        at_exposure=options.at_exposure,
+        at_decibels=options.at_snr,
+        rows_a_symbol=options.rows,
+        payload_bits=options.payload_bits,
+        bits=options.bits,
+        seed=options.seed,
+    )
+    if options.out is not None:
+        check_bench(request)
+        make_folder(options.out)  # a refusal must not come after minutes of work
+    with progress_bar(total=len(request.points), unit=" points", leave=False, delay=0.5) as bar:
+        points = bench(request, lambda done, _all: bar.update(done - bar.n))
+    for line in _table(points):
+        print(line)
+    if options.out is not None:
+        from occ_model.figures.bench import write_bench  # slow to import
+
+        write_bench(options.out, request, points)
+    return 0
+
+
+def _table(points: tuple[BenchPoint, ...]) -> list[str]:
+    lines = ["scheme      decoder     exposure  SNR (dB)  bit error rate (95 % interval)"]
+    for point in points:
+        errors = point.errors
+        lines.append(
+            f"{point.scheme:<11} {errors.decoder:<11} {point.exposure:8g}  {point.decibels:8g}  "
+            f"{errors.rate:.2g} ({errors.low:.2g} to {errors.high:.2g})"
+        )
+    notes = {
+        point.errors.decoder: point.note for point in points if not point.errors.pictures_right
+    }
+    lines += [f"{decoder}: {note}" for decoder, note in notes.items() if note]
+    return lines
+
+
+def _read_data_set(options: argparse.Namespace, names: tuple[str, ...]) -> int:
+    samples = load_samples(options.data)
+    line_code = (options.scheme or _OWN.schemes)[0].partition("/")[0]
+    with progress_bar(total=len(samples), unit=" pictures", leave=False, delay=0.5) as bar:
+        readings = tuple(
+            read_samples(samples, names, line_code, lambda done, _all: bar.update(done - bar.n))
+        )
+    print("picture                      exposure  rows  decoder     chips  correlation  wrong")
+    for reading in readings:
+        print(_line(reading))
+    return 0
+
+
+def _line(reading: SampleReading) -> str:
+    sample = reading.sample
+    correlation = "" if reading.correlation is None else f"{reading.correlation:.4f}"
+    wrong = "" if reading.wrong_chips is None else f"{reading.wrong_chips:.2g}"
+    return (
+        f"{sample.path.name[-28:]:<28} {sample.exposure / sample.symbol:8.2f}  "
+        f"{sample.symbol / sample.sampling:4.1f}  {reading.decoder:<11} {reading.chips:5}  "
+        f"{correlation:>11}  {wrong or reading.failure or ''}"
+    )
+
+
+def _list(values: tuple[float, ...]) -> str:
+    return ", ".join(f"{value:g}" for value in values)

@@ -1,0 +1,1 @@
+"""The bench: bit error rates of schemes and decoders over exposure and noise."""

@@ -1,0 +1,162 @@
+"""Measure decoders on a public data set: a folder of pictures, and a CSV that says how each came.
+
+The layout is that of "Effects of the camera's exposure time on Rolling Shutter based Optical Camera
+Communication Links" (figshare 19153166): ``relative_path`` names a picture, ``tclk`` is the length
+of a tick in seconds, and ``sampling_ticks``, ``exposure_ticks`` and ``txsymbol_ticks`` are the time
+between rows, the exposure and a symbol. What was sent is not in it; so the table says how well the
+chips found explain a picture, and how many of them are wrong by their own likelihoods.
+"""
+
+import csv
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from occ_model.errors import PhotoError, one_line, shown
+from occ_model.files.reading import read_text
+from occ_model.photo.reading.load import load_photo
+from occ_model.receiver.decode import decode
+from occ_model.scene.scene import Scene
+
+COLUMNS = ("relative_path", "tclk", "sampling_ticks", "exposure_ticks", "txsymbol_ticks")
+"""The columns of the CSV that are used; it may have more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A picture of a data set.
+
+    Parameters
+    ----------
+    path
+        Its file.
+    sampling, exposure, symbol
+        The time between rows, the exposure time and the length of a symbol, in seconds.
+    """
+
+    path: Path
+    sampling: float
+    exposure: float
+    symbol: float
+
+
+@dataclass(frozen=True, slots=True)
+class SampleReading:
+    """What a decoder finds in a picture of a data set.
+
+    Parameters
+    ----------
+    sample
+        The picture.
+    decoder
+        The decoder's name.
+    chips
+        Number of chips found.
+    correlation
+        Of the chips' light with the signal; None where the decoder has no model of it.
+    wrong_chips
+        Share of the chips that are wrong by their own likelihoods; None without any.
+    failure
+        None, or a sentence that says why there are no chips.
+    """
+
+    sample: Sample
+    decoder: str
+    chips: int
+    correlation: float | None
+    wrong_chips: float | None
+    failure: str | None
+
+
+def load_samples(table: Path) -> tuple[Sample, ...]:
+    """Read the table of a data set; the pictures' paths are relative to its folder.
+
+    Raises
+    ------
+    PhotoError
+        The file cannot be read, a column is missing, or a value is not allowed; the sentence names
+        the line.
+    """
+    rows = csv.DictReader(read_text(table).splitlines())
+    missing = [name for name in COLUMNS if name not in (rows.fieldnames or ())]
+    if missing:
+        raise PhotoError(f"{table.name} has no column {missing[0]}; needed: {', '.join(COLUMNS)}.")
+    return tuple(_sample(row, table, line) for line, row in enumerate(rows, 2))
+
+
+def _sample(row: dict[str, str], table: Path, line: int) -> Sample:
+    values = [_positive(row, name, table, line) for name in COLUMNS[1:]]
+    tick, sampling, exposure, symbol = values
+    path = (table.parent / row[COLUMNS[0]]).resolve()
+    if not path.is_relative_to(table.parent.resolve()):
+        raise PhotoError(
+            f"{table.name}, line {line}: {one_line(shown(row[COLUMNS[0]]))} is outside the folder "
+            "of the data set."
+        )
+    return Sample(path, tick * sampling, tick * exposure, tick * symbol)
+
+
+def _positive(row: dict[str, str], name: str, table: Path, line: int) -> float:
+    try:
+        value = float(row[name])
+    except (TypeError, ValueError):
+        value = 0.0
+    if not 0.0 < value < np.inf:
+        raise PhotoError(
+            f"{table.name}, line {line}: {name} is {shown(row[name])}; allowed: numbers above 0."
+        )
+    return value
+
+
+def read_samples(
+    samples: tuple[Sample, ...],
+    decoder_names: tuple[str, ...],
+    line_code: str = "manchester",
+    progress: Callable[[int, int], object] = lambda _done, _all: None,
+) -> Iterator[SampleReading]:
+    """Decode the pictures of a data set.
+
+    Parameters
+    ----------
+    samples
+        The pictures.
+    decoder_names
+        The decoders.
+    line_code
+        The line code that was sent.
+    progress
+        Called with the number of pictures that are done, and of all of them.
+
+    Raises
+    ------
+    PhotoError
+        A picture cannot be read.
+    ParameterError
+        There is no such decoder or line code, or a time is out of range.
+    """
+    for done, sample in enumerate(samples):
+        progress(done, len(samples))
+        image = load_photo(sample.path, "lines").image
+        scene = Scene().replace(
+            line_code=line_code,
+            framing="preamble",
+            readout_time=sample.sampling,
+            exposure_time=sample.exposure,
+            switching_frequency=1.0 / sample.symbol,
+            enhancement="none",
+            averaging="light",
+        )
+        for name in decoder_names:
+            found = decode(image, scene, name)
+            sure = found.chip_likelihoods
+            yield SampleReading(
+                sample,
+                name,
+                int(found.chips.size),
+                found.correlation,
+                float(np.mean(1.0 - sure)) if sure is not None and sure.size else None,
+                None if found.chips.size else found.failure,
+            )
+    progress(len(samples), len(samples))

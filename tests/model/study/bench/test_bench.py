@@ -1,0 +1,105 @@
+"""The bench measures what it says, and finds what closed forms know."""
+
+import math
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.errors import ParameterError
+from occ_model.study.bench.bench import (
+    HEADER,
+    BenchRequest,
+    bench,
+    bench_scene,
+    bench_signal,
+    written,
+)
+
+SMALL = BenchRequest(
+    decoders=("threshold", "equalizer", "sequence"),
+    exposures=(0.5, 4.0),
+    decibels=(30.0,),
+    payload_bits=64,
+    bits=128,
+)
+
+
+@pytest.mark.parametrize("rows", [4.0, 5.0, 7.0])
+def test_a_symbol_lasts_as_many_rows_as_asked(rows: float) -> None:
+    scene = bench_scene("manchester", 64, 3.0, rows)
+    period = scene.transmitter.switching_period
+    assert period / scene.camera.readout_time == pytest.approx(rows)
+    assert scene.camera.exposure_time / period == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("decibels", [5.0, 20.0])
+def test_noise_is_the_chips_variance_over_the_ratio(decibels: float) -> None:
+    scene = bench_scene("manchester", 64, 1.0, 5.0)
+    noise = bench_signal(scene, decibels, np.random.default_rng(1))
+    clean = bench_signal(scene, 200.0, np.random.default_rng(1))
+    swing = float(np.ptp(clean))  # an exposure of one chip still shows whole chips
+    expected = 0.25 * swing**2 / 10.0 ** (decibels / 10.0)
+    assert float(np.var(noise - clean)) == pytest.approx(expected, rel=0.1)
+
+
+def test_beyond_two_symbols_only_the_new_detectors_read() -> None:
+    points = {(p.errors.decoder, p.exposure, p.axis): p for p in bench(SMALL)}
+    for decoder in SMALL.decoders:
+        assert points[decoder, 0.5, "exposure"].errors.errors == 0
+    for decoder in ("equalizer", "sequence"):
+        assert points[decoder, 4.0, "exposure"].errors.errors == 0
+        assert points[decoder, 4.0, "exposure"].note == ""
+    beyond = points["threshold", 4.0, "exposure"]
+    assert beyond.errors.rate > 0.3
+    assert beyond.note.endswith(".")
+
+
+def test_both_axes_meet_in_one_measurement() -> None:
+    found = bench(SMALL)
+    by_axis = {
+        axis: [p.errors for p in found if (p.axis, p.exposure, p.decibels) == (axis, 4.0, 30.0)]
+        for axis in ("exposure", "noise")
+    }
+    assert by_axis["exposure"] == by_axis["noise"]
+
+
+def test_a_row_of_the_table_has_every_column() -> None:
+    rows = written(bench(SMALL))
+    assert len(rows) == 3 * 3
+    assert {len(row) for row in rows} == {len(HEADER)}
+    assert all(0.0 <= row[8] <= row[7] <= row[9] <= 1.0 for row in rows)  # type: ignore[operator]
+
+
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        (BenchRequest(schemes=("morse",)), "line_code is 'morse'"),
+        (BenchRequest(schemes=("nrz/c-ook",)), "limits no run"),
+        (BenchRequest(decoders=("guess",)), "no decoder 'guess'"),
+        (BenchRequest(exposures=(0.0,)), "exposure in symbols is 0"),
+        (BenchRequest(decibels=(math.nan,)), "signal-to-noise ratio in dB is nan"),
+        (BenchRequest(rows_a_symbol=0.5), "rows a symbol is 0.5; allowed: 1 to 100"),
+        (BenchRequest(bits=0), "bits is 0"),
+        (BenchRequest(payload_bits=9999), "payload_bits is 9999"),
+    ],
+)
+def test_what_cannot_be_measured_is_named(request_: BenchRequest, words: str) -> None:
+    with pytest.raises(ParameterError, match=words):
+        bench(request_)
+
+
+def test_progress_reaches_all_points() -> None:
+    seen: list[tuple[int, int]] = []
+    bench(SMALL, lambda done, of: seen.append((done, of)))
+    assert seen == [(0, 3), (1, 3), (2, 3), (3, 3)]
+
+
+def test_the_bench_and_the_bit_error_rate_count_alike() -> None:
+    # The same question by two ways: a scene without noise that every decoder reads.
+    scene = bench_scene("manchester", 64, 1.0, 5.0).replace(rows=40, distance=0.3)
+    by_scene = occ.bit_error_rate(scene, "sequence", 128)
+    by_bench = bench(BenchRequest(decoders=("sequence",), exposures=(1.0,), decibels=(), bits=128,
+                                  payload_bits=64, at_decibels=60.0))  # fmt: skip
+    assert by_scene.rate == by_bench[0].errors.rate == 0.0
+    assert (by_scene.low, by_scene.high) == (by_bench[0].errors.low, by_bench[0].errors.high)

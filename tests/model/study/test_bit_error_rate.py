@@ -1,0 +1,131 @@
+"""Laws of the bit error rate, its interval, and the bits a second that follow."""
+
+import numpy as np
+import pytest
+from scipy import integrate, optimize
+
+import occ_model as occ
+from occ_model.errors import ParameterError
+from occ_model.scene.scene import Scene
+from occ_model.study.bit_error_rate import (
+    bit_errors_of,
+    check_frame_rate,
+    error_interval,
+    with_payload,
+)
+from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
+
+SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")
+
+
+def test_no_bit_is_wrong_where_every_code_is_read() -> None:
+    found = occ.bit_error_rate(SCENE.replace(switching_frequency=8e3), bits=95)
+    assert (found.bits, found.errors, found.pictures, found.pictures_right) == (100, 0, 10, 10)
+    assert found.low == 0.0
+    assert found.rate == 0.0
+
+
+def test_all_bits_are_wrong_where_nothing_is_read() -> None:
+    far = SCENE.replace(switching_frequency=2e3, distance=4.0)
+    found = occ.bit_error_rate(far, "matched", bits=50)
+    assert found.rate == found.high == 1.0
+    assert found.bits_a_second() == found.bits_a_second_of_picture == 0.0
+
+
+def test_same_seed_same_errors() -> None:
+    at = SCENE.replace(switching_frequency=12.5e3)
+    found = [occ.bit_error_rate(at, bits=200, seed=seed) for seed in (3, 3, 4)]
+    assert found[0] == found[1]
+    assert 0 < found[0].errors < 200
+    assert found[0].errors != found[2].errors or found[0].low != found[2].low
+
+
+@pytest.mark.parametrize("payload", ["", "text:HELLO", "bits:0110"])
+def test_any_payload_is_sent_in_its_own_length(payload: str) -> None:
+    sent = with_payload(SCENE.replace(payload=payload), [1, 0] * (SCENE.replace(
+        payload=payload).transmitter.payload_length // 2))  # fmt: skip
+    assert sent.transmitter.payload_bits[:2] == (1, 0)
+    length = SCENE.replace(payload=payload).transmitter.payload_length
+    assert sent.transmitter.payload_length == length
+
+
+def test_errors_and_success_rate_are_complements() -> None:
+    # The same counting by two ways: one payload, over many start times.
+    at = SCENE.replace(switching_frequency=12.5e3, bits=2, code=0)
+    wrong = occ.bit_error_rate(at, bits=400, seed=2).rate
+    right = [occ.success_rate(at.replace(code=code), images=50, seed=code) for code in range(4)]
+    assert 100.0 * (1.0 - wrong) == pytest.approx(np.mean(right), abs=8.0)
+
+
+@pytest.mark.parametrize(("length", "share"), [(1, 0.02), (10, 0.1), (10, 0.02), (64, 0.3)])
+def test_intervals_hold_where_bits_of_a_picture_fail_together(length: int, share: float) -> None:
+    random = np.random.default_rng(length)
+    rate, held, trials = share / 2.0, 0, 400
+    for _ in range(trials):
+        lost = random.random(200) < share
+        wrong = np.where(lost, random.binomial(length, 0.5, 200), 0)
+        low, high = error_interval(wrong.tolist(), length)
+        held += low <= rate <= high
+    # 95 % asked for; the variance of few failed pictures is itself uncertain.
+    assert held / trials > 0.91
+
+
+def test_independent_bits_have_wilsons_interval() -> None:
+    wrong = np.random.default_rng(1).binomial(100, 0.2, 5000).tolist()
+    low, high = error_interval(wrong, 100)
+    near = occ.wilson_interval(sum(wrong), 500_000)
+    assert (low, high) == pytest.approx(near, rel=0.01)
+
+
+def test_no_wrong_bit_counts_as_one_trial_a_picture() -> None:
+    assert error_interval([0] * 40, 100) == (0.0, occ.wilson_interval(0, 40)[1])
+
+
+def test_net_bits_a_second_are_whole_payloads_in_time() -> None:
+    found = bit_errors_of(SCENE, "x", [0, 0, 3, 0])
+    assert found.bits_a_picture == 7.5
+    assert found.bits_a_second(20.0) == 150.0
+    shown = found.picture_time / SCENE.camera.readout_time
+    assert found.bits_a_second_of_picture == pytest.approx(7.5 / (shown * 8e-6))
+    assert found.gap(20.0) == pytest.approx(0.05 - 3456 * 8e-6)
+
+
+def test_a_video_faster_than_the_readout_is_refused() -> None:
+    check_frame_rate(SCENE, 36.0)
+    with pytest.raises(ParameterError, match=r"frames_a_second is 37.* to 36\.17"):
+        check_frame_rate(SCENE, 37.0)
+    with pytest.raises(ParameterError, match="frames_a_second is 0"):
+        check_frame_rate(SCENE, 0.0)
+
+
+def test_a_raw_pattern_has_no_bit_errors() -> None:
+    with pytest.raises(ParameterError, match="raw pattern"):
+        occ.bit_error_rate(SCENE.replace(pattern="01"), bits=10)
+
+
+@pytest.mark.parametrize("decibels", [0.0, 20.0, 40.0])
+@pytest.mark.parametrize("exposure", [20e-6, 136e-6, 1e-3])
+def test_rate_bound_is_the_integral_of_the_water_filling(decibels: float, exposure: float) -> None:
+    scene = Scene().replace(exposure_time=exposure)
+    half, power = row_rate_frequency(scene), 10.0 ** (decibels / 10.0)
+
+    def noise(frequency: np.ndarray) -> np.ndarray:
+        return 1.0 / half / np.maximum(np.sinc(frequency * exposure) ** 2, 1e-300)
+
+    def integral(of: np.ndarray) -> float:
+        return float(integrate.simpson(of, x=grid))
+
+    grid = np.linspace(0.0, half, 400_001)
+    level = optimize.brentq(
+        lambda mu: integral(np.maximum(mu - noise(grid), 0.0)) - power, 1e-9, 1e3 * power + 1.0
+    )
+    bits = integral(np.log2(np.maximum(level / noise(grid), 1.0)))
+    seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
+    assert gaussian_rate_bound(scene, power, 30.0) == pytest.approx(bits * seconds, rel=1e-3)
+
+
+def test_without_exposure_the_bound_is_shannons() -> None:
+    scene = Scene().replace(exposure_time=1e-9)
+    seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
+    expected = row_rate_frequency(scene) * np.log2(1.0 + 100.0) * seconds
+    assert gaussian_rate_bound(scene, 100.0) == pytest.approx(expected, rel=1e-6)

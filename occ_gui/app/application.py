@@ -204,7 +204,7 @@ class Application(QObject):
         self.slider_strips.set_shown(self.preferences.slider_strips)
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
-        self.decode.decoder_chosen.connect(self.story.verdict.choose_decoder)
+        self.decode.decoder_chosen.connect(self.story.choose_decoder)
 
     @property
     def is_idle(self) -> bool:
@@ -237,6 +237,12 @@ class Application(QObject):
         """Show the photo beside the simulated picture or over it, by one of MODES."""
         self.image.set_mode(mode)
         self.window.menus.show_choice(self.window.menus.overlays, mode)
+
+    def _choose_picture(self, whose: str) -> None:
+        """Show the camera's picture and profile or the receiver's in all panes."""
+        self.story.choose_picture(whose)
+        self.image.choose_picture(whose)
+        self.profile.enhanced.setChecked(whose == "receiver")
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")

@@ -1,21 +1,16 @@
 """Strip of chips under the profile: those read from a photo, each below its columns."""
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtGui import QColor, QGuiApplication, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.chip_cell import draw_chip
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import PHOTO, Plot
 from occ_model.results import ChipReading
 
-_LEAST_FOR_DIGITS = 9
-"""Pixels of a chip from which its digit is drawn."""
-
 _CERTAIN = 0.95
 """Probability that all chips are right from which they are drawn in full."""
-
-_FADED = 0.45
 
 
 class ChipStrip(QWidget):
@@ -114,17 +109,5 @@ class _Cells(QWidget):
         """Draw the cells in view."""
         painter = QPainter(self)
         certain = self.reading is not None and self.reading.confidence >= _CERTAIN
-        palette = self.palette()
-        lit = seen_on(palette, QColor(PHOTO))
         for chip, cell in self.rectangles():
-            painter.setOpacity(1.0 if certain else _FADED)
-            painter.setPen(QPen(lit))
-            painter.setBrush(lit if chip else palette.color(QPalette.ColorRole.Base))
-            painter.drawRect(cell)
-            if cell.width() >= _LEAST_FOR_DIGITS:
-                # Digits stay readable: on a faded cell the colour of text is seen, whatever it is.
-                painter.setOpacity(1.0)
-                on_full = chip and certain
-                role = QPalette.ColorRole.Base if on_full else QPalette.ColorRole.Text
-                painter.setPen(palette.color(role))
-                painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, str(chip))
+            draw_chip(painter, cell, chip, QColor(PHOTO), self.palette(), certain=certain)

@@ -53,6 +53,9 @@ class ProfileView(QWidget):
     enhanced_chosen = Signal(bool)
     """Whether the user chose the enhanced columns."""
 
+    photo_shown = Signal(object)
+    """The PhotoProfile that is shown from now on, or None."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._reading: Reading | None = None
@@ -179,6 +182,7 @@ class ProfileView(QWidget):
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
         """Show this profile of a photo in place of the previous one, or none."""
         self._photo = profile
+        self.photo_shown.emit(profile)
         if profile is not None:
             self.chips.place(profile.first_column, profile.scale)
         if profile is None:

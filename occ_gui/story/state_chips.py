@@ -1,12 +1,13 @@
 """State chips: short labels of what holds for a result, such as where the band model ends."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from PySide6.QtCore import QCoreApplication, QRectF, QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtCore import QCoreApplication, QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent, QStaticText, QTextOption
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.decoding.verdict import is_right
 from occ_gui.scene.forced_effects import switch_text
@@ -112,27 +113,36 @@ def _tr(text: str) -> str:
     return QCoreApplication.translate("StateChips", text)
 
 
-class ChipLabel(QLabel):
+class ChipLabel(QWidget):
     """A chip as a rounded label with the icon of its state."""
 
     def __init__(self, chip: Chip, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.chip = chip
-        has_icon = chip.state is not State.NEUTRAL
-        left = _PADDING + (_ICON + 4 if has_icon else 0)
-        self.setContentsMargins(left, 2, _PADDING, 2)
-        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.setTextFormat(Qt.TextFormat.RichText)
-        self.setText(chip.text)
+        self._text = QStaticText(chip.text)
+        self._text.setTextFormat(Qt.TextFormat.RichText)
+        option = QTextOption()
+        option.setWrapMode(QTextOption.WrapMode.NoWrap)
+        self._text.setTextOption(option)
+        self._text.prepare(font=self.font())
+        self._left = _PADDING + (0 if chip.state is State.NEUTRAL else _ICON + 4)
         self.setAccessibleName(plain_text_of(chip.text))
-        self.setToolTip(in_tool_tip(chip.meaning))
         self.setAccessibleDescription(chip.meaning)
-        palette = QPalette(self.palette())
-        palette.setColor(QPalette.ColorRole.WindowText, colours_of(chip.state, palette).ink)
-        self.setPalette(palette)
+        self.setToolTip(in_tool_tip(chip.meaning))
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of icon and text."""
+        size = self._text.size()
+        return QSize(math.ceil(self._left + size.width() + _PADDING), math.ceil(size.height()))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Measure the text in another font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._text.prepare(font=self.font())
 
     @guarded
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Draw the rounded area, the icon and the text."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -144,8 +154,10 @@ class ChipLabel(QLabel):
         if self.chip.state is not State.NEUTRAL:
             top = (place.height() - _ICON) / 2
             draw_state(painter, QRectF(_PADDING, top, _ICON, _ICON), self.chip.state, colours)
+        painter.setPen(colours.ink)
+        height = self._text.size().height()
+        painter.drawStaticText(QPointF(self._left, (place.height() - height) / 2), self._text)
         painter.end()
-        super().paintEvent(event)
 
 
 class ChipRow(QWidget):
@@ -171,12 +183,6 @@ class ChipRow(QWidget):
             _remove(label)
         self._place()
         self.updateGeometry()
-
-    def renew(self) -> None:
-        """Make all labels anew, as for another theme."""
-        chips = self.chips
-        self.show_chips(())
-        self.show_chips(chips)
 
     def _place(self) -> None:
         """Place the labels from the right, the last ones only where there is room for them."""

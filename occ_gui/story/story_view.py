@@ -1,13 +1,28 @@
-"""Pane of the story: the verdict above the picture."""
+"""Pane of the story: the verdict, and below it the four rows or the whole picture."""
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QPushButton,
+    QSizePolicy,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.story_rows import RANGES, StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.plot import PACKETS_IN_VIEW
 
 
 class StoryView(QWidget):
-    """The verdict on the code, above the simulated picture.
+    """The verdict on the code, above the story in four rows, or the whole picture instead.
 
     Parameters
     ----------
@@ -17,17 +32,117 @@ class StoryView(QWidget):
         The parent widget.
     """
 
+    picture_chosen = Signal(str)
+    """Whose picture and profile the user chose, the ``"camera"``'s or the ``"receiver"``'s."""
+
     def __init__(self, picture: QWidget, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.verdict = VerdictBar()
+        self._picture = picture
+        self.verdict, self.rows = VerdictBar(), StoryRows()
+        self.rows.stripes.thumbnail.clicked.connect(lambda: self.show_whole_picture(True))
+        self.rows.range_left.connect(lambda: self._mark_range(""))
+        self.rows.range_kept.connect(lambda: self._mark_range(self.rows.range))
+        self.readout = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.readout.setAccessibleName(self.tr("Values at the crosshair"))
+        self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.rows.values_changed.connect(self.readout.set_full_text)
+        self._make_controls()
+        self._pages = QStackedWidget()
+        for page in (self.rows, picture):
+            self._pages.addWidget(page)
+        line = QHBoxLayout()
+        line.setContentsMargins(0, 0, 0, 0)
+        line.addSpacing(4)
+        line.addWidget(self.readout, 1)
+        line.addWidget(self.whole, 0, Qt.AlignmentFlag.AlignRight)
+        for control in (self.whose, *self.ranges.values()):
+            self.rows.controls.addWidget(control)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
         layout.setSpacing(4)
         layout.addWidget(self.verdict)
-        layout.addWidget(picture, 1)
+        layout.addLayout(line)
+        layout.addWidget(self._pages, 1)
+
+    def _make_controls(self) -> None:
+        self.whose = KeyedComboBox(
+            self.tr("Whose picture and profile are shown"),
+            self.tr(
+                "Camera: picture and profile as the camera gives them.\n"
+                "Receiver: with the contrast enhanced, as they are decoded."
+            ),
+            {"camera": self.tr("Camera"), "receiver": self.tr("Receiver")},
+        )
+        self.whose.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.whose.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.whose.chosen.connect(self.picture_chosen)
+        texts = (
+            (
+                self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW),
+                self.tr("Show the panel's first packets, and follow them."),
+            ),
+            (self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")),
+        )
+        self.ranges = {}
+        for name, (text, tip) in zip(RANGES, texts, strict=True):
+            button = QPushButton(text)
+            button.setCheckable(True)
+            button.setToolTip(tip)
+            button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
+            self.ranges[name] = button
+        self.ranges[RANGES[0]].setChecked(True)
+        self.whole = QPushButton(self.tr("Whole picture"))
+        self.whole.setCheckable(True)
+        self.whole.setToolTip(self.tr("Show the whole picture in place of the four rows."))
+        self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.whole.clicked.connect(self.show_whole_picture)
+
+    @property
+    def shows_whole_picture(self) -> bool:
+        """Whether the whole picture is shown in place of the rows."""
+        return self._pages.currentWidget() is self._picture
+
+    def show_whole_picture(self, shown: bool) -> None:
+        """Show the whole picture in place of the rows, or the rows again."""
+        self.whole.setChecked(shown)
+        self._pages.setCurrentWidget(self._picture if shown else self.rows)
+        self.whole.setText(self.tr("Back to the rows") if shown else self.tr("Whole picture"))
+        self.readout.setVisible(not shown)
+
+    def show_picture(self, picture: Picture) -> None:
+        """Show this picture in place of the previous one."""
+        self.rows.show_picture(picture)
 
     def show_reading(self, reading: Reading) -> None:
         """Show this reading in place of the previous one."""
         self.verdict.show_reading(reading)
+        self.rows.show_reading(reading)
 
     show_snapshot = show_reading
+
+    def show_photo_profile(self, photo: PhotoProfile | None) -> None:
+        """Show this profile of a photo in place of the previous one, or none."""
+        self.rows.show_photo_profile(photo)
+
+    def choose_decoder(self, name: str) -> None:
+        """Show what this decoder read, and the verdict on it."""
+        self.verdict.choose_decoder(name)
+        self.rows.choose_decoder(name)
+
+    def choose_picture(self, whose: str) -> None:
+        """Show the camera's picture and profile or the receiver's, without a signal."""
+        self.whose.show_key(whose)
+        self.rows.choose_picture(whose)
+
+    def choose_range(self, name: str) -> None:
+        """Show the first packets or the whole panel, one of RANGES."""
+        self.rows.choose_range(name)
+        self._mark_range(name)
+
+    def fit(self) -> None:
+        """Return to the range of columns that was chosen last."""
+        self.choose_range(self.rows.range)
+
+    def _mark_range(self, name: str) -> None:
+        for key, button in self.ranges.items():
+            button.setChecked(key == name)

@@ -148,7 +148,6 @@ class VerdictBar(QWidget):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "chips"):
             self._take_colours()
-            self.chips.renew()
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name

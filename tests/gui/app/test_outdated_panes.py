@@ -89,6 +89,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     application.learning.explanation.set_seen(True)
     assert [mark.parentWidget() for mark in marks(application)] == [
         application.image.simulation,
+        application.story.rows,
         application.profile,
         application.decode,
         application.accuracy.effects,
@@ -113,7 +114,7 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     shown = application.image._frame
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
-    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:4]))
+    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:5]))
     assert application.image._frame is shown
     earlier = f"Earlier scene: {RIGHT}"
     qtbot.waitUntil(lambda: application.decode.verdict.text() == earlier)

@@ -7,7 +7,6 @@ import pytest
 
 import occ_model as occ
 from occ_model.errors import ParameterError
-from occ_model.results.teaching import LightCurve
 from occ_model.scene.scene import Scene
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 
@@ -24,14 +23,6 @@ def scene_with(**changes: Any) -> Scene:
     return occ.load_preset("phone-136us").replace(columns=400, **changes)
 
 
-def mean_light(curve: LightCurve, first: float, last: float) -> float:
-    """Average a curve exactly: it is linear between its knots."""
-    areas = np.diff(curve.columns) * (curve.light[1:] + curve.light[:-1]) / 2
-    integral = np.concatenate([[0.0], np.cumsum(areas)])
-    at_first, at_last = np.interp([first, last], curve.columns, integral)
-    return float(at_last - at_first) / (last - first)
-
-
 @pytest.mark.parametrize("changes", CHANGES)
 def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> None:
     scene = scene_with(**changes)
@@ -39,7 +30,7 @@ def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> No
     curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000)
     assert curve is not None
     share = occ.on_time(scene) / scene.camera.exposure_time
-    found = [mean_light(curve, i + 0.0, i + width) for i in range(400)]
+    found = [curve.mean(i + 0.0, i + width) for i in range(400)]
     np.testing.assert_allclose(found, share, atol=1e-7)
 
 
@@ -54,7 +45,7 @@ def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
     lag = edge / scene.camera.readout_time
     for x in np.linspace(0.0, 400.0, 37).tolist():
         value = float(np.interp(x, curve.columns, curve.light))
-        assert value == pytest.approx(mean_light(sharp, x - lag, x), abs=1e-9)
+        assert value == pytest.approx(sharp.mean(x - lag, x), abs=1e-9)
 
 
 def test_each_chip_is_the_one_sent_at_its_place() -> None:
@@ -66,6 +57,8 @@ def test_each_chip_is_the_one_sent_at_its_place() -> None:
     assert curve.edges[-1] > 380.2
     middles = (curve.edges[:-1] + curve.edges[1:]) / 2
     assert [curve.chip_at(x) for x in middles.tolist()] == list(range(len(curve.lit)))
+    assert [curve.light_at(x) for x in middles.tolist()] == curve.lit.tolist()
+    assert [curve.light_at(x) for x in curve.edges[:-1].tolist()] == curve.lit.tolist()
     assert curve.chip_at(curve.edges[-1]) is None
 
 

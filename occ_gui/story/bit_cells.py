@@ -1,0 +1,56 @@
+"""Cells of header and bits, drawn under the columns that carry them."""
+
+from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPalette, QPen
+
+from occ_gui.widgets.state_look import State, colours_of
+
+
+def header_texts() -> tuple[str, ...]:
+    """Return what a header is called, shorter for narrower cells."""
+    translate = QCoreApplication.translate
+    return translate("BitCells", "header"), translate("BitCells", "H")
+
+
+def draw_field(
+    painter: QPainter,
+    cell: QRectF,
+    texts: tuple[str, ...],
+    palette: QPalette,
+    *,
+    is_header: bool = False,
+    state: State = State.NEUTRAL,
+) -> None:
+    """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
+
+    Parameters
+    ----------
+    painter
+        Draws.
+    cell
+        Where it lies.
+    texts
+        The bit, or what the header is called; the first text that fits is drawn.
+    palette
+        The theme.
+    is_header
+        Whether it is the header.
+    state
+        Good for a bit that is right, bad for one that is wrong, else neutral.
+    """
+    colours = colours_of(state, palette)
+    inner = cell.adjusted(1, 0.5, -1, -0.5)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(QPen(colours.ink, 2 if state is State.BAD else 1))
+    painter.setBrush(Qt.BrushStyle.NoBrush if is_header else colours.paper)
+    painter.drawRoundedRect(inner, 3, 3)
+    metrics = painter.fontMetrics()
+    mark = {State.GOOD: " ✓", State.BAD: " ✗"}.get(state, "")
+    painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
+    for shown in (texts[0] + mark, *texts):
+        if metrics.horizontalAdvance(shown) <= inner.width() - 2:
+            painter.drawText(inner, Qt.AlignmentFlag.AlignCenter, shown)
+            break
+    if state is State.BAD:
+        painter.setPen(QPen(colours.ink, 1.5))
+        painter.drawLine(QPointF(inner.bottomLeft()), QPointF(inner.topRight()))

@@ -1,0 +1,140 @@
+"""Row of the code: the chips and bits received, under the columns that they were read from."""
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPalette
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.decoding.verdict import wrong_places
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.bit_cells import draw_field, header_texts
+from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
+from occ_gui.story.story_row import StoryRow
+from occ_gui.widgets.chip_cell import draw_chip
+from occ_gui.widgets.plot import SIMULATION
+from occ_gui.widgets.state_look import State
+from occ_model.arrays import FloatArray
+from occ_model.results import DecodeResult
+from occ_model.teaching.packet_fields import PacketField, received_edges, received_fields
+
+_CHIPS, _BITS = 20, 22
+_GAP = 3
+_HEIGHT = _CHIPS + _BITS + 4 * _GAP
+
+
+class CodeRow(StoryRow):
+    """Chips as cells, and under them header and bits, the right ones ticked, the wrong crossed."""
+
+    def __init__(
+        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(self.tr("Code"), axis, cursor, parent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self._decoded: DecodeResult | None = None
+        self._sent: tuple[int, ...] = ()
+        self.edges: FloatArray | None = None
+        self.fields: tuple[PacketField, ...] = ()
+
+    def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
+        """Show the chips and bits of one decoder's result."""
+        self._decoded, self._sent = decoded, reading.sent
+        self.edges = received_edges(decoded)
+        self.fields = received_fields(decoded, reading.scene)
+        self.setAccessibleDescription(self._in_words())
+        self.redraw()
+
+    def _in_words(self) -> str:
+        if self._decoded is None:
+            return ""
+        bits = self._decoded.bits.tolist()
+        return self.tr("sent {sent}, received {received}, {wrong} wrong").format(
+            sent="".join(map(str, self._sent)) or self.tr("no code"),
+            received="".join(map(str, bits)) or self.tr("nothing"),
+            wrong=len(wrong_places(self._sent, bits)),
+        )
+
+    def value_of(self, bit: int) -> int | None:
+        """Return a bit that was received, None if it was not."""
+        if self._decoded is None or bit >= self._decoded.bits.size:
+            return None
+        return int(self._decoded.bits[bit])
+
+    def state_of(self, bit: int) -> State:
+        """Return whether a bit that was received is the one sent."""
+        if self._decoded is None or bit >= min(len(self._sent), self._decoded.bits.size):
+            return State.NEUTRAL
+        right = int(self._decoded.bits[bit]) == self._sent[bit]
+        return State.GOOD if right else State.BAD
+
+    def received_at(self, column: float) -> tuple[int | None, int | None]:
+        """Return the chip, and the number of the bit, that were read at a column."""
+        edges, decoded = self.edges, self._decoded
+        if edges is None or decoded is None or not edges[0] <= column < edges[-1]:
+            return None, None
+        place = int(edges.searchsorted(column, side="right")) - 1
+        bits = (f.bit for f in self.fields if f.first <= place < f.last)
+        return int(decoded.chips[place]), next(bits, None)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of both lines."""
+        return QSize(200, _HEIGHT)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of both lines."""
+        return QSize(160, _HEIGHT)
+
+    def draw(self, painter: QPainter, area: QRectF) -> None:
+        """Draw the chips in view, and the packet that was read."""
+        decoded = self._decoded
+        if decoded is None:
+            return
+        chips = QRectF(area.left(), area.top() + _GAP, area.width(), _CHIPS)
+        bits = QRectF(area.left(), chips.bottom() + _GAP, area.width(), _BITS)
+        if self.edges is None:
+            self._say_instead(painter, chips, decoded)
+            self._list_bits(painter, bits, decoded)
+            return
+        edges = [self.x_of(edge) for edge in self.edges.tolist()]
+        for chip, left, right in zip(decoded.chips.tolist(), edges, edges[1:], strict=False):
+            if right > area.left() and left < area.right():
+                cell = QRectF(left, chips.top(), right - left, chips.height())
+                draw_chip(painter, cell.adjusted(0.5, 0.5, -0.5, -0.5), chip, SIMULATION,
+                          self.palette())  # fmt: skip
+        for field in self.fields:
+            cell = QRectF(edges[field.first], bits.top(), edges[field.last] - edges[field.first],
+                          bits.height())  # fmt: skip
+            if field.bit is None:
+                draw_field(painter, cell, header_texts(), self.palette(), is_header=True)
+            else:
+                texts = (str(int(decoded.bits[field.bit])),)
+                draw_field(painter, cell, texts, self.palette(), state=self.state_of(field.bit))
+        if not self.fields:
+            self._list_bits(painter, bits, decoded)
+
+    def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
+        """Say why there are no chips: none were read, or the decoder reads whole packets."""
+        painter.setPen(self.colour(QPalette.ColorRole.Text))
+        text = self.tr("No chips were read.")
+        if decoded.code is not None:
+            text = self.tr("This decoder compares whole packets, and reads no single chips.")
+        inner = place.adjusted(8, 0, 0, 0)
+        painter.drawText(inner, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)
+
+    def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
+        """Draw bits that have no columns of their own side by side."""
+        count = max(len(self._sent), decoded.bits.size)
+        if not decoded.bits.size or not count:
+            return
+        width = min(34.0, place.width() / count)
+        for bit, value in enumerate(decoded.bits.tolist()):
+            cell = QRectF(place.left() + 8 + bit * width, place.top(), width, place.height())
+            draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit))
+
+    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+        """Name the lines."""
+        painter.setPen(self.colour(QPalette.ColorRole.WindowText))
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        for text, top, height in (
+            (self.tr("chips"), _GAP, _CHIPS),
+            (self.tr("bits"), _CHIPS + 2 * _GAP, _BITS),
+        ):
+            painter.drawText(QRectF(0, top, area.left() - 6, height), flags, text)

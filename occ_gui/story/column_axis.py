@@ -1,0 +1,146 @@
+"""Column axis: the columns in view, shared by all rows of the story, and the column pointed at."""
+
+from PySide6.QtCore import QObject, Signal
+
+GUTTER = 96
+"""Pixels at the left of each row, for its name and its levels."""
+
+MARGIN = 12
+"""Pixels at the right of each row."""
+
+_LEAST_SPAN = 4.0
+"""Fewest columns in view."""
+
+_BESIDE = 0.5
+"""Most empty space beside the picture, as a part of what is in view."""
+
+
+class ColumnAxis(QObject):
+    """The range of columns in view.
+
+    Column ``i`` lies at ``i``; as a pixel of the picture it reaches from ``i - 0.5`` to
+    ``i + 0.5``, and its exposure begins at the time that lies at ``i``, too.
+    """
+
+    changed = Signal()
+    """Other columns are in view."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.first, self.last = -0.5, 99.5
+        self._home = (self.first, self.last)
+        self._ends = (self.first, self.last)
+        self.is_following = True
+        """Whether the range is the one that is set for the results."""
+
+    @property
+    def span(self) -> float:
+        """The number of columns in view."""
+        return self.last - self.first
+
+    def pixel(self, column: float, width: float) -> float:
+        """Return where a column lies in a row of this width, in pixels from its left."""
+        return GUTTER + (column - self.first) / self.span * self.plot_width(width)
+
+    def column(self, pixel: float, width: float) -> float:
+        """Return the column at a pixel of a row of this width."""
+        return self.first + (pixel - GUTTER) / self.plot_width(width) * self.span
+
+    @staticmethod
+    def plot_width(width: float) -> float:
+        """Return the pixels of a row of this width that show columns."""
+        return max(1.0, width - GUTTER - MARGIN)
+
+    def set_home(self, first: float, last: float, columns: int) -> None:
+        """Set the range to return to, and the number of columns of the picture."""
+        self._home = (first, last)
+        self._ends = (-0.5, columns - 0.5)
+        if self.is_following:
+            self._put(*self._home)
+        else:
+            self._put(*self._within(self.first, self.last))
+
+    def fit(self) -> None:
+        """Return to the range that is set for the results, and follow it."""
+        self.is_following = True
+        self._put(*self._home)
+
+    def zoom(self, factor: float, at: float) -> None:
+        """Show ``factor`` times as many columns; the one at ``at`` stays where it is."""
+        whole = (self._ends[1] - self._ends[0]) * (1.0 + _BESIDE)
+        span = min(max(self.span * factor, _LEAST_SPAN), max(whole, _LEAST_SPAN))
+        share = (at - self.first) / self.span
+        self._move(at - share * span, at + (1.0 - share) * span)
+
+    def pan(self, columns: float) -> None:
+        """Move by some columns, to the right where they are more than zero."""
+        self._move(self.first + columns, self.last + columns)
+
+    def reveal(self, first: float, last: float) -> None:
+        """Move as little as possible so that these columns are in view."""
+        if first < self.first:
+            self.pan(first - self.first)
+        elif last > self.last:
+            self.pan(min(last - self.last, first - self.first))
+
+    def _move(self, first: float, last: float) -> None:
+        self.is_following = False
+        self._put(*self._within(first, last))
+
+    def _within(self, first: float, last: float) -> tuple[float, float]:
+        """Move a range so that the picture stays in view."""
+        beside = _BESIDE * (last - first)
+        low, high = self._ends[0] - beside, self._ends[1] + beside
+        shift = max(low - first, 0.0) + min(high - last, 0.0)
+        return first + shift, last + shift
+
+    def _put(self, first: float, last: float) -> None:
+        if (first, last) != (self.first, self.last):
+            self.first, self.last = first, last
+            self.changed.emit()
+
+
+class ColumnCursor(QObject):
+    """The column under the mouse, and the column whose exposure is shown."""
+
+    pointed_at = Signal()
+    """The mouse is at another column, or at none."""
+
+    chosen = Signal()
+    """Another column is chosen."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.pointed: int | None = None
+        self.column: int | None = None
+        self.columns = 0
+
+    def set_columns(self, columns: int, first: int) -> None:
+        """Set the number of columns; ``first`` is chosen if none is yet."""
+        self.columns = columns
+        self.choose(first if self.column is None else self.column)
+        if self.pointed is not None:
+            self.point_at(self.pointed)
+
+    def point_at(self, column: float | None) -> None:
+        """Point at the nearest column, or at none; outside the picture is none, too."""
+        nearest = None if column is None else round(column)
+        if nearest is not None and not 0 <= nearest < self.columns:
+            nearest = None
+        if nearest != self.pointed:
+            self.pointed = nearest
+            self.pointed_at.emit()
+
+    def choose(self, column: float) -> None:
+        """Choose the nearest column of the picture."""
+        if not self.columns:
+            return
+        nearest = min(max(round(column), 0), self.columns - 1)
+        if nearest != self.column:
+            self.column = nearest
+            self.chosen.emit()
+
+    @property
+    def read(self) -> int | None:
+        """The column whose values are read out: that under the mouse, else the chosen one."""
+        return self.column if self.pointed is None else self.pointed

@@ -1,0 +1,108 @@
+"""Values of one column: its time, the light, the grey level, and what was read there."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.story.code_row import CodeRow
+from occ_gui.story.light_row import LightRow
+from occ_gui.story.profile_row import ProfileRow
+from occ_gui.widgets.state_look import State
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+
+_MICRO = 1e6
+_MOST_CHIPS = 20_000
+"""Chips in an exposure up to which its light is added up while the mouse moves."""
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnValues:
+    """What all rows show at one column.
+
+    Parameters
+    ----------
+    column
+        The column.
+    time
+        When its exposure begins, in seconds.
+    light
+        The light at that time, 0 to 1.
+    share
+        The mean light within its exposure, None for more chips than can be added up.
+    level
+        Its grey level.
+    chip
+        The chip read there, None if none was.
+    bit
+        The number of the bit read there, None if none was.
+    value
+        The bit.
+    state
+        Whether the bit is the one sent.
+    """
+
+    column: int
+    time: float
+    light: float
+    share: float | None
+    level: float
+    chip: int | None = None
+    bit: int | None = None
+    value: int | None = None
+    state: State = State.NEUTRAL
+
+
+def values_at(
+    column: int, scene: Scene, light: LightRow, profile: ProfileRow, code: CodeRow
+) -> ColumnValues | None:
+    """Read all rows at a column; None where there are no results yet, or no such column."""
+    levels = profile.levels
+    if levels is None or not 0 <= column < len(levels):
+        return None
+    width = scene.camera.exposure_time / scene.camera.readout_time
+    now = light.light(column, column + min(width, 1.0), _MOST_CHIPS)
+    curve = light.light(column, column + width, _MOST_CHIPS)
+    chip, bit = code.received_at(column)
+    return ColumnValues(
+        column=column,
+        time=scene.model.start_time + column * scene.camera.readout_time,
+        light=0.0 if now is None else now.light_at(column),
+        share=None if curve is None else curve.mean(column, column + width),
+        level=float(levels[column]),
+        chip=chip,
+        bit=bit,
+        value=None if bit is None else code.value_of(bit),
+        state=State.NEUTRAL if bit is None else code.state_of(bit),
+    )
+
+
+def in_words(values: ColumnValues, scene: Scene) -> str:
+    """Write the values of a column in one line."""
+    parts = [
+        _tr("column {column}").format(column=values.column),
+        _tr("{time:.1f} µs").format(time=values.time * _MICRO),
+        _light(values.light),
+    ]
+    if values.share is not None:
+        exposure = scene.camera.exposure_time
+        lit, whole = SECOND.format(values.share * exposure, 3), SECOND.format(exposure, 4)
+        parts.append(_tr("lit for {lit} of {exposure}").format(lit=lit, exposure=whole))
+    parts.append(_tr("level {level:.1f}").format(level=values.level))
+    if values.chip is not None:
+        parts.append(_tr("chip {chip}").format(chip=values.chip))
+    if values.bit is not None and values.value is not None:
+        mark = {State.GOOD: _tr("right"), State.BAD: _tr("wrong")}.get(values.state, "")
+        text = _tr("bit {number}: {value} {mark}")
+        parts.append(text.format(number=values.bit + 1, value=values.value, mark=mark).rstrip())
+    return "  ·  ".join(parts)
+
+
+def _light(light: float) -> str:
+    if light in (0.0, 1.0):
+        return _tr("light on") if light else _tr("light off")
+    return _tr("light {share:.0f} %").format(share=100.0 * light)
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("ColumnValues", text)

@@ -1,0 +1,45 @@
+"""Lines of a curve: a stroke of two pixels, drawn line by line.
+
+Qt's raster engine draws separate lines ten times faster than a path of the same points: measured
+at 1800 points, 1.1 ms of processor time in place of 12 ms.
+"""
+
+import numpy as np
+from PySide6.QtCore import QLineF
+
+from occ_model.arrays import FloatArray
+
+DASH = (7.0, 5.0)
+"""Pixels of a dash, and of the gap after it."""
+
+
+def lines_of(
+    xs: FloatArray, ys: FloatArray, dash: tuple[float, float] | None = None
+) -> list[QLineF]:
+    """Return the lines from each point to the next, or the dashes along them.
+
+    Parameters
+    ----------
+    xs, ys : ndarray of float64, shape (points,)
+        The curve, in pixels.
+    dash
+        The length of dashes and gaps, in pixels along the curve; None for a solid one.
+    """
+    if len(xs) < 2:
+        return []
+    if dash is None:
+        return _between(xs, ys)
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(xs), np.diff(ys)))])
+    period = sum(dash)
+    starts = np.arange(0.0, along[-1], period)
+    cuts = np.union1d(along, np.concatenate([starts, starts + dash[0]]))
+    cuts = cuts[cuts <= along[-1]]
+    x, y = np.interp(cuts, along, xs), np.interp(cuts, along, ys)
+    drawn = np.mod((cuts[:-1] + cuts[1:]) / 2, period) < dash[0]
+    ends = (x[:-1][drawn], y[:-1][drawn], x[1:][drawn], y[1:][drawn])
+    return list(map(QLineF, *(end.tolist() for end in ends)))
+
+
+def _between(xs: FloatArray, ys: FloatArray) -> list[QLineF]:
+    x, y = xs.tolist(), ys.tolist()
+    return list(map(QLineF, x, y, x[1:], y[1:]))

@@ -1,0 +1,275 @@
+"""Row of the light: the LED's waveform, and the exposure of the chosen column as a window on it."""
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import (
+    QBrush,
+    QColor,
+    QMouseEvent,
+    QPainter,
+    QPalette,
+    QPen,
+    QPolygonF,
+    QStaticText,
+)
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.bit_cells import draw_field, header_texts
+from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
+from occ_gui.story.curve_lines import lines_of
+from occ_gui.story.story_row import StoryRow
+from occ_gui.widgets.state_look import is_dark
+from occ_model.arrays import FloatArray
+from occ_model.results.teaching import LightCurve
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+from occ_model.teaching.light_over_columns import light_over_columns
+from occ_model.teaching.packet_fields import packet_fields
+
+_GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
+"""Colours of the light, in the light and the dark theme."""
+
+_LEAST_HEIGHT = 56
+_STRIP = 18
+"""Pixels of the strip of the bits sent."""
+
+_LEAST_FOR_STRIP = 66
+_LEAST_CHIP = 1.5
+"""Fewest pixels of a chip that is drawn."""
+
+_LEAST_FOR_DIGIT = 9
+
+_GRIP = 6
+"""Pixels beside the window that still belong to it."""
+
+
+class LightRow(StoryRow):
+    """Light against time, where column ``i`` stands at the time that its exposure begins.
+
+    The window, as wide as the exposure is long, is dragged to another column.
+    """
+
+    window_dragged = Signal()
+    """The user has moved the window."""
+
+    def __init__(
+        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(self.tr("Light"), axis, cursor, parent)
+        self.setMinimumHeight(_LEAST_HEIGHT)
+        self.setToolTip(
+            self.tr(
+                "The LED's light over time. The window is the exposure of the chosen column: drag "
+                "it, click, or use the arrow keys."
+            )
+        )
+        self._scene: Scene | None = None
+        self._edged = False
+        self._sent: tuple[int, ...] = ()
+        self._grabbed: float | None = None
+
+    def show_reading(self, reading: Reading) -> None:
+        """Show the light of this reading's scene."""
+        self._scene = reading.scene
+        self._edged = "led-edges" in reading.plan
+        self._sent = reading.sent
+        self.redraw()
+
+    def light(self, first: float, last: float, most: int) -> LightCurve | None:
+        """Return the light from one column to another, None for more chips than ``most``."""
+        if self._scene is None:
+            return None
+        return light_over_columns(self._scene, first, last, most, self._edged)
+
+    def window(self) -> tuple[float, float] | None:
+        """Return the columns at which the chosen column's exposure begins and ends."""
+        column, scene = self.cursor.column, self._scene
+        if column is None or scene is None:
+            return None
+        return float(column), column + scene.camera.exposure_time / scene.camera.readout_time
+
+    def _light_area(self, area: QRectF) -> QRectF:
+        strip = _STRIP if area.height() >= _LEAST_FOR_STRIP else 0
+        return area.adjusted(0, 16, 0, -strip - 5)
+
+    def draw(self, painter: QPainter, area: QRectF) -> None:
+        """Draw the waveform, and the header and bits sent below it."""
+        if self._scene is None:
+            return
+        light = self._light_area(area)
+        curve = self.light(self.axis.first, self.axis.last, round(area.width() / _LEAST_CHIP))
+        if curve is None:
+            self._say_too_fast(painter, light)
+            return
+        self._draw_glow(painter, light, curve)
+        xs = self._xs(curve.columns)
+        ys = light.bottom() - curve.light * light.height()
+        painter.setPen(QPen(self.colour(QPalette.ColorRole.Text), 1.5))
+        # Upright and level lines are sharper on whole pixels.
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._edged)
+        painter.drawLines(lines_of(xs, ys))
+        self._draw_digits(painter, light, curve)
+        if light.bottom() < area.bottom() - _STRIP:
+            self._draw_fields(painter, area, curve)
+
+    def _xs(self, columns: FloatArray) -> FloatArray:
+        scale = self.plot_area().width() / self.axis.span
+        return np.asarray(self.plot_area().left() + (columns - self.axis.first) * scale)
+
+    def _draw_glow(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
+        """Fill what lies below the light: a rectangle for each chip, or what edges leave of it."""
+        glow = _GLOW[is_dark(self.palette())]
+        if not self._edged:
+            edges = self._xs(curve.edges).tolist()
+            for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False):
+                if chip:
+                    painter.fillRect(QRectF(left, light.top(), right - left, light.height()), glow)
+            return
+        xs = self._xs(curve.columns).tolist()
+        ys = (light.bottom() - curve.light * light.height()).tolist()
+        below = [QPointF(x, y) for x, y in zip(xs, ys, strict=True)]
+        below += [QPointF(xs[-1], light.bottom()), QPointF(xs[0], light.bottom())]
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(glow)
+        painter.drawPolygon(QPolygonF(below))
+
+    def _say_too_fast(self, painter: QPainter, light: QRectF) -> None:
+        painter.fillRect(light, _GLOW[is_dark(self.palette())])
+        painter.setPen(self.colour(QPalette.ColorRole.Text))
+        text = self.tr("The LED switches faster than this view can show: zoom in.")
+        painter.drawText(light, Qt.AlignmentFlag.AlignCenter, text)
+
+    def _draw_digits(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
+        edges = self._xs(curve.edges).tolist()
+        if edges[1] - edges[0] < _LEAST_FOR_DIGIT:
+            return
+        digits = [QStaticText(digit) for digit in "01"]
+        size = painter.fontMetrics().size(0, "0")
+        top = light.center().y() - size.height() / 2
+        for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False):
+            place = QPointF((left + right - size.width()) / 2, top)
+            painter.drawStaticText(place, digits[chip])
+
+    def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
+        """Draw header and bits of each packet in view under the chips that carry them."""
+        fields = () if self._scene is None else packet_fields(self._scene)
+        edges = self._xs(curve.edges)
+        step = float(edges[1] - edges[0])
+        if not fields or 2 * step < _LEAST_FOR_DIGIT:
+            return
+        top, length = area.bottom() - _STRIP + 1, fields[-1].last
+        # Of each packet in view, also the one that begins before it, the x of its first chip.
+        start = float(edges[0]) - int(curve.places[0]) * step
+        while start < area.right():
+            for field in fields:
+                left = start + field.first * step
+                cell = QRectF(left, top, (field.last - field.first) * step, _STRIP - 2)
+                if cell.right() < area.left() or cell.left() > area.right():
+                    continue
+                texts = header_texts() if field.bit is None else (str(self._sent[field.bit]),)
+                draw_field(painter, cell, texts, self.palette(), is_header=field.bit is None)
+            start += length * step
+
+    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+        """Name the levels, and the strip of bits."""
+        light = self._light_area(area)
+        painter.setPen(self.colour(QPalette.ColorRole.WindowText))
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        for text, y in ((self.tr("on"), light.top()), (self.tr("off"), light.bottom())):
+            painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), flags, text)
+        if light.bottom() < area.bottom() - _STRIP and self._scene is not None:
+            place = QRectF(4, area.bottom() - _STRIP, area.left() - 10, _STRIP)
+            left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+            painter.drawText(place, left, self.tr("sent"))
+
+    def draw_markers(self, painter: QPainter, area: QRectF) -> None:
+        """Draw the window: shaded, hatched where the LED is on, with its length above."""
+        window, scene = self.window(), self._scene
+        if window is None or scene is None:
+            return
+        light = self._light_area(area)
+        left, right = (self.x_of(column) for column in window)
+        accent = self.colour(QPalette.ColorRole.Highlight)
+        shade = QColor(accent)
+        shade.setAlpha(70)
+        place = QRectF(left, area.top() + 1, max(right - left, 1.5), light.bottom() - area.top())
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(place, shade)
+        self._hatch(painter, light, window)
+        painter.setPen(QPen(accent, 2))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(place)
+        self._name_window(painter, place, SECOND.format(scene.camera.exposure_time, 4))
+
+    def _hatch(self, painter: QPainter, light: QRectF, window: tuple[float, float]) -> None:
+        most = round(light.width() / _LEAST_CHIP)
+        first = max(window[0], self.axis.first)
+        last = min(window[1], self.axis.last)
+        curve = self.light(first, last, most) if first < last else None
+        if curve is None:
+            return
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(
+            QBrush(self.colour(QPalette.ColorRole.Highlight), Qt.BrushStyle.BDiagPattern)
+        )
+        for chip, start, end in zip(
+            curve.lit.tolist(), curve.edges.tolist(), curve.edges.tolist()[1:], strict=False
+        ):
+            left, right = self.x_of(max(start, first)), self.x_of(min(end, last))
+            if chip and right > left:
+                painter.drawRect(QRectF(left, light.top(), right - left, light.height()))
+
+    def _name_window(self, painter: QPainter, place: QRectF, text: str) -> None:
+        width = painter.fontMetrics().horizontalAdvance(text) + 8
+        area = self.plot_area()
+        label = QRectF(place.center().x() - width / 2, area.top(), width, 15)
+        label.moveLeft(min(max(label.left(), area.left()), area.right() - width))
+        if not area.left() - width < place.center().x() < area.right() + width:
+            return
+        painter.fillRect(label, self.colour(QPalette.ColorRole.Highlight))
+        painter.setPen(self.colour(QPalette.ColorRole.HighlightedText))
+        painter.drawText(label, Qt.AlignmentFlag.AlignCenter, text)
+
+    # Dragging the window.
+
+    def _is_on_window(self, place: QPointF) -> bool:
+        window = self.window()
+        if window is None or not self.plot_area().contains(place):
+            return False
+        left, right = (self.x_of(column) for column in window)
+        return left - _GRIP <= place.x() <= right + _GRIP
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Grab the window where the mouse is on it."""
+        super().mousePressEvent(event)
+        place, column = event.position(), self.cursor.column
+        if event.button() == Qt.MouseButton.LeftButton and self._is_on_window(place):
+            self._grabbed = None if column is None else self.column_at(place.x()) - column
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Show that the window can be dragged."""
+        super().mouseMoveEvent(event)
+        if event.buttons() == Qt.MouseButton.NoButton:
+            if self._is_on_window(event.position()):
+                self.setCursor(Qt.CursorShape.SizeHorCursor)
+            else:
+                self.unsetCursor()
+
+    def drag_to(self, place: QPointF) -> None:
+        """Move the window to another column, or all columns where it was not grabbed."""
+        if self._grabbed is None:
+            super().drag_to(place)
+        elif self.moved_from_press(place):
+            self.cursor.choose(self.column_at(place.x()) - self._grabbed)
+            self.window_dragged.emit()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Let go of the window."""
+        super().mouseReleaseEvent(event)
+        self._grabbed = None
+
+    def click(self, place: QPointF) -> None:
+        """Choose the column at a place, unless the click is on the window."""
+        if self._grabbed is None:
+            super().click(place)

@@ -1,0 +1,211 @@
+"""Row of the profile: grey level over column, of simulation, band model and photo."""
+
+import math
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
+from occ_gui.story.column_means import envelope
+from occ_gui.story.curve_lines import DASH, lines_of
+from occ_gui.story.story_row import StoryRow
+from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.plot import BAND, PHOTO, SIMULATION, THRESHOLD
+from occ_model.arrays import FloatArray
+from occ_model.results import DecodeResult
+from occ_model.teaching.packet_fields import threshold_levels
+
+_LEAST_HEIGHT = 76
+_STEPS = (10.0, 20.0, 50.0, 100.0)
+_LEAST_SPACING = 26
+"""Fewest pixels between two numbers of the levels."""
+
+_ROUNDED = 20.0
+"""The largest level is rounded up to a multiple of this, so that the axis rarely changes."""
+
+_GRID = 38
+_SHADE = 45
+_WIDTH = 2.0
+_CROWDED = 2
+"""Columns a pixel from which a curve is drawn as its extremes, one pixel wide."""
+
+
+class ProfileRow(StoryRow):
+    """The simulated columns, the band model's dashed, a photo's, and the decoder's threshold."""
+
+    def __init__(
+        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(self.tr("Profile"), axis, cursor, parent)
+        self.setMinimumHeight(_LEAST_HEIGHT)
+        self._reading: Reading | None = None
+        self._decoded: DecodeResult | None = None
+        self._photo: PhotoProfile | None = None
+        self._whose = "camera"
+        self._top = 255.0
+
+    def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
+        """Show this reading, and the threshold of one decoder's result."""
+        self._reading, self._decoded = reading, decoded
+        self._fit()
+
+    def show_photo(self, photo: PhotoProfile | None) -> None:
+        """Show this photo's profile in place of the previous one, or none."""
+        self._photo = photo
+        self._fit()
+
+    def choose_picture(self, whose: str) -> None:
+        """Show the columns of the camera's picture or of the receiver's."""
+        self._whose = whose
+        self._fit()
+
+    @property
+    def levels(self) -> FloatArray | None:
+        """The simulated level of each column."""
+        reading = self._reading
+        if reading is None:
+            return None
+        return reading.profile if self._whose == "camera" else reading.signal
+
+    @property
+    def band(self) -> FloatArray | None:
+        """The band model's level of each column, None where it is undefined."""
+        reading = self._reading
+        if reading is None:
+            return None
+        return reading.band if self._whose == "camera" else reading.enhanced_band
+
+    @property
+    def photo(self) -> tuple[FloatArray, FloatArray] | None:
+        """The columns of the photo on the simulated picture, and their levels."""
+        photo = self._photo
+        if photo is None:
+            return None
+        if photo.comparison is None:  # in the photo's own levels
+            return photo.first_column + photo.scale * np.arange(len(photo.raw)), photo.raw
+        levels = photo.comparison.photo
+        return photo.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels
+
+    @property
+    def threshold(self) -> tuple[float, float] | None:
+        """The levels between which the decoder's threshold lies; None where it has none."""
+        levels, decoded = self.levels, self._decoded
+        if levels is None or decoded is None or decoded.threshold is None:
+            return None
+        if self._whose == "receiver":
+            return decoded.threshold, decoded.threshold
+        return threshold_levels(levels, decoded)
+
+    def _fit(self) -> None:
+        """Show from black to the largest level."""
+        photo = self.photo
+        curves = (self.levels, self.band, None if photo is None else photo[1])
+        largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
+        self._top = max(_ROUNDED, math.ceil(largest / _ROUNDED) * _ROUNDED)
+        self.redraw()
+
+    def y_of(self, level: float, area: QRectF) -> float:
+        """Return where a level lies, in pixels from the top."""
+        inner = area.adjusted(0, 8, 0, -8)
+        return inner.bottom() - level / self._top * inner.height()
+
+    def draw(self, painter: QPainter, area: QRectF) -> None:
+        """Draw the curves, and the threshold below them."""
+        reading, levels = self._reading, self.levels
+        if reading is None or levels is None:
+            return
+        self._shade_outside(painter, area)
+        self._draw_grid(painter, area)
+        self._draw_threshold(painter, area)
+        columns = np.arange(len(levels), dtype=np.float64)
+        if self.band is not None:
+            self._draw_curve(painter, area, columns, self.band, BAND, DASH)
+        if self.photo is not None:
+            self._draw_curve(painter, area, *self.photo, PHOTO)
+        self._draw_curve(painter, area, columns, levels, SIMULATION)
+
+    def _draw_curve(
+        self,
+        painter: QPainter,
+        area: QRectF,
+        columns: FloatArray,
+        levels: FloatArray,
+        colour: QColor,
+        dash: tuple[float, float] | None = None,
+    ) -> None:
+        cells = round(area.width())
+        crowded = self.axis.span > _CROWDED * cells
+        columns, levels = envelope(columns, levels, self.axis.first, self.axis.last, cells)
+        if len(columns) < 2:
+            return
+        span = area.width() / self.axis.span
+        xs = area.left() + (columns - self.axis.first) * span
+        inner = area.adjusted(0, 8, 0, -8)
+        ys = inner.bottom() - levels / self._top * inner.height()
+        pen = QPen(seen_on(self.palette(), colour), 1.0 if crowded else _WIDTH)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, not crowded)
+        if dash is not None:
+            pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        painter.setPen(pen)
+        painter.drawLines(lines_of(xs, ys, dash))
+
+    def _shade_outside(self, painter: QPainter, area: QRectF) -> None:
+        """Shade the columns that the decoder does not read."""
+        region = None if self._decoded is None else self._decoded.region
+        if region is None:
+            return
+        shade = QColor(self.colour(QPalette.ColorRole.Text))
+        shade.setAlpha(22)
+        left, right = self.x_of(region.first_column - 0.5), self.x_of(region.last_column - 0.5)
+        painter.fillRect(QRectF(area.left(), area.top(), left - area.left(), area.height()), shade)
+        painter.fillRect(QRectF(right, area.top(), area.right() - right, area.height()), shade)
+
+    def _ticks(self, area: QRectF) -> list[float]:
+        fitting = (area.height() - 16) / _LEAST_SPACING
+        step = next((s for s in _STEPS if self._top / s <= fitting), _STEPS[-1])
+        return [step * place for place in range(int(self._top / step) + 1)]
+
+    def _draw_grid(self, painter: QPainter, area: QRectF) -> None:
+        faint = QColor(self.colour(QPalette.ColorRole.Text))
+        faint.setAlpha(_GRID)
+        painter.setPen(QPen(faint, 1))
+        for level in self._ticks(area):
+            y = round(self.y_of(level, area)) + 0.5
+            painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
+
+    def _draw_threshold(self, painter: QPainter, area: QRectF) -> None:
+        threshold = self.threshold
+        if threshold is None:
+            return
+        colour = seen_on(self.palette(), THRESHOLD)
+        low, high = (self.y_of(level, area) for level in threshold)
+        if threshold[0] > threshold[1]:  # between these levels columns are read as either
+            shade = QColor(colour)
+            shade.setAlpha(_SHADE)
+            painter.fillRect(QRectF(area.left(), low, area.width(), high - low), shade)
+        painter.setPen(QPen(colour, 1.5, Qt.PenStyle.DashDotLine))
+        y = (low + high) / 2
+        painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
+
+    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+        """Write the numbers of the levels."""
+        painter.setPen(self.colour(QPalette.ColorRole.WindowText))
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        for level in self._ticks(area):
+            place = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
+            painter.drawText(place, flags, f"{level:g}")
+
+    def draw_pointed(self, painter: QPainter, column: int, area: QRectF) -> None:
+        """Mark the level of the column that is read out."""
+        levels = self.levels
+        if levels is None or not 0 <= column < len(levels):
+            return
+        place = QPointF(self.x_of(column), self.y_of(float(levels[column]), area))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(self.colour(QPalette.ColorRole.Base), 1.5))
+        painter.setBrush(seen_on(self.palette(), SIMULATION))
+        painter.drawEllipse(place, 4.5, 4.5)

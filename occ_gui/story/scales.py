@@ -1,0 +1,137 @@
+"""Scales of the story: the time above the rows, the columns below them."""
+
+import math
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.story.column_axis import GUTTER, ColumnAxis
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.scene.scene import Scene
+
+_HEIGHT = 18
+_TICK = 5
+_SPACING = 76
+"""Fewest pixels from one number to the next."""
+
+_MICRO = 1e6
+
+
+def round_step(least: float) -> float:
+    """Return the smallest of 1, 2 and 5 times a power of ten that is not below a number."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(factor * power for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= least)
+
+
+class Scale(QWidget):
+    """Ticks with numbers over the columns in view.
+
+    Parameters
+    ----------
+    name
+        What the numbers are.
+    axis
+        The range of columns.
+    is_above
+        Whether the rows lie below it.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, name: str, axis: ColumnAxis, is_above: bool, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._name, self.axis, self._is_above = name, axis, is_above
+        self.setAccessibleName(name)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        axis.changed.connect(self.update)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of a line of numbers."""
+        return QSize(200, _HEIGHT)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of a line of numbers."""
+        return QSize(160, _HEIGHT)
+
+    def value_of(self, column: float) -> float:
+        """Return the number at a column."""
+        return column
+
+    def column_of(self, value: float) -> float:
+        """Return the column at a number."""
+        return value
+
+    def ticks(self) -> list[tuple[float, str]]:
+        """Return the columns of the ticks with their numbers."""
+        low, high = self.value_of(self.axis.first), self.value_of(self.axis.last)
+        per_pixel = (high - low) / self.axis.plot_width(self.width())
+        step = self.least_step(round_step(_SPACING * per_pixel))
+        digits = max(0, -math.floor(math.log10(step)))
+        first, last = math.ceil(low / step), math.floor(high / step)
+        values = [place * step for place in range(first, last + 1)]
+        return [(self.column_of(value), f"{value:.{digits}f}") for value in values]
+
+    def least_step(self, step: float) -> float:
+        """Return the step of the ticks in place of this one."""
+        return step
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw ticks, numbers, and the name at the left."""
+        painter = QPainter(self)
+        text = self.palette().color(QPalette.ColorRole.WindowText)
+        painter.setPen(text)
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        painter.drawText(QRectF(0, 0, GUTTER - 6, self.height()), flags, self._name)
+        end = float(self.height()) if self._is_above else 0.0
+        tick = -_TICK if self._is_above else _TICK
+        metrics = painter.fontMetrics()
+        for column, number in self.ticks():
+            x = round(self.axis.pixel(column, self.width())) + 0.5
+            painter.setPen(QPen(self.palette().color(QPalette.ColorRole.WindowText), 1))
+            painter.drawLine(QPointF(x, end), QPointF(x, end + tick))
+            width = metrics.horizontalAdvance(number)
+            left = min(max(x + 4, GUTTER), self.width() - width)
+            painter.drawText(QRectF(left, 0, width + 2, self.height()),
+                             Qt.AlignmentFlag.AlignVCenter, number)  # fmt: skip
+        painter.end()
+
+
+class ColumnScale(Scale):
+    """The numbers of the columns."""
+
+    def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
+        super().__init__("", axis, is_above=False, parent=parent)
+        self._name = self.tr("column")
+        self.setAccessibleName(self._name)
+
+    def least_step(self, step: float) -> float:
+        """Return a whole number of columns."""
+        return max(step, 1.0)
+
+
+class TimeScale(Scale):
+    """The time at which the exposure of each column begins."""
+
+    def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
+        super().__init__("", axis, is_above=True, parent=parent)
+        self._name = self.tr("time (µs)")
+        self.setAccessibleName(self._name)
+        self._start, self._step = 0.0, 1.0
+
+    def show_scene(self, scene: Scene) -> None:
+        """Count from the start time of this scene, by its readout time."""
+        self._start = scene.model.start_time * _MICRO
+        self._step = scene.camera.readout_time * _MICRO
+        self.update()
+
+    def value_of(self, column: float) -> float:
+        """Return the time at a column, in microseconds."""
+        return self._start + column * self._step
+
+    def column_of(self, value: float) -> float:
+        """Return the column at a time in microseconds."""
+        return (value - self._start) / self._step

@@ -1,0 +1,255 @@
+"""Row of the story: a picture over the columns, with the crosshair, zoomed and moved by mouse."""
+
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import (
+    QColor,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QPen,
+    QPixmap,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.story.column_axis import GUTTER, ColumnAxis, ColumnCursor
+from occ_gui.widgets.guarded_paint import guarded
+
+_STEPS = {
+    Qt.Key.Key_Left: -1,
+    Qt.Key.Key_Right: 1,
+    Qt.Key.Key_PageDown: -10,
+    Qt.Key.Key_PageUp: 10,
+}
+
+_ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
+
+_NOTCH = 120
+_A_NOTCH = 0.85
+
+_CLICK = 4
+"""Most pixels between press and release of a click."""
+
+
+class StoryRow(QWidget):
+    """One of the rows, with its name at the left.
+
+    What depends on the results and the range is drawn once and kept; the crosshair is drawn over
+    it.
+
+    Parameters
+    ----------
+    name
+        The name of the row.
+    axis, cursor
+        The range of columns and the column pointed at, shared by all rows.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, name: str, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.name = name
+        self.axis, self.cursor = axis, cursor
+        self._drawn: QPixmap | None = None
+        self._press: QPointF | None = None
+        self._last: QPointF | None = None
+        self.setAccessibleName(name)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        axis.changed.connect(self.redraw)
+        cursor.pointed_at.connect(self.update)
+        cursor.chosen.connect(self.update)
+
+    def redraw(self) -> None:
+        """Draw the row anew."""
+        self._drawn = None
+        self.update()
+
+    def plot_area(self) -> QRectF:
+        """Return the part of the row that shows columns."""
+        return QRectF(GUTTER, 0.0, self.axis.plot_width(self.width()), float(self.height()))
+
+    def x_of(self, column: float) -> float:
+        """Return where a column lies, in pixels from the left."""
+        return self.axis.pixel(column, self.width())
+
+    def column_at(self, x: float) -> float:
+        """Return the column at a pixel."""
+        return self.axis.column(x, self.width())
+
+    def draw(self, painter: QPainter, area: QRectF) -> None:
+        """Draw what depends on the results, into an area that is cut off."""
+        raise NotImplementedError
+
+    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+        """Draw what stands at the left of the area, beside the row's name."""
+
+    def draw_markers(self, painter: QPainter, area: QRectF) -> None:
+        """Draw what follows the chosen column."""
+
+    def draw_pointed(self, painter: QPainter, column: int, area: QRectF) -> None:
+        """Draw what follows the column that is read out."""
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the row anew in another size."""
+        super().resizeEvent(event)
+        self._drawn = None
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange):
+            self.redraw()
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the kept picture and the crosshair over it."""
+        ratio = self.devicePixelRatioF()
+        if self._drawn is None or self._drawn.devicePixelRatioF() != ratio:
+            self._drawn = self._picture(ratio)
+        painter = QPainter(self)
+        painter.drawPixmap(QPoint(0, 0), self._drawn)
+        area = self.plot_area()
+        painter.setClipRect(area)
+        read = self.cursor.read
+        if self.cursor.column is not None:
+            self._draw_line(painter, self.cursor.column, area, Qt.PenStyle.SolidLine)
+        if self.cursor.pointed is not None:
+            self._draw_line(painter, self.cursor.pointed, area, Qt.PenStyle.DashLine)
+        self.draw_markers(painter, area)
+        if read is not None:
+            self.draw_pointed(painter, read, area)
+        painter.setClipping(False)
+        if self.hasFocus():
+            painter.setPen(QPen(self.colour(QPalette.ColorRole.Highlight), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(area.adjusted(1, 1, -1, -1))
+        painter.end()
+
+    def _picture(self, ratio: float) -> QPixmap:
+        picture = QPixmap(self.size() * ratio)
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(self.colour(QPalette.ColorRole.Window))
+        painter = QPainter(picture)
+        painter.setFont(self.font())
+        area = self.plot_area()
+        painter.fillRect(area, self.colour(QPalette.ColorRole.Base))
+        painter.save()
+        painter.setClipRect(area)
+        self.draw(painter, area)
+        painter.restore()
+        self._draw_name(painter)
+        self.draw_beside(painter, area)
+        painter.end()
+        return picture
+
+    def _draw_name(self, painter: QPainter) -> None:
+        font = self.font()
+        font.setBold(True)
+        painter.setFont(font)
+        painter.setPen(self.colour(QPalette.ColorRole.WindowText))
+        place = QRectF(4, 3, GUTTER - 8, self.height())
+        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
+        painter.drawText(place, flags, self.name)
+        painter.setFont(self.font())
+
+    def _draw_line(
+        self, painter: QPainter, column: float, area: QRectF, style: Qt.PenStyle
+    ) -> None:
+        x = round(self.x_of(column)) + 0.5
+        if not area.left() <= x <= area.right():
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        pen = QPen(self.colour(QPalette.ColorRole.Text), 1, style)
+        painter.setPen(pen)
+        painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+
+    def colour(self, role: QPalette.ColorRole) -> QColor:
+        """Return a colour of the theme."""
+        return self.palette().color(role)
+
+    # The mouse and the keys.
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 - Qt's name
+        """Zoom at the mouse; with Shift or a wheel to the side, move."""
+        delta = event.angleDelta()
+        sideways = delta.x() if delta.x() else delta.y()
+        if delta.x() or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            self.axis.pan(-sideways / _NOTCH * self.axis.span / 10)
+        else:
+            at = self.column_at(event.position().x())
+            self.axis.zoom(_A_NOTCH ** (delta.y() / _NOTCH), at)
+        event.accept()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Begin a drag or a click."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._press = self._last = event.position()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Move the columns with the mouse while a button is pressed, else point at one."""
+        place = event.position()
+        inside = self.plot_area().contains(place)
+        if self._last is not None:
+            self.drag_to(place)
+            self._last = place
+        self.cursor.point_at(self.column_at(place.x()) if inside else None)
+
+    def drag_to(self, place: QPointF) -> None:
+        """Follow the mouse with a button pressed."""
+        if self._last is not None and self.moved_from_press(place):
+            columns = self.column_at(self._last.x()) - self.column_at(place.x())
+            self.axis.pan(columns)
+            self.setCursor(Qt.CursorShape.ClosedHandCursor)
+
+    def moved_from_press(self, place: QPointF) -> bool:
+        """Return whether the mouse has moved farther than in a click."""
+        return self._press is not None and (place - self._press).manhattanLength() > _CLICK
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Choose the column that was clicked on."""
+        if event.button() != Qt.MouseButton.LeftButton or self._press is None:
+            return
+        place = event.position()
+        if not self.moved_from_press(place) and self.plot_area().contains(place):
+            self.click(place)
+        self._press = self._last = None
+        self.unsetCursor()
+
+    def click(self, place: QPointF) -> None:
+        """Choose the column at a place."""
+        self.cursor.choose(self.column_at(place.x()))
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Show the first range again."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.axis.fit()
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Point at no column."""
+        super().leaveEvent(event)
+        self.cursor.point_at(None)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Choose the next column by the arrows, zoom by plus and minus, fit by Home."""
+        key = Qt.Key(event.key())
+        column = self.cursor.column
+        if key in _STEPS and column is not None:
+            self.cursor.choose(column + _STEPS[key])
+            chosen = float(self.cursor.column or 0)
+            self.axis.reveal(chosen, chosen)
+        elif key in _ZOOMS:
+            at = column if column is not None else (self.axis.first + self.axis.last) / 2
+            self.axis.zoom(_ZOOMS[key], float(at))
+        elif key == Qt.Key.Key_Home:
+            self.axis.fit()
+        else:
+            super().keyPressEvent(event)

@@ -1,0 +1,178 @@
+"""Rows of the story: light, picture, profile and code over one axis of columns."""
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.code_row import CodeRow
+from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, ColumnCursor
+from occ_gui.story.column_values import ColumnValues, in_words, values_at
+from occ_gui.story.light_row import LightRow
+from occ_gui.story.profile_row import ProfileRow
+from occ_gui.story.scales import ColumnScale, TimeScale
+from occ_gui.story.stripes_row import StripesRow
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_model.results import DecodeResult
+from occ_model.results.frame import PICTURES
+
+RANGES = ("packets", "panel")
+"""What is in view until the user moves the columns: the first packets, or the whole panel."""
+
+_BESIDE = 0.01
+"""Space beside the range, as a part of it."""
+
+
+class StoryRows(QWidget):
+    """The four rows, the scales above and below them, and the values at the crosshair."""
+
+    values_changed = Signal(str)
+    """The values of the column at the crosshair, in words."""
+
+    range_left = Signal()
+    """The user has zoomed or moved the columns."""
+
+    range_kept = Signal()
+    """The range is again the one that is set for the results."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.axis, self.cursor = ColumnAxis(self), ColumnCursor(self)
+        self._reading: Reading | None = None
+        self._picture: Picture | None = None
+        self._decoder = ""
+        self._whose = PICTURES[0]
+        self.range = RANGES[0]
+        self.time, self.columns = TimeScale(self.axis), ColumnScale(self.axis)
+        self.light = LightRow(self.axis, self.cursor)
+        self.stripes = StripesRow(self.axis, self.cursor)
+        self.profile = ProfileRow(self.axis, self.cursor)
+        self.code = CodeRow(self.axis, self.cursor)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(3)
+        for part, stretch in (
+            (self.time, 0), (self.light, 3), (self.stripes, 4), (self._legend_line(), 0),
+            (self.profile, 6), (self.code, 0), (self.columns, 0),
+        ):  # fmt: skip
+            layout.addWidget(part, stretch)
+        for signal in (self.cursor.pointed_at, self.cursor.chosen):
+            signal.connect(self._read_out)
+        self.axis.changed.connect(self._on_range)
+
+    def _legend_line(self) -> QWidget:
+        """Make the legend of the profile, above its curves."""
+        line = Qt.PenStyle
+        self.legend = LineLegend()
+        for key, pen, text in (
+            ("simulation", thin(SIMULATION), self.tr("simulation")),
+            ("band", thin(BAND, line.DashLine), self.tr("band model")),
+            ("photo", thin(PHOTO), self.tr("photo")),
+            ("threshold", thin(THRESHOLD, line.DashDotLine), self.tr("decoder's threshold")),
+        ):
+            self.legend.add_line(key, pen, text)
+            self.legend.show_line(key, key == "simulation")
+        part = QWidget()
+        layout = QHBoxLayout(part)
+        layout.setContentsMargins(GUTTER, 0, MARGIN, 0)
+        layout.setSpacing(6)
+        layout.addWidget(self.legend)
+        layout.addStretch(1)
+        self.controls = layout
+        return part
+
+    def _show_legend(self) -> None:
+        profile = self.profile
+        for key, value in (
+            ("band", profile.band), ("photo", profile.photo), ("threshold", profile.threshold),
+        ):  # fmt: skip
+            self.legend.show_line(key, value is not None)
+
+    def show_picture(self, picture: Picture) -> None:
+        """Show the stripes of this picture in place of the previous ones."""
+        self._picture = picture
+        self.stripes.show_picture(picture, self._whose)
+
+    def show_reading(self, reading: Reading) -> None:
+        """Show this reading in place of the previous one."""
+        self._reading = reading
+        self.time.show_scene(reading.scene)
+        self.light.show_reading(reading)
+        self._show_decoded()
+        first = int(reading.panel_origin[0] + reading.packet_columns / 2)
+        self.cursor.set_columns(len(reading.profile), first)
+        self._set_range()
+        self._read_out()
+
+    def show_photo_profile(self, photo: PhotoProfile | None) -> None:
+        """Show this profile of a photo in place of the previous one, or none."""
+        self.profile.show_photo(photo)
+        self._show_legend()
+
+    def choose_decoder(self, name: str) -> None:
+        """Show what this decoder read; by default the paper's."""
+        self._decoder = name
+        self._show_decoded()
+
+    def choose_picture(self, whose: str) -> None:
+        """Show stripes and profile of the camera's picture or of the receiver's."""
+        self._whose = whose
+        self.profile.choose_picture(whose)
+        if self._picture is not None:
+            self.stripes.show_picture(self._picture, whose)
+        self._show_legend()
+        self._read_out()
+
+    def choose_range(self, name: str) -> None:
+        """Show the first packets or the whole panel, one of RANGES, and follow it."""
+        self.range = name
+        self._set_range()
+        self.axis.fit()
+
+    @property
+    def decoded(self) -> DecodeResult | None:
+        """The result of the chosen decoder."""
+        if self._reading is None:
+            return None
+        results = self._reading.results
+        return next((r for r in results if r.decoder == self._decoder), results[0])
+
+    def values(self) -> ColumnValues | None:
+        """Return the values of the column at the crosshair, else of the chosen one."""
+        column = self.cursor.read
+        if self._reading is None or column is None:
+            return None
+        return values_at(column, self._reading.scene, self.light, self.profile, self.code)
+
+    def _show_decoded(self) -> None:
+        if self._reading is not None and self.decoded is not None:
+            self.profile.show_reading(self._reading, self.decoded)
+            self.code.show_reading(self._reading, self.decoded)
+            self._show_legend()
+            self._read_out()
+
+    def _set_range(self) -> None:
+        reading = self._reading
+        if reading is None:
+            return
+        last_column = len(reading.profile) - 1
+        panel = np.clip(reading.corners[:, 0], 0, last_column)
+        first, last = float(panel.min()), float(panel.max())
+        if last - first < 1.0:  # the panel is out of the picture
+            first, last = 0.0, float(last_column)
+        if self.range == RANGES[0]:
+            last = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
+        last = max(last, first + 4.0)
+        beside = _BESIDE * (last - first)
+        self.axis.set_home(first - beside, last + beside, last_column + 1)
+
+    def _on_range(self) -> None:
+        (self.range_kept if self.axis.is_following else self.range_left).emit()
+
+    def _read_out(self) -> None:
+        values = self.values()
+        if values is not None and self._reading is not None:
+            self.values_changed.emit(in_words(values, self._reading.scene))

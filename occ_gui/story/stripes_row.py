@@ -1,0 +1,171 @@
+"""Row of the stripes: the picture cropped to the panel, and the whole frame as a thumbnail."""
+
+import cv2
+import numpy as np
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
+from PySide6.QtWidgets import QAbstractButton, QWidget
+
+from occ_gui.simulation.preview import Picture
+from occ_gui.story.column_axis import GUTTER, ColumnAxis, ColumnCursor
+from occ_gui.story.column_means import resampled
+from occ_gui.story.story_row import StoryRow
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.plot import REGION
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.results import Frame
+
+_LEAST_HEIGHT = 56
+_NAME = 22
+"""Pixels of the row's name above the thumbnail."""
+
+
+class StripesRow(StoryRow):
+    """The rows of the picture that show the panel, each pixel of the screen the mean of its cell.
+
+    Parameters
+    ----------
+    axis, cursor
+        The range of columns and the column pointed at.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(self.tr("Picture"), axis, cursor, parent)
+        self.setMinimumHeight(_LEAST_HEIGHT)
+        self._frame: Frame | None = None
+        self._image: ByteArray | None = None
+        self._corners: FloatArray | None = None
+        self.thumbnail = FrameThumbnail(self)
+        axis.changed.connect(self._mark_view)
+
+    def show_picture(self, picture: Picture, whose: str) -> None:
+        """Show this picture, the camera's or the receiver's, in place of the previous one."""
+        frame = picture.frame
+        self._frame, self._image, self._corners = frame, frame.picture(whose), frame.corners
+        halves = picture.halves if picture.whose == whose else ()
+        self.thumbnail.show_image(halves[-1] if halves else self._image, self._image.shape)
+        self._mark_view()
+        self.redraw()
+
+    def rows_shown(self) -> tuple[int, int]:
+        """Return the first row of the panel in the picture, and the one after its last."""
+        if self._image is None or self._corners is None:
+            return 0, 0
+        rows = self._image.shape[0]
+        top, bottom = self._corners[:, 1].min(), self._corners[:, 1].max()
+        first, last = max(int(np.ceil(top)), 0), min(int(bottom) + 1, rows)
+        return (first, last) if first < last else (0, rows)  # the panel is out of the picture
+
+    def draw(self, painter: QPainter, area: QRectF) -> None:
+        """Draw the columns in view, as high as the row."""
+        if self._image is None:
+            return
+        painter.fillRect(area, self.colour(QPalette.ColorRole.Mid))
+        first_row, last_row = self.rows_shown()
+        columns = self._image.shape[1]
+        ratio = self.devicePixelRatioF()
+        left = max(self.x_of(-0.5), area.left())
+        right = min(self.x_of(columns - 0.5), area.right())
+        if right <= left:
+            return
+        # On the screen's own pixels, so that nothing is scaled a second time.
+        pixels = np.arange(np.floor(left * ratio), np.ceil(right * ratio) + 1.0) / ratio
+        edges = np.array([self.column_at(x) for x in (pixels[0], pixels[-1])]) + 0.5
+        edges = np.linspace(edges[0], edges[1], len(pixels))
+        low = max(int(edges[0]), 0)
+        high = min(int(np.ceil(edges[-1])) + 1, columns)
+        part = self._image[first_row:last_row, low:high]
+        grey = resampled(part, edges - low, max(1, round(area.height() * ratio)))
+        rows, cells = grey.shape
+        image = QImage(grey.data, cells, rows, cells, QImage.Format.Format_Grayscale8)
+        image.setDevicePixelRatio(ratio)
+        painter.drawImage(QRectF(pixels[0], area.top(), cells / ratio, rows / ratio), image)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Place the thumbnail under the row's name."""
+        super().resizeEvent(event)
+        self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, max(self.height() - _NAME - 3, 0))
+
+    def _mark_view(self) -> None:
+        self.thumbnail.show_view(self.axis.first, self.axis.last, *self.rows_shown())
+
+
+class FrameThumbnail(QAbstractButton):
+    """The whole frame, small, with the part in view; a click shows the picture large."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._pixels: ByteArray | None = None
+        self._image: QImage | None = None
+        self._size = (0, 0)
+        self._view = QRectF()
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setAccessibleName(self.tr("Show the whole picture"))
+        self.setToolTip(
+            self.tr("The whole picture, with the part that is shown here: click to see it large.")
+        )
+
+    def show_image(self, pixels: ByteArray, size: tuple[int, ...]) -> None:
+        """Show a frame of so many rows and columns, or a smaller copy of it."""
+        self._size = (size[0], size[1])
+        self._pixels, self._image = pixels, None
+        self.update()
+
+    def _scaled(self, pixels: ByteArray, place: QRectF) -> QImage:
+        """Return the frame at its size on the screen."""
+        ratio = self.devicePixelRatioF()
+        size = (max(1, round(place.width() * ratio)), max(1, round(place.height() * ratio)))
+        small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
+        image = QImage(small.data, *size, size[0], QImage.Format.Format_Grayscale8).copy()
+        image.setDevicePixelRatio(ratio)
+        return image
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Scale the frame to another size."""
+        super().resizeEvent(event)
+        self._image = None
+
+    def show_view(self, first: float, last: float, first_row: int, last_row: int) -> None:
+        """Mark the columns and rows that are in view."""
+        self._view = QRectF(first, first_row, last - first, last_row - first_row)
+        self.update()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a small size."""
+        return QSize(GUTTER - 12, _LEAST_HEIGHT)
+
+    def place(self) -> QRectF:
+        """Return where the frame is drawn."""
+        rows, columns = self._size
+        if not rows or not columns:
+            return QRectF()
+        scale = min((self.width() - 2) / columns, (self.height() - 2) / rows)
+        return QRectF(1, 1, columns * scale, rows * scale)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the frame, the part in view and a border."""
+        painter = QPainter(self)
+        place = self.place()
+        if self._pixels is None or place.width() < 4:
+            return
+        if self._image is None or self._image.devicePixelRatioF() != self.devicePixelRatioF():
+            self._image = self._scaled(self._pixels, place)
+        painter.drawImage(place.topLeft(), self._image)
+        scale = place.width() / self._size[1]
+        left = place.left() + (self._view.left() + 0.5) * scale
+        top = place.top() + self._view.top() * scale
+        view = QRectF(left, top, self._view.width() * scale, self._view.height() * scale)
+        view = view.intersected(place)
+        painter.setPen(QPen(REGION, 1.5))
+        painter.drawRect(view)
+        marked = self.hasFocus() or self.underMouse()
+        role = QPalette.ColorRole.Highlight if marked else QPalette.ColorRole.Mid
+        painter.setPen(QPen(self.palette().color(role), 2 if marked else 1))
+        painter.drawRect(place)
+        painter.end()

@@ -11,6 +11,7 @@ from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
+from occ_gui.app.story_wiring import tell_story
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
@@ -102,8 +103,8 @@ class Application(QObject):
             self.store, self.settings, self.detection, self.slider_strips
         )
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
-        self.outdated.mark_verdict(self.story.verdict)
         self.outdated.mark_picture(self.image.simulation)
+        tell_story(self)
         self.outdated.mark_readings(self.profile, self.decode)
         self.outdated.mark_results(self.accuracy.effects)
         self.learning.exposure_made.connect(self.outdated.mark_results)
@@ -138,8 +139,6 @@ class Application(QObject):
         self.store.refused_for.connect(self.messages.show_refusal_for)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
         self.simulation.failed_for.connect(self.messages.show_failure)
-        self.simulation.failed.connect(self.story.verdict.show_failure)
-        self.simulation.submitted.connect(self.story.verdict.end_failure)
         self.simulation.failed.connect(self.learning.pins.give_up)
         for speaker in (self.presets, self.files, self.present):
             speaker.status_message.connect(self.window.say)
@@ -204,7 +203,6 @@ class Application(QObject):
         self.slider_strips.set_shown(self.preferences.slider_strips)
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
-        self.decode.decoder_chosen.connect(self.story.choose_decoder)
 
     @property
     def is_idle(self) -> bool:
@@ -237,12 +235,6 @@ class Application(QObject):
         """Show the photo beside the simulated picture or over it, by one of MODES."""
         self.image.set_mode(mode)
         self.window.menus.show_choice(self.window.menus.overlays, mode)
-
-    def _choose_picture(self, whose: str) -> None:
-        """Show the camera's picture and profile or the receiver's in all panes."""
-        self.story.choose_picture(whose)
-        self.image.choose_picture(whose)
-        self.profile.enhanced.setChecked(whose == "receiver")
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")
@@ -294,6 +286,7 @@ class Application(QObject):
         path = None if photo is None else photo.path
         if path not in (None, self._photo_path) and self._front_next:
             self.window.bring_to_front("photo")
+            self.story.show_whole_picture(True)
         self._photo_path, self._front_next = path, True
         if self._match_next:
             self.photo_wiring.match()

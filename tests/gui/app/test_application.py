@@ -27,6 +27,7 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture(
 ) -> None:
     row = user.row("distance")
     assert isinstance(row, QuantityRow)
+    application.story.show_whole_picture(True)
     before = grey_picture(application.image)
     qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
     user.wait_until_idle()
@@ -88,6 +89,7 @@ def test_a_loaded_preset_is_shown_until_the_scene_is_edited(
 def test_undo_and_redo_bring_the_controls_and_the_picture_back(
     application: Application, user: User, grey_picture: Picture
 ) -> None:
+    application.story.show_whole_picture(True)
     pictures = [grey_picture(application.image)]
     user.enter("distance", "2 m")
     pictures.append(grey_picture(application.image))

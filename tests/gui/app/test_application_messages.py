@@ -39,6 +39,7 @@ def test_a_scene_without_a_picture_says_why_and_the_last_stays(
     user: User,
     grey_picture: Callable[[QWidget], NDArray[np.uint8]],
 ) -> None:
+    application.story.show_whole_picture(True)
     before = grey_picture(application.image)
     application.store.change(**BEHIND_THE_CAMERA)
     user.wait_until_idle()

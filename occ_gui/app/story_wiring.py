@@ -1,0 +1,55 @@
+"""Connections of the story: what feeds it, and what its choices change in other panes."""
+
+from typing import Protocol
+
+from occ_gui.app.outdated_panes import OutdatedPanes
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.picture.image_view import ImageView
+from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.story.story_view import StoryView
+from occ_gui.window.main_window import MainWindow
+
+
+class Parts(Protocol):
+    """The parts of the application that the story is connected with."""
+
+    window: MainWindow
+    simulation: SimulationController
+    outdated: OutdatedPanes
+    story: StoryView
+    image: ImageView
+    profile: ProfileView
+    decode: DecodeView
+
+
+def tell_story(parts: Parts) -> None:
+    """Connect the story with the simulation and with the panes that show the same in detail.
+
+    Readings come to it as to all other panes, by ``SimulationController.show_in``.
+    """
+    story, simulation, image = parts.story, parts.simulation, parts.image
+    simulation.picture_ready.connect(story.show_picture)
+    simulation.failed.connect(story.verdict.show_failure)
+    simulation.submitted.connect(story.verdict.end_failure)
+    parts.outdated.mark_verdict(story.verdict)
+    parts.outdated.mark_readings(story.rows)
+    parts.decode.decoder_chosen.connect(story.choose_decoder)
+    image.picture_chosen.connect(story.choose_picture)
+    story.picture_chosen.connect(image.choose_picture)
+    _link_profiles(story, parts.profile)
+    # What is asked of the picture is seen in the whole one.
+    parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
+    image.before.chosen.toggled.connect(lambda on: story.show_whole_picture(on))
+
+
+def _link_profiles(story: StoryView, profile: ProfileView) -> None:
+    """Show the same levels in both profiles, and a photo's in the story where they agree."""
+
+    def show_photo(photo: PhotoProfile | None) -> None:
+        agree = profile.is_enhanced == (story.whose.key() == "receiver")
+        story.show_photo_profile(photo if agree else None)
+
+    story.picture_chosen.connect(lambda whose: profile.enhanced.setChecked(whose == "receiver"))
+    profile.photo_shown.connect(show_photo)

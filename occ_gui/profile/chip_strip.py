@@ -4,7 +4,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize
 from PySide6.QtGui import QColor, QGuiApplication, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
-from occ_gui.widgets.chip_cell import draw_chip
+from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import PHOTO, Plot
 from occ_model.results import ChipReading
@@ -109,5 +109,4 @@ class _Cells(QWidget):
         """Draw the cells in view."""
         painter = QPainter(self)
         certain = self.reading is not None and self.reading.confidence >= _CERTAIN
-        for chip, cell in self.rectangles():
-            draw_chip(painter, cell, chip, QColor(PHOTO), self.palette(), certain=certain)
+        draw_chips(painter, self.rectangles(), QColor(PHOTO), self.palette(), certain)

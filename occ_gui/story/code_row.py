@@ -9,7 +9,7 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.bit_cells import draw_field, header_texts
 from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
 from occ_gui.story.story_row import StoryRow
-from occ_gui.widgets.chip_cell import draw_chip
+from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.plot import SIMULATION
 from occ_gui.widgets.state_look import State
 from occ_model.arrays import FloatArray
@@ -93,12 +93,13 @@ class CodeRow(StoryRow):
             self._say_instead(painter, chips, decoded)
             self._list_bits(painter, bits, decoded)
             return
-        edges = [self.x_of(edge) for edge in self.edges.tolist()]
-        for chip, left, right in zip(decoded.chips.tolist(), edges, edges[1:], strict=False):
-            if right > area.left() and left < area.right():
-                cell = QRectF(left, chips.top(), right - left, chips.height())
-                draw_chip(painter, cell.adjusted(0.5, 0.5, -0.5, -0.5), chip, SIMULATION,
-                          self.palette())  # fmt: skip
+        edges = self.xs_of(self.edges).tolist()
+        cells = [
+            (chip, QRectF(left + 0.5, chips.top() + 0.5, right - left - 1.0, chips.height() - 1.0))
+            for chip, left, right in zip(decoded.chips.tolist(), edges, edges[1:], strict=False)
+            if right > area.left() and left < area.right()
+        ]
+        draw_chips(painter, cells, SIMULATION, self.palette())
         for field in self.fields:
             cell = QRectF(edges[field.first], bits.top(), edges[field.last] - edges[field.first],
                           bits.height())  # fmt: skip

@@ -1,6 +1,5 @@
 """Row of the light: the LED's waveform, and the exposure of the chosen column as a window on it."""
 
-import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QBrush,
@@ -10,7 +9,6 @@ from PySide6.QtGui import (
     QPalette,
     QPen,
     QPolygonF,
-    QStaticText,
 )
 from PySide6.QtWidgets import QWidget
 
@@ -19,8 +17,8 @@ from occ_gui.story.bit_cells import draw_field, header_texts
 from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
 from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
+from occ_gui.widgets.chip_cell import draw_digits
 from occ_gui.widgets.state_look import is_dark
-from occ_model.arrays import FloatArray
 from occ_model.results.teaching import LightCurve
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
@@ -30,7 +28,7 @@ from occ_model.teaching.packet_fields import packet_fields
 _GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
 """Colours of the light, in the light and the dark theme."""
 
-_LEAST_HEIGHT = 56
+_LEAST_HEIGHT = 40
 _STRIP = 18
 """Pixels of the strip of the bits sent."""
 
@@ -103,7 +101,7 @@ class LightRow(StoryRow):
             self._say_too_fast(painter, light)
             return
         self._draw_glow(painter, light, curve)
-        xs = self._xs(curve.columns)
+        xs = self.xs_of(curve.columns)
         ys = light.bottom() - curve.light * light.height()
         painter.setPen(QPen(self.colour(QPalette.ColorRole.Text), 1.5))
         # Upright and level lines are sharper on whole pixels.
@@ -113,20 +111,16 @@ class LightRow(StoryRow):
         if light.bottom() < area.bottom() - _STRIP:
             self._draw_fields(painter, area, curve)
 
-    def _xs(self, columns: FloatArray) -> FloatArray:
-        scale = self.plot_area().width() / self.axis.span
-        return np.asarray(self.plot_area().left() + (columns - self.axis.first) * scale)
-
     def _draw_glow(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
         """Fill what lies below the light: a rectangle for each chip, or what edges leave of it."""
         glow = _GLOW[is_dark(self.palette())]
         if not self._edged:
-            edges = self._xs(curve.edges).tolist()
+            edges = self.xs_of(curve.edges).tolist()
             for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False):
                 if chip:
                     painter.fillRect(QRectF(left, light.top(), right - left, light.height()), glow)
             return
-        xs = self._xs(curve.columns).tolist()
+        xs = self.xs_of(curve.columns).tolist()
         ys = (light.bottom() - curve.light * light.height()).tolist()
         below = [QPointF(x, y) for x, y in zip(xs, ys, strict=True)]
         below += [QPointF(xs[-1], light.bottom()), QPointF(xs[0], light.bottom())]
@@ -141,20 +135,17 @@ class LightRow(StoryRow):
         painter.drawText(light, Qt.AlignmentFlag.AlignCenter, text)
 
     def _draw_digits(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
-        edges = self._xs(curve.edges).tolist()
-        if edges[1] - edges[0] < _LEAST_FOR_DIGIT:
-            return
-        digits = [QStaticText(digit) for digit in "01"]
-        size = painter.fontMetrics().size(0, "0")
-        top = light.center().y() - size.height() / 2
-        for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False):
-            place = QPointF((left + right - size.width()) / 2, top)
-            painter.drawStaticText(place, digits[chip])
+        edges = self.xs_of(curve.edges).tolist()
+        cells = [
+            (chip, QRectF(left, light.top(), right - left, light.height()))
+            for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False)
+        ]
+        draw_digits(painter, cells)
 
     def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
         """Draw header and bits of each packet in view under the chips that carry them."""
         fields = () if self._scene is None else packet_fields(self._scene)
-        edges = self._xs(curve.edges)
+        edges = self.xs_of(curve.edges)
         step = float(edges[1] - edges[0])
         if not fields or 2 * step < _LEAST_FOR_DIGIT:
             return

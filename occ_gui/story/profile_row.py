@@ -19,7 +19,7 @@ from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
 from occ_model.teaching.packet_fields import threshold_levels
 
-_LEAST_HEIGHT = 76
+_LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)
 _LEAST_SPACING = 26
 """Fewest pixels between two numbers of the levels."""
@@ -142,8 +142,7 @@ class ProfileRow(StoryRow):
         columns, levels = envelope(columns, levels, self.axis.first, self.axis.last, cells)
         if len(columns) < 2:
             return
-        span = area.width() / self.axis.span
-        xs = area.left() + (columns - self.axis.first) * span
+        xs = self.xs_of(columns)
         inner = area.adjusted(0, 8, 0, -8)
         ys = inner.bottom() - levels / self._top * inner.height()
         pen = QPen(seen_on(self.palette(), colour), 1.0 if crowded else _WIDTH)

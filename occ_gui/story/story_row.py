@@ -1,5 +1,6 @@
 """Row of the story: a picture over the columns, with the crosshair, zoomed and moved by mouse."""
 
+import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
@@ -17,6 +18,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, ColumnCursor
 from occ_gui.widgets.guarded_paint import guarded
+from occ_model.arrays import FloatArray
 
 _STEPS = {
     Qt.Key.Key_Left: -1,
@@ -79,6 +81,11 @@ class StoryRow(QWidget):
     def x_of(self, column: float) -> float:
         """Return where a column lies, in pixels from the left."""
         return self.axis.pixel(column, self.width())
+
+    def xs_of(self, columns: FloatArray) -> FloatArray:
+        """Return where some columns lie, in pixels from the left."""
+        scale = self.axis.plot_width(self.width()) / self.axis.span
+        return np.asarray(GUTTER + (columns - self.axis.first) * scale)
 
     def column_at(self, x: float) -> float:
         """Return the column at a pixel."""

@@ -10,11 +10,11 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.code_row import CodeRow
 from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, ColumnCursor
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
+from occ_gui.story.curve_legend import CurveLegend
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.scales import ColumnScale, TimeScale
 from occ_gui.story.stripes_row import StripesRow
-from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results import DecodeResult
 from occ_model.results.frame import PICTURES
@@ -53,7 +53,7 @@ class StoryRows(QWidget):
         self.code = CodeRow(self.axis, self.cursor)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(3)
+        layout.setSpacing(2)
         for part, stretch in (
             (self.time, 0), (self.light, 3), (self.stripes, 4), (self._legend_line(), 0),
             (self.profile, 6), (self.code, 0), (self.columns, 0),
@@ -66,30 +66,32 @@ class StoryRows(QWidget):
     def _legend_line(self) -> QWidget:
         """Make the legend of the profile, above its curves."""
         line = Qt.PenStyle
-        self.legend = LineLegend()
-        for key, pen, text in (
-            ("simulation", thin(SIMULATION), self.tr("simulation")),
-            ("band", thin(BAND, line.DashLine), self.tr("band model")),
-            ("photo", thin(PHOTO), self.tr("photo")),
-            ("threshold", thin(THRESHOLD, line.DashDotLine), self.tr("decoder's threshold")),
-        ):
-            self.legend.add_line(key, pen, text)
-            self.legend.show_line(key, key == "simulation")
+        self.legend = CurveLegend(
+            {
+                "simulation": (thin(SIMULATION), self.tr("simulation")),
+                "band": (thin(BAND, line.DashLine), self.tr("band model")),
+                "photo": (thin(PHOTO), self.tr("photo")),
+                "threshold": (thin(THRESHOLD, line.DashDotLine), self.tr("threshold")),
+            }
+        )
         part = QWidget()
         layout = QHBoxLayout(part)
         layout.setContentsMargins(GUTTER, 0, MARGIN, 0)
         layout.setSpacing(6)
-        layout.addWidget(self.legend)
-        layout.addStretch(1)
+        layout.addWidget(self.legend, 1)
         self.controls = layout
         return part
 
     def _show_legend(self) -> None:
         profile = self.profile
-        for key, value in (
-            ("band", profile.band), ("photo", profile.photo), ("threshold", profile.threshold),
-        ):  # fmt: skip
-            self.legend.show_line(key, value is not None)
+        found = {
+            "simulation": profile.levels, "band": profile.band, "photo": profile.photo,
+            "threshold": profile.threshold,
+        }  # fmt: skip
+        undefined = self._reading is not None and bool(self._reading.band_undefined)
+        note = self.tr("no band model here") if undefined else ""
+        keys = tuple(key for key, value in found.items() if value is not None)
+        self.legend.show_lines(keys, note)
 
     def show_picture(self, picture: Picture) -> None:
         """Show the stripes of this picture in place of the previous ones."""
@@ -116,6 +118,7 @@ class StoryRows(QWidget):
         """Show what this decoder read; by default the paper's."""
         self._decoder = name
         self._show_decoded()
+        self._read_out()
 
     def choose_picture(self, whose: str) -> None:
         """Show stripes and profile of the camera's picture or of the receiver's."""
@@ -152,7 +155,6 @@ class StoryRows(QWidget):
             self.profile.show_reading(self._reading, self.decoded)
             self.code.show_reading(self._reading, self.decoded)
             self._show_legend()
-            self._read_out()
 
     def _set_range(self) -> None:
         reading = self._reading

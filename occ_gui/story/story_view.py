@@ -4,9 +4,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
-    QPushButton,
     QSizePolicy,
     QStackedWidget,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -85,13 +85,15 @@ class StoryView(QWidget):
         )
         self.ranges = {}
         for name, (text, tip) in zip(RANGES, texts, strict=True):
-            button = QPushButton(text)
+            button = QToolButton()
+            button.setText(text)
             button.setCheckable(True)
             button.setToolTip(tip)
             button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
             self.ranges[name] = button
         self.ranges[RANGES[0]].setChecked(True)
-        self.whole = QPushButton(self.tr("Whole picture"))
+        self.whole = QToolButton()
+        self.whole.setText(self.tr("Whole picture"))
         self.whole.setCheckable(True)
         self.whole.setToolTip(self.tr("Show the whole picture in place of the four rows."))
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)

@@ -15,7 +15,7 @@ from occ_gui.widgets.plot import REGION
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import Frame
 
-_LEAST_HEIGHT = 56
+_LEAST_HEIGHT = 40
 _NAME = 22
 """Pixels of the row's name above the thumbnail."""
 

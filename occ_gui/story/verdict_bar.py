@@ -1,8 +1,8 @@
 """Verdict bar: whether the code was read, in words, colour and shape, and what holds beside."""
 
-from PySide6.QtCore import QEvent, QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette
-from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.decoding.verdict import Verdict, verdict_on
 from occ_gui.simulation.snapshot import Reading
@@ -17,6 +17,7 @@ from occ_model.teaching.light_over_columns import chips_in_exposure
 _ICON = 32
 _LARGER = 1.25
 _RADIUS = 8
+_PADDING, _MARGIN = 12, 5
 
 
 class VerdictBar(QWidget):
@@ -27,11 +28,9 @@ class VerdictBar(QWidget):
         self._reading: Reading | None = None
         self._decoder = ""
         self._is_outdated = False
-        self._failure = ""
+        self._failure = self._title = self._sentence = ""
         self.icon = StateIcon(_ICON)
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
-        self.title.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
         font = self.title.font()
         font.setBold(True)
         font.setPointSizeF(_LARGER * font.pointSizeF())
@@ -40,16 +39,45 @@ class VerdictBar(QWidget):
         self.chips = ChipRow()
         self.setAccessibleName(self.tr("Verdict on the code"))
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        layout = QGridLayout(self)
-        layout.setContentsMargins(12, 6, 12, 6)
-        layout.setHorizontalSpacing(12)
-        layout.setVerticalSpacing(2)
-        layout.addWidget(self.icon, 0, 0, 2, 1, Qt.AlignmentFlag.AlignVCenter)
-        layout.addWidget(self.title, 0, 1)
-        layout.addWidget(self.chips, 0, 2, Qt.AlignmentFlag.AlignVCenter)
-        layout.addWidget(self.sentence, 1, 1, 1, 2)
-        layout.setColumnStretch(2, 1)
+        for part in (self.icon, self.title, self.sentence, self.chips):
+            part.setParent(self)
         self._write()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of title and sentence."""
+        return QSize(400, self.minimumSizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the smallest size: the texts are shortened, the chips counted."""
+        return QSize(_ICON + 4 * _PADDING, self._heights()[0] + self._heights()[1] + 2 * _MARGIN)
+
+    def _heights(self) -> tuple[int, int]:
+        title = max(self.title.fontMetrics().height(), self.chips.sizeHint().height()) + 2
+        return title, self.sentence.fontMetrics().height() + 2
+
+    def _place(self) -> None:
+        """Give the title the width that it needs, and the chips what is left."""
+        first, second = self._heights()
+        left = 2 * _PADDING + _ICON
+        room = max(0, self.width() - left - _PADDING)
+        wanted = self.title.fontMetrics().horizontalAdvance(self._title) + 4
+        chips = self.chips.minimumSizeHint().width() if self.chips.chips else 0
+        title = max(0, min(wanted, room - _PADDING - chips))
+        self.icon.move(_PADDING, (self.height() - _ICON) // 2)
+        self.title.setGeometry(left, _MARGIN, title, first)
+        beside = left + title + _PADDING
+        height = self.chips.sizeHint().height()
+        top = _MARGIN + (first - height) // 2
+        self.chips.setGeometry(beside, top, max(0, left + room - beside), height)
+        self.sentence.setGeometry(left, _MARGIN + first, room, second)
+        # A widget that is not shown yet is not told of its size.
+        self.title.set_full_text(self._title)
+        self.sentence.set_full_text(self._sentence)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Place the parts anew."""
+        super().resizeEvent(event)
+        self._place()
 
     @property
     def state(self) -> State:
@@ -108,6 +136,7 @@ class VerdictBar(QWidget):
         else:
             self._show(verdict.state, verdict.heading, self._why(verdict, reading))
         self.chips.show_chips(chips)
+        self._place()
 
     def _why(self, verdict: Verdict, reading: Reading) -> str:
         if verdict.reason:
@@ -131,8 +160,8 @@ class VerdictBar(QWidget):
         if state is not self.icon.state:
             self.icon.show_state(state)
             self._take_colours()
-        self.title.setText(title)
-        self.sentence.set_full_text(sentence)
+        self._title, self._sentence = title, sentence
+        self._place()
         self.setAccessibleDescription(f"{title}. {sentence}".strip())
 
     def _take_colours(self) -> None:

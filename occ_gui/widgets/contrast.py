@@ -1,5 +1,7 @@
 """Contrast: colours that can be distinguished from their background, by WCAG 2.1."""
 
+from functools import lru_cache
+
 from PySide6.QtGui import QColor, QPalette, QPen
 
 _CONTRAST = 4.5
@@ -26,8 +28,12 @@ def contrast(one: QColor, other: QColor) -> float:
 
 def seen_on(palette: QPalette, colour: QColor) -> QColor:
     """Lighten a colour on a dark background to the least contrast; keep it on a light one."""
-    paper = palette.color(QPalette.ColorRole.Base)
-    ink = QColor(colour)
+    return QColor(_seen(palette.color(QPalette.ColorRole.Base).rgba(), colour.rgba()))
+
+
+@lru_cache(maxsize=256)
+def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
+    paper, ink = QColor.fromRgba(paper_rgba), QColor.fromRgba(ink_rgba)
     while luminance(paper) < luminance(ink) < 1.0 and contrast(ink, paper) < _CONTRAST:
         # By the lightness of HSL, towards white; the value of HSV ends at pure blue.
         ink = QColor.fromHslF(

@@ -3,13 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from functools import cache
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen, QPolygonF
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.widgets.contrast import luminance
 from occ_gui.widgets.guarded_paint import guarded
+
+_ROLE = QPalette.ColorRole
 
 
 class State(Enum):
@@ -56,16 +58,18 @@ _DARK = {
 
 def is_dark(palette: QPalette) -> bool:
     """Return whether a palette has light text on a dark background."""
-    text, window = (
-        luminance(palette.color(role))
-        for role in (QPalette.ColorRole.WindowText, QPalette.ColorRole.Window)
-    )
-    return text > window
+    text, window = palette.color(_ROLE.WindowText), palette.color(_ROLE.Window)
+    return text.lightness() > window.lightness()
 
 
 def colours_of(state: State, palette: QPalette) -> StateColours:
     """Return the colours of a state in the light or the dark theme."""
-    ink, paper = (_DARK if is_dark(palette) else _LIGHT)[state]
+    return _colours(state, is_dark(palette))
+
+
+@cache
+def _colours(state: State, dark: bool) -> StateColours:
+    ink, paper = (_DARK if dark else _LIGHT)[state]
     return StateColours(QColor(ink), QColor(paper))
 
 

@@ -32,6 +32,15 @@ class Verdict:
     reason: str = ""
 
     @property
+    def explanation(self) -> str:
+        """The rest of the reason, which the heading begins; empty where there is none."""
+        parts = _CLAUSE_END.split(self.reason, maxsplit=1)
+        if self.state is State.NEUTRAL or len(parts) < 2:
+            return self.reason
+        rest = parts[1].strip()
+        return rest[:1].upper() + rest[1:]
+
+    @property
     def heading(self) -> str:
         """The verdict in one line, with the beginning of the reason where there is one."""
         if not self.reason or self.state is State.NEUTRAL:

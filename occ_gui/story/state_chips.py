@@ -21,6 +21,9 @@ _GAP = 6
 _MORE_WIDTH = 40
 _PADDING = 8
 
+_MOST_NAMED = 2
+"""Other decoders that are named; more are counted."""
+
 _MOST_FORCED = 2
 """Effects switched by hand that have a chip each; more share one."""
 
@@ -81,12 +84,17 @@ def _band_model(reading: Reading) -> list[Chip]:
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     results = {result.decoder: result for result in reading.results}
     right = [name for name, result in results.items() if is_right(result, reading.sent)]
-    names = ", ".join(name for name in right if name != decoder)
-    if not reading.sent or not names:
+    others = [name for name in right if name != decoder]
+    if not reading.sent or not others:
         return []
     text = _tr("also read: {names}") if decoder in right else _tr("read by: {names}")
-    meaning = _tr("Other decoders that read the code from the same signal, all bits right.")
-    return [Chip("others", text.format(names=names), meaning, State.GOOD)]
+    names = ", ".join(others)
+    if len(others) > _MOST_NAMED:
+        names = _tr("{count} decoders").format(count=len(others))
+    meaning = _tr("Decoders that read the code from the same signal, all bits right: {names}.")
+    chip = Chip("others", text.format(names=names), meaning.format(names=", ".join(others)),
+                State.GOOD)  # fmt: skip
+    return [chip]
 
 
 def _by_hand(reading: Reading) -> list[Chip]:

@@ -139,8 +139,8 @@ class VerdictBar(QWidget):
         self._place()
 
     def _why(self, verdict: Verdict, reading: Reading) -> str:
-        if verdict.reason:
-            return verdict.reason
+        if verdict.explanation:
+            return verdict.explanation
         scene = reading.scene
         fewest = chips_in_exposure(scene)
         text = self.tr(

@@ -155,6 +155,7 @@ def test_the_palette_jumps_to_every_parameter(application: Application, qtbot: Q
 def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     application: Application, qtbot: QtBot
 ) -> None:
+    application.story.show_whole_picture(True)
     pane = application.image.simulation
     frame = application.image._frame
     assert frame is not None

@@ -108,6 +108,7 @@ def test_every_way_of_showing_a_photo_names_the_picture(
 def test_the_pointer_reads_the_levels_of_both_pictures(
     application: Application, qtbot: QtBot
 ) -> None:
+    application.story.show_whole_picture(True)
     pane, frame = application.image.simulation, application.image._frame
     assert frame is not None
     view = pane.graphics

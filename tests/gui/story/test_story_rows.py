@@ -1,0 +1,271 @@
+"""All rows share one axis and one crosshair, and what they say there is the model's."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from math import floor
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.story.column_values import in_words
+from occ_gui.story.story_row import StoryRow
+from occ_gui.story.story_rows import StoryRows
+from occ_gui.widgets.state_look import State
+
+Grey = np.ndarray[Any, np.dtype[np.uint8]]
+
+
+def all_rows(rows: StoryRows) -> list[StoryRow]:
+    return [rows.light, rows.stripes, rows.profile, rows.code]
+
+
+def place_of(row: StoryRow, column: float) -> QPoint:
+    return QPointF(row.x_of(column), row.height() / 2).toPoint()
+
+
+def zoom_in(row: StoryRow, place: QPoint) -> None:
+    """Turn the wheel by a notch, away from its user."""
+    event = QWheelEvent(
+        QPointF(place), QPointF(row.mapToGlobal(place)), QPoint(), QPoint(0, 120),
+        Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(row, event)
+
+
+@pytest.mark.parametrize("width", [520, 900, 1573])
+@pytest.mark.parametrize("zoom", [1.0, 0.13, 4.0])
+def test_a_column_lies_at_the_same_pixel_in_every_row(
+    rows: StoryRows, width: int, zoom: float
+) -> None:
+    rows.resize(width, 620)
+    rows.axis.zoom(zoom, 1400.0)
+    for column in np.linspace(rows.axis.first, rows.axis.last, 7).tolist():
+        places = {
+            round(rows.mapFromGlobal(row.mapToGlobal(QPointF(row.x_of(column), 0.0))).x(), 6)
+            for row in all_rows(rows)
+        }
+        assert len(places) == 1
+        scale = rows.columns
+        at = scale.mapTo(rows, QPointF(rows.axis.pixel(column, scale.width()), 0.0)).x()
+        assert places == {round(at, 6)}
+        assert rows.light.column_at(rows.light.x_of(column)) == pytest.approx(column)
+
+
+def test_the_stripes_show_each_column_at_its_place(
+    rows: StoryRows, snapshot: Snapshot, grey_picture: Callable[[QWidget], Grey]
+) -> None:
+    rows.axis.zoom(0.2, 1400.0)
+    drawn = grey_picture(rows.stripes)[rows.stripes.height() // 2]
+    first, last = rows.stripes.rows_shown()
+    means = snapshot.frame.camera_image[first:last].mean(axis=0)
+    inside = range(int(rows.axis.first) + 2, int(rows.axis.last) - 2)
+    chosen = rows.cursor.column
+    seen = [drawn[round(rows.stripes.x_of(column))] for column in inside if column != chosen]
+    wanted = [means[column] for column in inside if column != chosen]
+    np.testing.assert_allclose(seen, wanted, atol=1.0)
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"exposure_time": 136e-6}, {"start_time": 3.3e-3, "readout_time": 11e-6}]
+)
+def test_the_values_at_the_crosshair_are_the_models(
+    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot], changes: dict[str, Any]
+) -> None:
+    snapshot = bare_snapshot_of(**changes)
+    scene, frame = snapshot.frame.scene, snapshot.frame
+    rows.show_reading(snapshot)
+    lit = occ.on_time(scene) / scene.camera.exposure_time
+    chips, frequency = occ.packet(scene), scene.transmitter.switching_frequency
+    for column in (0, 1213, 1344, 1500):
+        rows.cursor.point_at(column + 0.2)
+        values = rows.values()
+        assert values is not None
+        time = scene.model.start_time + column * scene.camera.readout_time
+        assert (values.column, values.time) == (column, time)
+        exact = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
+        assert values.light == chips[floor(exact * Fraction(frequency)) % len(chips)]
+        assert values.share == pytest.approx(lit[column], abs=1e-9)
+        assert values.level == frame.profile[column]
+        words = in_words(values, scene)
+        assert f"column {column}" in words
+        assert ("light on" in words) == bool(values.light)
+        rows.choose_picture("receiver")
+        values = rows.values()
+        assert values is not None
+        assert values.level == frame.signal[column]
+        rows.choose_picture("camera")
+
+
+def test_the_bits_at_the_crosshair_are_those_read(rows: StoryRows, snapshot: Snapshot) -> None:
+    code, result = rows.code, snapshot.decoded
+    assert code.edges is not None
+    read = {}
+    for field in code.fields:
+        rows.cursor.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
+        values = rows.values()
+        assert values is not None
+        read[values.bit] = values.value
+        assert values.state is (State.NEUTRAL if field.bit is None else State.GOOD)
+    assert read == {None: None, **dict(enumerate(result.bits.tolist()))}
+    assert code.accessibleDescription() == "sent 1011001110, received 1011001110, 0 wrong"
+
+
+def test_outside_the_picture_nothing_is_pointed_at(rows: StoryRows, snapshot: Snapshot) -> None:
+    chosen = rows.cursor.column
+    for column in (-3.0, len(snapshot.profile) + 2.0):
+        rows.cursor.point_at(column)
+        assert rows.cursor.pointed is None
+        values = rows.values()
+        assert values is not None
+        assert values.column == chosen
+
+
+def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qtbot: QtBot) -> None:
+    light = rows.light
+    window = light.window()
+    assert window is not None
+    grabbed = (window[0] + window[1]) / 2
+    button = Qt.MouseButton.LeftButton
+    qtbot.mousePress(light, button, pos=place_of(light, grabbed))
+    for moved in (20, 60, 100):
+        qtbot.mouseMove(light, place_of(light, grabbed + moved))
+    qtbot.mouseRelease(light, button, pos=place_of(light, grabbed + 100))
+    moved_window = light.window()
+    assert moved_window is not None
+    assert rows.cursor.column == moved_window[0]
+    # A pixel of the mouse is less than one column here.
+    assert moved_window[0] - window[0] == pytest.approx(100.0, abs=1.0)
+    assert moved_window[1] - moved_window[0] == pytest.approx(68.0 / 8.0)
+    assert rows.axis.is_following
+
+
+def test_a_click_on_any_row_chooses_a_column(rows: StoryRows, qtbot: QtBot) -> None:
+    for row, column in zip(all_rows(rows), (1250, 1300, 1500, 1700), strict=True):
+        qtbot.mouseClick(row, Qt.MouseButton.LeftButton, pos=place_of(row, column))
+        assert rows.cursor.column == pytest.approx(column, abs=1)
+
+
+def test_the_wheel_zooms_all_rows_about_the_mouse(rows: StoryRows) -> None:
+    for row in all_rows(rows):
+        before, span = row.x_of(1400.0), rows.axis.span
+        zoom_in(row, place_of(row, 1400.0))
+        assert rows.axis.span < span
+        assert all(each.x_of(1400.0) == pytest.approx(before, abs=1.5) for each in all_rows(rows))
+    assert not rows.axis.is_following
+
+
+def test_a_drag_moves_all_rows_and_a_double_click_fits(rows: StoryRows, qtbot: QtBot) -> None:
+    row, button = rows.profile, Qt.MouseButton.LeftButton
+    home, chosen = (rows.axis.first, rows.axis.last), rows.cursor.column
+    start = place_of(row, 1400.0)
+    qtbot.mousePress(row, button, pos=start)
+    for step in (20, 60, 120):
+        qtbot.mouseMove(row, start + QPoint(step, 0))
+    qtbot.mouseRelease(row, button, pos=start + QPoint(120, 0))
+    assert rows.light.x_of(1400.0) == pytest.approx(start.x() + 120, abs=1.5)
+    assert rows.cursor.column == chosen
+    qtbot.mouseDClick(row, button, pos=start)
+    assert (rows.axis.first, rows.axis.last) == home
+
+
+def test_the_keys_choose_zoom_and_fit(rows: StoryRows, qtbot: QtBot) -> None:
+    column, home = rows.cursor.column, rows.axis.span
+    assert column is not None
+    for key, moved in ((Qt.Key.Key_Right, 1), (Qt.Key.Key_PageUp, 11), (Qt.Key.Key_Left, 10)):
+        qtbot.keyClick(rows.light, key)
+        assert rows.cursor.column == column + moved
+    qtbot.keyClick(rows.light, Qt.Key.Key_Plus)
+    assert rows.axis.span < home
+    qtbot.keyClick(rows.light, Qt.Key.Key_Home)
+    assert rows.axis.span == home
+
+
+def test_new_results_keep_a_range_that_the_user_chose(
+    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
+) -> None:
+    rows.axis.zoom(0.3, 1400.0)
+    chosen = (rows.axis.first, rows.axis.last)
+    rows.show_reading(bare_snapshot_of(switching_frequency=7e3))
+    assert (rows.axis.first, rows.axis.last) == chosen
+    rows.axis.fit()
+    assert rows.axis.span == pytest.approx(2.0 * 24 / 7e3 / 8e-6, rel=0.03)
+
+
+def test_the_picture_is_never_panned_out_of_view(rows: StoryRows) -> None:
+    for columns in (-1e5, 1e5):
+        rows.axis.pan(columns)
+        assert rows.axis.first < 3455.5
+        assert rows.axis.last > -0.5
+    for _ in range(60):
+        rows.axis.zoom(1.5, 1000.0)
+    assert rows.axis.span < 2.0 * 3456
+    for _ in range(60):
+        rows.axis.zoom(0.5, 1000.0)
+    assert rows.axis.span == 4.0
+
+
+def test_wrong_bits_are_marked_by_a_cross_and_in_words(rows: StoryRows, snapshot: Snapshot) -> None:
+    bits = snapshot.decoded.bits.copy()
+    bits[3] ^= 1
+    wrong = replace(snapshot, decoded=replace(snapshot.decoded, bits=bits, code=700))
+    before = rows.code.grab().toImage()
+    rows.show_reading(wrong)
+    assert rows.code.state_of(3) is State.BAD
+    assert [rows.code.state_of(bit) for bit in (0, 1, 2, 4)] == [State.GOOD] * 4
+    assert rows.code.accessibleDescription().endswith("1 wrong")
+    assert rows.code.grab().toImage() != before
+
+
+def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:
+    rows.choose_decoder("matched")
+    assert rows.code.edges is None
+    assert rows.code.value_of(0) == 1
+    assert rows.profile.threshold is None
+    rows.choose_decoder("threshold")
+    assert rows.code.edges is not None
+
+
+def test_the_legend_names_what_is_drawn(
+    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
+) -> None:
+    assert rows.legend.shown == ("simulation", "band", "threshold")
+    rows.show_reading(bare_snapshot_of(exposure_time=136e-6))
+    assert rows.legend.shown == ("simulation", "threshold")
+    assert rows.legend.note == "no band model here"
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"switching_frequency": 1e8},
+        {"switching_frequency": 1.0},
+        {"exposure_time": 3.0},
+        {"distance": 40.0},
+        {"start_time": 1e4},
+        {"pattern": "1"},
+        {"columns": 2},
+    ],
+)
+def test_extreme_scenes_are_drawn(
+    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot], changes: dict[str, Any]
+) -> None:
+    snapshot = bare_snapshot_of(**changes)
+    rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+    rows.show_reading(snapshot)
+    for name in ("packets", "panel"):
+        rows.choose_range(name)
+        for row in all_rows(rows):
+            assert not row.grab().isNull()
+    values = rows.values()
+    assert values is not None
+    assert in_words(values, snapshot.frame.scene)

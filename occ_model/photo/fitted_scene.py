@@ -1,6 +1,7 @@
 """Make the scene whose picture is the photo's, with uncertainties in SI units, from a fit."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -55,12 +56,18 @@ def readout_and_frequency(fit: StripeFit, scene: Scene, estimate: str) -> tuple[
 
 
 def described(
-    photo: Photo, scene: Scene, estimate: str, stripes: Stripes, explanation: Explanation
+    photo: Photo,
+    scene: Scene,
+    estimate: str,
+    stripes: Stripes,
+    explanation: Explanation,
+    check: Callable[[], object],
 ) -> Match:
     """Express an explanation in SI units, and as a scene.
 
     Of fits that are as good with another exposure the one is taken that is nearest to the exposure
-    time in the photo's EXIF data, or the shortest.
+    time in the photo's EXIF data, or the shortest. ``check`` is called every few hundredths of a
+    second; what it raises ends the work.
 
     Raises
     ------
@@ -68,7 +75,7 @@ def described(
         A value found is outside its parameter's range.
     """
     region = stripes.region
-    better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma)
+    better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
     explanation = replace(explanation, fits=better.fits)
     fit = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
     scene = _with_timing(scene, fit, explanation, estimate, region)

@@ -121,7 +121,9 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     others = [one for one in (*hypotheses, other) if one is not None and one is not chosen]
     verdict = judge.verdict(found, [one for one in others if not is_turned(one, found)])
     report(0.9)
-    match = described(photo, _at_rate(scene, found), estimate, stripes, found.explanation)
+    match = described(
+        photo, _at_rate(scene, found), estimate, stripes, found.explanation, report.again
+    )
     report(1.0)
     return replace(
         match,

@@ -1,6 +1,6 @@
 """The hypotheses about what was sent that are fitted to a photo's stripes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,6 +22,9 @@ _NEAR = np.arange(-4, 5) / 8.0
 
 _EXPLAINED = 0.98
 """Correlation from which chips need not be fitted again at the period of the stripes."""
+
+_SURELY = 100.0
+"""Bits by which they must be better than chance, for other chips to be read from the edges only."""
 
 _DUTIES = 50
 """Parts of a period of which a pulse takes up a whole number."""
@@ -60,7 +63,9 @@ class Candidates:
     def as_sent(self) -> Hypothesis | None:
         """Suppose what the scene sends; None where that never changes."""
         chips = sent_chips(self.scene.transmitter)
-        return self._fitted("what the scene sends", chips, bits=0.0, was_read=False)
+        period = self.stripes.period
+        near = [] if period is None else [self._near(len(canonical(chips)) / period)]
+        return self._fitted("what the scene sends", chips, [*near, None], bits=0.0, was_read=False)
 
     def read(self, as_sent: Hypothesis | None = None) -> list[Hypothesis]:
         """Suppose the chips that are read from the stripes, in each way of reading them.
@@ -71,15 +76,19 @@ class Candidates:
         if period is None:
             return []
         stripes = self.stripes
-        read = read_patterns(stripes.profile, stripes.flattened, period, self.check)
-        if as_sent is not None and as_sent.fit.correlation >= _EXPLAINED:
+        explained = as_sent is not None and as_sent.fit.correlation >= _EXPLAINED
+        sure = explained and as_sent is not None and as_sent.information >= _SURELY
+        read = read_patterns(
+            stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure
+        )
+        if explained and as_sent is not None:
             known = canonical(as_sent.chips)
             read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
         found = [
             self._fitted(
                 f"{self._named(one.chips)} read from the photo",
                 one.chips,
-                self._near(len(one.chips) / period),
+                [self._near(len(one.chips) / period)],
                 bits=len(one.chips) + np.log2(MOST_CHIPS),
                 was_read=True,
             )
@@ -118,7 +127,7 @@ class Candidates:
         if not 0 < on < _DUTIES:
             return None
         chips = pulse(on, _DUTIES)
-        step = self._near(len(chips) / period)
+        step = [self._near(len(chips) / period)]
         sent = f"the scene's wave with a duty of {on * 100 // _DUTIES} %"
         fitted = self._fitted(sent, chips, step, bits=np.log2(_DUTIES), was_read=True)
         return fitted and replace(fitted, rate=len(chips) / chips_sent)
@@ -131,7 +140,7 @@ class Candidates:
         chips = nearest_other(self.stripes.profile, found, self.scene.transmitter)
         if chips is None:
             return None
-        steps = self._near(found.fit.timing.step)
+        steps = [self._near(found.fit.timing.step)]
         bits = max(found.bits, float(self.scene.transmitter.bits))
         return self._fitted(f"{self._named(chips)} instead", chips, steps, bits=bits, was_read=True)
 
@@ -156,7 +165,7 @@ class Candidates:
         self,
         sent: str,
         chips: ByteArray,
-        steps: FloatArray | None = None,
+        steps: Sequence[FloatArray | None],
         *,
         bits: float,
         was_read: bool,

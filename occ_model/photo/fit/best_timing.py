@@ -97,7 +97,7 @@ def explain(
     cameras: Sequence[CameraTone],
     gamma: float,
     with_gamma: bool = False,
-    steps: FloatArray | None = None,
+    steps: Sequence[FloatArray | None] = (None,),
     *,
     check: Callable[[], object] = lambda: None,
 ) -> Explanation | None:
@@ -115,8 +115,9 @@ def explain(
         The camera's gamma.
     with_gamma
         Whether gamma is fitted too.
-    steps : ndarray of float64
-        Chips per column to try; by default all that are possible.
+    steps
+        Chips per column to try, in groups; None stands for all that are possible. A group is tried
+        where none before it surely fits.
     check
         Called every few hundredths of a second of the search; what it raises ends it.
 
@@ -127,10 +128,15 @@ def explain(
     """
     if chips.min() == chips.max():
         return None
-    candidates = _candidates(without_trend(stripes.profile), chips, steps, gamma, check)
+    even = without_trend(stripes.profile)
+    candidates: list[Candidate] = []
+    for group in steps:
+        candidates = _candidates(even, chips, group, gamma, check)
+        if candidates[0].correlation >= _SURELY:
+            break
     if candidates[0].correlation < _SURELY:
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
-        others = _candidates(stripes.flattened, chips, steps, gamma, check)
+        others = _candidates(stripes.flattened, chips, steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     starts = _promising(candidates)
     best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)

@@ -25,9 +25,9 @@ _FASTEST = 0.95
 
 _PADDING = 4
 _PHASES_A_CHIP = 8
-_ROUGH_PHASES_A_CHIP = 4
+_ROUGH_PHASES_A_CHIP = 2
 
-_STEPS_A_TURN = 4.0
+_STEPS_A_TURN = 3.0
 """Number of steps tried while the position of the profile's last column changes by a chip."""
 
 _BEST_STEPS = 24

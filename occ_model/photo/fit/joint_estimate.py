@@ -5,7 +5,7 @@ the estimate is the mean over all of them, weighted by how likely they are.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -92,7 +92,13 @@ class Refined:
     doubts: tuple[str, ...]
 
 
-def refined(stripes: Stripes, cells: Cells, explanation: Explanation, gamma: float) -> Refined:
+def refined(
+    stripes: Stripes,
+    cells: Cells,
+    explanation: Explanation,
+    gamma: float,
+    check: Callable[[], object] = lambda: None,
+) -> Refined:
     """Refine the fits of an explanation.
 
     Parameters
@@ -105,6 +111,8 @@ def refined(stripes: Stripes, cells: Cells, explanation: Explanation, gamma: flo
         The chips, and first fits.
     gamma
         The gamma that is usual; where the fits hold an estimate of it, it is estimated here too.
+    check
+        Called every few hundredths of a second; what it raises ends the fits.
     """
     step = explanation.fits[0].timing.step
     chips = explanation.chips
@@ -114,11 +122,13 @@ def refined(stripes: Stripes, cells: Cells, explanation: Explanation, gamma: flo
         return Refined(explanation.fits, ())
     with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
     models = [
-        JointModel(profiles, chips, step, gamma, values_blurred=False, wide=with_gamma),
-        JointModel(profiles, chips, step, gamma, values_blurred=True, wide=with_gamma),
+        JointModel(
+            profiles, chips, step, gamma, values_blurred=blurred, wide=with_gamma, check=check
+        )
+        for blurred in (False, True)
     ]
     if not with_gamma and explanation.camera.averaging == "pixel-value":
-        models.append(JointModel(profiles, chips, step, 1.0))
+        models.append(JointModel(profiles, chips, step, 1.0, check=check))
     model = StripeModel(
         stripes.profile, Waveform(chips), explanation.camera.tone, step,
         explanation.camera.rank_resolution,

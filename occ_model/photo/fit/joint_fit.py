@@ -8,7 +8,7 @@ normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -101,6 +101,8 @@ class JointModel:
         Whether pixel values are blurred (noise reduction, resizing), or light (demosaicing).
     wide
         Whether gamma may be any.
+    check
+        Called whenever the model is evaluated; what it raises ends the fit.
     """
 
     def __init__(
@@ -109,9 +111,12 @@ class JointModel:
         chips: ByteArray,
         step: float,
         gamma: float,
+        *,
         values_blurred: bool = False,
         wide: bool = False,
+        check: Callable[[], object] = lambda: None,
     ) -> None:
+        self._check = check
         columns = len(profiles[0].values)
         self._columns, self._step, self._gamma = columns, step, gamma
         self._values_blurred = values_blurred
@@ -237,6 +242,7 @@ class JointModel:
         )
 
     def _residual(self, values: FloatArray) -> FloatArray:
+        self._check()
         seen = self._seen(values)
         parts = [
             part.residual(seen) / noise

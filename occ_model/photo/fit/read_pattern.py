@@ -63,6 +63,8 @@ def read_patterns(
     flattened: FloatArray,
     period: float,
     check: Callable[[], object] = lambda: None,
+    *,
+    by_edges_only: bool = False,
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
@@ -76,6 +78,8 @@ def read_patterns(
         Columns after which the profile repeats.
     check
         Called every few hundredths of a second; what it raises ends the reading.
+    by_edges_only
+        Whether only the edges are read, which takes far less time than to try each number of chips.
 
     Returns
     -------
@@ -92,7 +96,7 @@ def read_patterns(
     counts = _counts_by_edges(edges_of(flattened), period, most)
     found = [_fewest(lines, counts, check)]
     by_edges = found[0]
-    if (
+    if not by_edges_only and (
         by_edges is None
         or _unexplained(by_edges) > _WELL_EXPLAINED
         or by_edges.exposure > _LONGEST_FOR_EDGES

@@ -12,6 +12,10 @@ from verdicts import Said, said_of, said_of_negative, said_of_other_code
 import occ_model as occ
 from occ_model.photo.evidence.hypothesis import pulse, runs_of
 from occ_model.photo.fit.initial_search import Search
+from occ_model.photo.fit.joint_fit import JointModel
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.stripes.evenly_lit import EvenProfile
+from occ_model.transmitter.waveform import Waveform
 
 SAMPLE = (18, 41, 88, 103)
 """Pictures of which most were once said to be explained."""
@@ -132,3 +136,24 @@ def test_what_a_check_raises_ends_the_search(chips: int) -> None:
     with pytest.raises(KeyboardInterrupt):
         search.candidates(search.steps(), 2.2, stop)
     assert len(calls) == 3
+
+
+def test_what_a_check_raises_ends_the_joint_fit() -> None:
+    calls: list[int] = []
+
+    def stop() -> None:
+        calls.append(1)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+
+    columns = stripes_of_ones_and_zeros(12.0, 400)
+    even = EvenProfile(columns, np.ones(400, dtype=bool), np.zeros(400, dtype=bool))
+    model = JointModel([even], np.array([1, 0], dtype=np.uint8), 1 / 12, 2.2, check=stop)
+    with pytest.raises(KeyboardInterrupt):
+        model.fit(model.start(Timing(1 / 12, 0.5, 0.0, 2.2)))
+    assert len(calls) == 3
+
+
+def stripes_of_ones_and_zeros(columns_a_chip: float, columns: int) -> np.ndarray:
+    wave = Timing(1 / columns_a_chip, 0.5, 0.0, 2.2)
+    return 20.0 + 100.0 * wave.lit_fraction(Waveform(np.array([1, 0], dtype=np.uint8)), columns)

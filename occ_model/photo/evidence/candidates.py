@@ -88,7 +88,7 @@ class Candidates:
             self._fitted(
                 f"{self._named(one.chips)} read from the photo",
                 one.chips,
-                [self._near(len(one.chips) / period)],
+                [self._near(one.times * len(one.chips) / period)],
                 bits=len(one.chips) + np.log2(MOST_CHIPS),
                 was_read=True,
             )

@@ -44,12 +44,15 @@ class ReadPattern:
         Correlation of their harmonics with those in the photo.
     exposure, phase
         The exposure, and the place of the first chip, in chips, that explain the harmonics so.
+    times
+        How many times the chips are sent in a period of the stripes.
     """
 
     chips: ByteArray
     explained: float
     exposure: float
     phase: float
+    times: int = 1
 
 
 Harmonics = NDArray[np.complex128]

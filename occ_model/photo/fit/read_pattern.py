@@ -102,7 +102,7 @@ def read_patterns(
         or by_edges.exposure > _LONGEST_FOR_EDGES
     ):
         found.append(_chips_by_lines(lines, most, check))
-    read = [replace(one, chips=_shortened(one.chips)) for one in found if one is not None]
+    read = [_shortened(one) for one in found if one is not None]
     return list({one.chips.tobytes(): one for one in read}.values())
 
 
@@ -165,12 +165,14 @@ def _unexplained(read: ReadPattern) -> float:
     return 1.0 - max(read.explained, 0.0) ** 2
 
 
-def _shortened(chips: ByteArray) -> ByteArray:
+def _shortened(read: ReadPattern) -> ReadPattern:
     """Join chips that only come several at a time to longer ones, and give the canonical form."""
-    once = canonical(chips)
+    once = canonical(read.chips)
     changes = np.flatnonzero(once != np.roll(once, 1))
     shared = int(np.gcd.reduce(np.diff(changes, append=changes[0] + len(once))))
-    return canonical(np.roll(once, -int(changes[0]))[::shared])
+    chips = canonical(np.roll(once, -int(changes[0]))[::shared])
+    # The period found may hold the chips several times.
+    return replace(read, chips=chips, times=len(read.chips) // len(once))
 
 
 def canonical(chips: ByteArray) -> ByteArray:

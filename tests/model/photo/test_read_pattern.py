@@ -65,6 +65,15 @@ def test_an_exposure_of_several_chips_is_undone(exposure: float) -> None:
     assert text(canonical(chips)) in [text(one.chips) for one in read]
 
 
+def test_a_period_that_holds_the_chips_twice_says_so() -> None:
+    """Their length in columns then is that of half the period."""
+    chips = np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, 0], dtype=np.uint8)
+    stripes = stripes_of(chips, 0.2, 9.3, 0.4)
+    for times in (1, 2):
+        read = read_patterns(stripes, stripes, times * 17 * 9.3)[0]
+        assert (text(read.chips), read.times) == (text(canonical(chips)), times)
+
+
 @given(PATTERNS, st.integers(0, 30), st.integers(1, 3))
 def test_the_canonical_form_knows_no_start_and_no_repetition(
     chips: ByteArray, turn: int, times: int

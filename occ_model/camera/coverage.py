@@ -1,6 +1,7 @@
 """Coverage: the share of each pixel that a panel of any outline covers, sharp or blurred."""
 
 import math
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -18,6 +19,23 @@ _SAMPLED = 16
 
 _EXACT = 4096
 """Rows of an outline that are all used: a blur may be wider than the panel is high."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CoveredPart:
+    """Some columns of some rows.
+
+    Parameters
+    ----------
+    columns
+        The columns.
+    share
+        The share of the light in each pixel that comes from the panel: one for all pixels, or an
+        array of float32, shape (rows, columns).
+    """
+
+    columns: slice
+    share: float | Pixels
 
 
 class Coverage:
@@ -38,6 +56,7 @@ class Coverage:
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
         self._columns = columns
+        self._starts, self._ends = outline.T, np.roll(outline, -1, axis=0).T
         self._blur = blur
         self._margin = math.ceil(_REACH * blur)
         seen = range(-self._margin, rows + self._margin)
@@ -50,28 +69,87 @@ class Coverage:
 
     def rows(self, rows: range) -> Pixels:
         """Return some rows, shape (number of rows, columns), 0 to 1."""
-        first, last = rows.start, rows.stop
-        if self._coarse is not None:
-            return self._enlarged(self._coarse, rows)
-        margin = self._margin
-        sharp = self._sharp(first - margin, last + margin, 1)
-        if not margin:
-            return sharp[:: rows.step]
-        blurred = cv2.GaussianBlur(sharp, (2 * margin + 1, 2 * margin + 1), self._blur)
-        inner = blurred[margin : margin + last - first : rows.step, margin : margin + self._columns]
-        return np.ascontiguousarray(inner, dtype=np.float32)
+        covered = np.empty((len(rows), self._columns), dtype=np.float32)
+        for part in self.parts(rows):
+            covered[:, part.columns] = part.share
+        return covered
 
-    def _sharp(self, first: int, last: int, cell: int) -> Pixels:
-        """Return the share of each cell inside the outline, the margins at both sides included."""
+    def parts(self, rows: range) -> list[CoveredPart]:
+        """Return some rows part by part, from the left: the rims of the panel and what is between.
+
+        Between its rims the panel covers either all of each pixel or nothing.
+        """
+        parts, before = [], 0
+        for start, stop in self._rims(rows):
+            if start > before:
+                parts.append(self._even(rows, slice(before, start)))
+            parts.append(CoveredPart(slice(start, stop), self._rim(rows, slice(start, stop))))
+            before = stop
+        if before < self._columns:
+            parts.append(self._even(rows, slice(before, self._columns)))
+        return parts
+
+    def _rims(self, rows: range) -> list[tuple[int, int]]:
+        """Return the columns near which the outline runs in some rows, from the left."""
+        (x0, y0), (x1, y1) = self._starts, self._ends
+        reach = self._margin + self._cell
+        low, high = rows[0] - reach, rows[-1] + reach
+        near = (np.minimum(y0, y1) <= high) & (np.maximum(y0, y1) >= low)
+        x0, y0, x1, y1 = x0[near], y0[near], x1[near], y1[near]
+        ends = np.array([[0.0], [1.0]]) + np.zeros(len(x0))
+        np.divide([[low], [high]] - y0, y1 - y0, out=ends, where=y0 != y1)
+        x = x0 + np.clip(ends, 0.0, 1.0) * (x1 - x0)
+        start = np.clip(np.floor(x.min(axis=0)) - reach, 0, self._columns)
+        stop = np.clip(np.ceil(x.max(axis=0)) + reach + 1, 0, self._columns)
+        order = np.argsort(start)
+        merged: list[tuple[int, int]] = []
+        for first, last in zip(start[order].tolist(), stop[order].tolist(), strict=True):
+            if merged and first <= merged[-1][1]:
+                merged[-1] = merged[-1][0], max(merged[-1][1], int(last))
+            elif last > first:
+                merged.append((int(first), int(last)))
+        return merged
+
+    def _even(self, rows: range, columns: slice) -> CoveredPart:
+        """Return columns that the outline is not near to: inside where it runs round the first."""
+        (x0, y0), (x1, y1) = self._starts, self._ends
+        crossed = (y0 <= rows[0]) != (y1 <= rows[0])
+        x0, y0, x1, y1 = x0[crossed], y0[crossed], x1[crossed], y1[crossed]
+        x = x0 + (rows[0] - y0) / (y1 - y0) * (x1 - x0)
+        turns = np.sign(y1 - y0)[x < columns.start].sum()
+        return CoveredPart(columns, float(turns != 0.0))
+
+    def _rim(self, rows: range, columns: slice) -> Pixels:
+        if self._coarse is not None:
+            return self._enlarged(self._coarse, rows, range(columns.start, columns.stop))
+        margin, step = self._margin, rows.step
+        width = 2 * margin + 1
+        if not margin:
+            return self._sharp(np.asarray(rows), columns, 1)
+        if step < width:
+            lines = np.arange(rows[0] - margin, rows[-1] + margin + 1)
+            chosen = slice(margin, margin + rows[-1] - rows[0] + 1, step)
+        else:  # a window of rows round each
+            lines = (np.asarray(rows)[:, None] + np.arange(-margin, margin + 1)).ravel()
+            chosen = slice(margin, None, width)
+        wide = slice(columns.start - margin, columns.stop + margin)
+        blurred = cv2.GaussianBlur(self._sharp(lines, wide, 1), (width, width), self._blur)
+        return np.asarray(blurred[chosen, margin : margin + columns.stop - columns.start])
+
+    def _sharp(self, rows: IndexArray, columns: slice, cell: int) -> Pixels:
+        """Return the share of each cell inside the outline; its first row is one of ``rows``."""
         row, x, sign = self._crossings
-        chosen = slice(*np.searchsorted(row, (first, last)).tolist())
-        margin, width = self._margin, self._columns + 2 * self._margin
-        steps = np.zeros((-(-(last - first) // cell), -(-width // cell) + 2), dtype=np.float32)
-        start = np.ceil(np.clip(x[chosen], -margin, width - margin)) + margin
+        chosen = slice(*np.searchsorted(row, (rows[0], rows[-1] + cell)).tolist())
+        line = np.searchsorted(rows, row[chosen], side="right") - 1
+        here = row[chosen] < rows[line] + cell
+        line, x, sign = line[here], x[chosen][here], sign[chosen][here]
+        width = columns.stop - columns.start
+        steps = np.zeros((len(rows), -(-width // cell) + 2), dtype=np.float32)
+        start = np.ceil(np.clip(x, columns.start, columns.stop)) - columns.start
         column, part = np.divmod(start, cell)
-        place = ((row[chosen] - first) // cell, column.astype(np.int64))
+        place = (line, column.astype(np.int64))
         share = part / cell
-        weight = sign[chosen] * (self._stride / cell)
+        weight = sign * (self._stride / cell)
         np.add.at(steps, place, weight * (1.0 - share))
         np.add.at(steps, (place[0], place[1] + 1), weight * share)
         np.cumsum(steps, axis=1, out=steps)
@@ -80,7 +158,9 @@ class Coverage:
 
     def _whole(self, rows: int) -> Pixels:
         """Blur the whole picture on a coarse grid, which is fine enough for a wide blur."""
-        sharp = self._sharp(-self._margin, rows + self._margin, self._cell)
+        margin = self._margin
+        lines = np.arange(-margin, rows + margin, self._cell)
+        sharp = self._sharp(lines, slice(-margin, self._columns + margin), self._cell)
         reach = math.ceil(self._margin / self._cell)
         size = (2 * reach + 1, 2 * reach + 1)
         # The cells' own width and the interpolation between them blur by a half cell already.
@@ -88,10 +168,10 @@ class Coverage:
         blurred = cv2.GaussianBlur(sharp, size, blur)
         return np.asarray(blurred, dtype=np.float32)
 
-    def _enlarged(self, coarse: Pixels, rows: range) -> Pixels:
+    def _enlarged(self, coarse: Pixels, rows: range, columns: range) -> Pixels:
         """Interpolate linearly between the cells' centres."""
         # Not by OpenCV: its coordinates are short integers in many versions.
-        column, right = self._between(range(self._columns), coarse.shape[1])
+        column, right = self._between(columns, coarse.shape[1])
         row, below = self._between(rows, coarse.shape[0])
         part = coarse[row[0] : row[-1] + 2]
         wide = part[:, column] * (1.0 - right) + part[:, column + 1] * right

@@ -6,10 +6,7 @@ and simulates it (``apply``).
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from typing import ClassVar, Literal, TypeAlias, TypeVar
-
-import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
@@ -27,8 +24,6 @@ Values = TypeVar("Values", FloatArray, Pixels)
 
 ROUNDING = 1.0
 """Most grey levels by which rounding can enlarge a difference of two values."""
-
-_TABULATED: FloatArray = np.arange(0.0, 255.25, 0.25)
 
 
 class Effect(ABC):
@@ -129,40 +124,6 @@ class NoiseEffect(Effect):
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
         """Return the standard deviation in grey levels of pixels with these mean values."""
 
-    def apply(self, scene: Scene, values: Pixels, normal: Pixels) -> Pixels:
-        """Return the deviation from the mean of every pixel, in grey levels.
-
-        Parameters
-        ----------
-        scene
-            The scene.
-        values : ndarray, shape (rows, columns) or (1, columns)
-            Mean pixel values before saturation.
-        normal : ndarray of float32, shape (rows, columns)
-            Independent numbers of the standard normal distribution; overwritten.
-        """
-        return np.multiply(normal, pixel_spread((self,), scene, values), out=normal)
-
-
-def pixel_spread(effects: Sequence[NoiseEffect], scene: Scene, values: Pixels) -> Pixels:
-    """Return the standard deviation in grey levels of all noise together, shape as ``values``.
-
-    Parameters
-    ----------
-    effects
-        The noise.
-    scene
-        The scene.
-    values : ndarray of float32, shape (rows, columns)
-        Mean pixel values before saturation. Of more than one row the deviations are read from a
-        table, in quarters of a grey level.
-    """
-    if len(values) == 1:
-        squares = sum(effect.spread(scene, values.astype(np.float64)) ** 2 for effect in effects)
-        return np.sqrt(squares).astype(np.float32)
-    squares = sum(effect.spread(scene, _TABULATED) ** 2 for effect in effects)
-    return np.interp(values, _TABULATED, np.sqrt(squares)).astype(np.float32)
-
 
 class FileEffect(Effect):
     """An effect of the file that the picture is kept in."""
@@ -172,7 +133,20 @@ class FileEffect(Effect):
 
     @abstractmethod
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Return the picture as it is read back from the file."""
+        """Return the picture as it is read back from the file.
+
+        Rows of whole blocks, eight rows each, give the same as they do in a larger picture.
+        """
+
+    @abstractmethod
+    def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
+        """Refuse a picture that the file cannot hold.
+
+        Raises
+        ------
+        ParameterError
+            Naming its size, and what is allowed.
+        """
 
     @abstractmethod
     def rounding_of_means(self, scene: Scene) -> tuple[float, float]:

@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 
-from occ_model.arrays import Pixels
+from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
@@ -46,10 +47,10 @@ class Emission(OpticsEffect):
         """Darken the panel by the angle at which each pixel sees it."""
         power = scene.transmitter.lambertian_order - 1.0
 
-        def gain(rows: range) -> Pixels:
-            x, y = pixel_rays(scene.camera, rows)
-            cosines = np.minimum(np.abs(_cosine(scene, x, y)), 1.0)
-            return np.asarray(cosines ** np.float32(power), dtype=np.float32)
+        def gain(rows: FloatArray, columns: slice) -> Pixels:
+            x, y = pixel_rays(scene.camera, rows, columns)
+            cosines = np.minimum(np.abs(_cosine(scene, x, y)), np.float32(1.0))
+            return np.asarray(cv2.pow(cosines, power), dtype=np.float32)
 
         return replace(optics, emission=(*optics.emission, Gain(self.name, gain)))
 

@@ -81,23 +81,26 @@ class Jpeg(FileEffect):
         most = math.sqrt(float((steps**2).mean())) / 2.0 + 2.0 * _ROUNDING
         return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0, most
 
-    def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Write and read the file.
+    def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
+        """Refuse a picture that is larger than a JPEG file can hold.
 
         Raises
         ------
         ParameterError
-            The picture is larger than a JPEG file can hold.
+            Naming its size, and what is allowed.
         """
-        if not self.is_present(scene):
-            return image
-        if max(image.shape) > LONGEST_SIDE["JPEG"]:
+        if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:
             raise ParameterError(
                 f"jpeg_quality is {scene.camera.jpeg_quality}, and the picture has "
-                f"{image.shape[0]} rows and {image.shape[1]} columns; allowed: jpeg_quality 0, or "
+                f"{shape[0]} rows and {shape[1]} columns; allowed: jpeg_quality 0, or "
                 f"up to {LONGEST_SIDE['JPEG']} of each.",
                 parameters=("jpeg_quality", "rows", "columns"),
             )
+
+    def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
+        """Write and read the file."""
+        if not self.is_present(scene):
+            return image
         quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]
         _, file = cv2.imencode(".jpg", image, quality)
         return np.asarray(cv2.imdecode(file, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)

@@ -6,7 +6,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from occ_model.arrays import Pixels
+from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import pixel_rays
 from occ_model.effects.effect import OpticsEffect
@@ -44,8 +44,8 @@ class Vignetting(OpticsEffect):
         """Darken every pixel by its angle."""
         power = -scene.lens.vignetting_exponent / 2.0
 
-        def gain(rows: range) -> Pixels:
-            x, y = pixel_rays(scene.camera, rows)
+        def gain(rows: FloatArray, columns: slice) -> Pixels:
+            x, y = pixel_rays(scene.camera, rows, columns)
             return np.asarray(cv2.pow(1.0 + x * x + y * y, power), dtype=np.float32)
 
         return replace(optics, transmission=(*optics.transmission, Gain(self.name, gain)))

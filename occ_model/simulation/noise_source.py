@@ -8,12 +8,13 @@ from zlib import crc32
 import numpy as np
 
 from occ_model.arrays import Pixels
-from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.effect import NoiseEffect
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource
 
-StageEnded: TypeAlias = Callable[[str], None]
-"""Called with the name of a stage that has just ended."""
+Drawn: TypeAlias = Callable[[], Sequence[tuple[Sequence[NoiseEffect], Pixels]]]
+"""Gives numbers of the standard normal distribution, shape (rows, columns), which are the caller's
+own, and the effects whose noise they are together."""
 
 _PLANE = 2**21
 """Numbers in the plane: eight megabytes, which fit the processor's cache."""
@@ -22,19 +23,10 @@ _PLANE = 2**21
 class Noise(Protocol):
     """A source of the deviation of every pixel from its mean."""
 
-    def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Return the deviations of the next rows, in grey levels.
+    def draw(self, rows: int) -> Drawn:
+        """Draw the numbers of the next rows.
 
-        Parameters
-        ----------
-        values : ndarray of float32, shape (rows, columns) or (1, columns)
-            Mean pixel values before saturation.
-        rows
-            How many rows.
-
-        Returns
-        -------
-        ndarray of float32, shape (rows, columns)
+        Rows are drawn in order; what is drawn may be used at any time, in any thread.
         """
 
 
@@ -52,21 +44,18 @@ def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
 class ExactNoise:
     """Noise drawn for every pixel, for each effect from its own stream."""
 
-    def __init__(
-        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
-    ) -> None:
-        self._scene = scene
-        self._stage_ended = stage_ended
+    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:
+        self._columns = scene.camera.columns
         self._streams = [(effect, stream(effect, seed)) for effect in effects]
 
-    def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Return the deviations of the next rows."""
-        total = np.zeros((rows, values.shape[1]), dtype=np.float32)
-        for effect, random in self._streams:
-            normal = random.standard_normal(total.shape, dtype=np.float32)
-            total += effect.apply(self._scene, values, normal)
-            self._stage_ended(effect.name)
-        return total
+    def draw(self, rows: int) -> Drawn:
+        """Draw the numbers of the next rows."""
+        shape = rows, self._columns
+        drawn = [
+            ((effect,), random.standard_normal(shape, dtype=np.float32))
+            for effect, random in self._streams
+        ]
+        return lambda: drawn
 
 
 class ReusedNoise:
@@ -77,27 +66,15 @@ class ReusedNoise:
     means.
     """
 
-    def __init__(
-        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
-    ) -> None:
-        self._scene = scene
+    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:
         self._effects = effects
-        self._stage_ended = stage_ended
         self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
         self._places = _plane(scene.camera.columns)
-        self._values: Pixels | None = None
-        self._spread: Pixels = np.empty(0, dtype=np.float32)
 
-    def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Return the deviations of the next rows."""
+    def draw(self, rows: int) -> Drawn:
+        """Draw the places of the next rows."""
         chosen = self._random.integers(0, len(self._places), rows)
-        total: Pixels = self._places[chosen]
-        if values is not self._values:  # most rows have the mean values of the previous rows
-            self._values = values
-            self._spread = pixel_spread(self._effects, self._scene, values)
-        total *= self._spread
-        self._stage_ended(self._effects[-1].name)  # all noises at once
-        return total
+        return lambda: [(self._effects, self._places[chosen])]
 
 
 @lru_cache(maxsize=2)
@@ -113,9 +90,7 @@ def _plane(columns: int) -> Pixels:
 class NoiseMaker(Protocol):
     """Makes the source of noise of one picture."""
 
-    def __call__(
-        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded, /
-    ) -> Noise:
+    def __call__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, /) -> Noise:
         """Return a source of these effects' noise together."""
 
 

@@ -8,17 +8,21 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.optics import Optics, Panel, in_blocks, picture_rows
+from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.picture_rows import PictureRows, Rows, in_blocks
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
+from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
 from occ_model.results import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
+from occ_model.simulation.column_means import ColumnMeans
 from occ_model.simulation.columns import Columns
 from occ_model.simulation.draft_error import DraftedPanel
-from occ_model.simulation.noise_source import NOISE_MAKERS, Noise, NoiseMaker
+from occ_model.simulation.noise_source import NOISE_MAKERS, Drawn, NoiseMaker
 from occ_model.simulation.stage_timer import StageTimer
+from occ_model.simulation.threads import each_in_threads
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -31,17 +35,13 @@ class ExposedRows:
         The rows of the picture that is made: those exposed, one below the other.
     values : ndarray of float32, shape (rows, columns)
         Pixel values from 0 to 255.
-    panel
-        Where the panel is.
+    mean
+        The same without noise, and where the panel is.
     """
 
     place: slice
     values: Pixels
-    panel: Panel
-
-    def to_bytes(self, out: ByteArray) -> None:
-        """Round the values to bytes."""
-        cv2.convertScaleAbs(self.values, dst=out)
+    mean: Rows
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,6 +63,16 @@ class Pictures:
     signal: FloatArray
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Band:
+    """Rows to expose: their place in the picture that is made, their own, and their noise."""
+
+    place: slice
+    rows: range
+    drawn: Drawn | None
+    timer: StageTimer
+
+
 class PixelExposure:
     """The pixels of a picture.
 
@@ -77,7 +87,13 @@ class PixelExposure:
     timer
         Times each stage.
     bands
-        The rows that are exposed, in order; None for the whole picture.
+        The rows that are exposed, in order, each a whole number of blocks of a JPEG file but the
+        last; None for the whole picture.
+
+    Raises
+    ------
+    ParameterError
+        The picture is too large for the file that the scene asks for.
     """
 
     def __init__(
@@ -98,10 +114,14 @@ class PixelExposure:
         self._bands = bands or in_blocks(range(scene.camera.rows))
         height = sum(len(band) for band in self._bands)
         self._shape = (height, scene.camera.columns)
+        for file in self._files:
+            file.check_size(scene, self._shape)
         self._optics = Optics(view.corners)
         for effect in planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
             timer.stage_ended(effect.name)
+        self._mean = PictureRows(scene, self._optics, columns.panel, columns.surroundings)
+        timer.stage_ended(self._optics.cover_stage)
 
     def drafted_panel(self, rows: range) -> DraftedPanel:
         """Return where a draft with these rows shows the panel."""
@@ -114,31 +134,50 @@ class PixelExposure:
 
     def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
         """Expose the rows from first to last."""
-        make = NOISE_MAKERS[source] if isinstance(source, str) else source
-        noise: Noise | None = None
-        place = 0
-        if self._noises:
-            noise = make(self._noises, self._scene, seed, self._timer.stage_ended)
-        light = (self._columns.panel, self._columns.surroundings)
-        ended = self._timer.stage_ended
-        for rows in picture_rows(self._scene, self._optics, *light, ended, self._bands):
-            mean = self._saturated(rows.values)
-            height = len(rows.place)
-            if noise is None:
-                values = np.ascontiguousarray(np.broadcast_to(mean, (height, mean.shape[1])))
-            else:
-                values = noise.deviation(rows.values, height)
-                values += mean
-                np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
-            yield ExposedRows(slice(place, place + height), values, rows.panel)
-            place += height
+        spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
+        for band in self._drawn(seed, source):
+            yield self._exposed(band, spreads)
 
-    def _saturated(self, mean: Pixels) -> Pixels:
+    def _drawn(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[_Band]:
+        """Draw the noise of band after band."""
+        make = NOISE_MAKERS[source] if isinstance(source, str) else source
+        noise = make(self._noises, self._scene, seed) if self._noises else None
+        place = 0
+        for rows in self._bands:
+            timer = StageTimer()
+            drawn = None
+            if noise is not None:
+                drawn = noise.draw(len(rows))
+                timer.stage_ended(self._noises[-1].name)
+            yield _Band(slice(place, place + len(rows)), rows, drawn, timer)
+            place += len(rows)
+
+    def _exposed(
+        self, band: _Band, spreads: dict[Sequence[NoiseEffect], NoiseSpread]
+    ) -> ExposedRows:
+        timer = band.timer
+        timer.begin()
+        mean = self._mean.of(band.rows, timer.stage_ended)
+        values = mean.values
+        noise: Pixels | None = None
+        for effects, normal in band.drawn() if band.drawn else ():
+            if effects not in spreads:
+                spreads[effects] = NoiseSpread(effects, self._scene)
+            normal *= spreads[effects].of_rows(mean, values)
+            noise = normal if noise is None else np.add(noise, normal, out=noise)
+            timer.stage_ended(effects[-1].name)
+        values = self._saturated(values, timer)
+        if noise is not None:
+            values += noise
+            np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
+        return ExposedRows(band.place, values, mean)
+
+    def _saturated(self, mean: Pixels, timer: StageTimer) -> Pixels:
         """Limit mean values to those that a pixel can hold."""
         for limit in self._limits:
             mean = limit.apply(self._scene, mean)
-            self._timer.stage_ended(limit.name)
-        return np.minimum(mean, np.float32(WHITE))
+            timer.stage_ended(limit.name)
+        return np.minimum(mean, np.float32(WHITE), out=mean)
 
     def pictures(
         self, enhancement: Enhancement, seed: int, source: NoiseSource | NoiseMaker
@@ -146,25 +185,30 @@ class PixelExposure:
         """Make the camera's picture and the receiver's, of the exposed rows."""
         camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
-        before, after = _ColumnMeans(self._shape[1]), _ColumnMeans(self._shape[1])
-        panels: list[tuple[slice, Panel]] = []
-        for exposed in self.rows(seed, source):
-            rows, panel = exposed.place, exposed.panel
-            exposed.to_bytes(out=camera_image[rows])
-            if self._files:
-                panels.append((rows, panel))
-            else:
-                before.add(panel, exposed.values)
-                _enhance(camera_image[rows], enhancement, panel, out=image[rows])
-                after.add(panel, image[rows])
-            self._timer.stage_ended("image")
-        if self._files:
-            camera_image = self._through_files(camera_image)
-            for rows, panel in panels:
-                before.add(panel, camera_image[rows])
-                _enhance(camera_image[rows], enhancement, panel, out=image[rows])
-                after.add(panel, image[rows])
-            self._timer.stage_ended("image")
+        spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
+
+        def make(band: _Band) -> tuple[ColumnMeans, ColumnMeans, StageTimer]:
+            exposed, timer = self._exposed(band, spreads), band.timer
+            before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
+            camera, receiver = camera_image[band.place], image[band.place]
+            cv2.convertScaleAbs(exposed.values, dst=camera)
+            timer.stage_ended("image")
+            for file in self._files:
+                camera[:] = file.apply(self._scene, camera)
+                timer.stage_ended(file.name)
+            before.add(exposed.mean, camera if self._files else exposed.values)
+            _enhance(camera, enhancement, exposed.mean, out=receiver)
+            after.add(exposed.mean, receiver)
+            timer.stage_ended("image")
+            return before, after, timer
+
+        before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
+        timers = []
+        for of_camera, of_receiver, timer in each_in_threads(make, self._drawn(seed, source)):
+            before.include(of_camera)
+            after.include(of_receiver)
+            timers.append(timer)
+        self._timer.parallel_stages_ended(timers)
         profile = self._columns.profile
         enhanced = enhancement(profile).astype(np.float64)
         return Pictures(camera_image, image, before.means(profile), after.means(enhanced))
@@ -180,56 +224,22 @@ class PixelExposure:
         """
         image = np.empty(self._shape, dtype=np.float32)
         for exposed in self.rows(seed, source):
-            image[exposed.place] = exposed.values
-        if self._files:
-            image = self._through_files(to_bytes(image)).astype(np.float32)
+            values = exposed.values
+            for file in self._files:
+                read = file.apply(self._scene, to_bytes(values))
+                values = read.astype(np.float32)
+            image[exposed.place] = values
         seen = self._region.crop(image)
         if observable == "image":
             return seen
         return np.asarray(seen.mean(axis=0, dtype=np.float64), dtype=np.float32)
 
-    def _through_files(self, image: ByteArray) -> ByteArray:
-        for file in self._files:
-            image = file.apply(self._scene, image)
-            self._timer.stage_ended(file.name)
-        return image
 
-
-def _enhance(
-    camera_image: ByteArray, enhancement: Enhancement, panel: Panel, out: ByteArray
-) -> None:
+def _enhance(camera_image: ByteArray, enhancement: Enhancement, rows: Rows, out: ByteArray) -> None:
     """Enhance grey levels within the panel, and copy them beside it."""
     out[:] = camera_image
-    if not isinstance(panel, slice):
-        np.copyto(out, enhancement.of_bytes(camera_image), where=panel)
-    elif panel.stop > panel.start:  # OpenCV has no pictures without columns
-        out[:, panel] = enhancement.of_bytes(camera_image[:, panel])
-
-
-class _ColumnMeans:
-    """The mean of the panel's pixels in each column, from some rows at a time."""
-
-    def __init__(self, columns: int) -> None:
-        self._sums = np.zeros(columns)
-        self._counts = np.zeros(columns, dtype=np.int64)
-
-    def add(self, panel: Panel, values: Pixels | ByteArray) -> None:
-        """Add some rows."""
-        if not isinstance(panel, slice):
-            self._sums += _column_sums(np.where(panel, values, values.dtype.type(0)))
-            self._counts += np.count_nonzero(panel, axis=0)
-        elif panel.stop > panel.start:
-            self._sums[panel] += _column_sums(values[:, panel])
-            self._counts[panel] += len(values)
-
-    def means(self, otherwise: FloatArray) -> FloatArray:
-        """Return the means, and ``otherwise`` in columns without pixels."""
-        means = self._sums / np.maximum(self._counts, 1)
-        return np.asarray(np.where(self._counts > 0, means, otherwise))
-
-
-def _column_sums(values: Pixels | ByteArray) -> FloatArray:
-    # Bytes are summed as integers, many times faster; a picture has too few rows to exceed 32 bits.
-    exact = cv2.CV_32S if values.dtype == np.uint8 else cv2.CV_64F
-    sums = cv2.reduce(values, 0, cv2.REDUCE_SUM, dtype=exact)
-    return np.asarray(sums[0], dtype=np.float64)
+    for columns in rows.inside:
+        out[:, columns] = enhancement.of_bytes(camera_image[:, columns])
+    for rim in rows.rims:
+        enhanced = enhancement.of_bytes(camera_image[:, rim.columns])
+        np.copyto(out[:, rim.columns], enhanced, where=rim.inside)

@@ -7,8 +7,8 @@ import numpy as np
 
 from occ_model.arrays import Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.optics import in_blocks
 from occ_model.camera.photometry import FLAT
+from occ_model.camera.picture_rows import in_blocks
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of

@@ -12,14 +12,14 @@ from statistics import NormalDist
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, Pixels
+from occ_model.arrays import ByteArray, IndexArray, Pixels
 from occ_model.camera.enhancement import Enhancement
-from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.paper_view import PaperView
 from occ_model.results import Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise_source import StageEnded
+from occ_model.simulation.noise_source import Drawn
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -148,29 +148,26 @@ class SystematicNoise:
     share the numbers, scaled to their total deviation.
     """
 
-    def __init__(
-        self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, stage_ended: StageEnded
-    ) -> None:
+    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:
         self._effects = effects
-        self._scene = scene
-        self._stage_ended = stage_ended
         random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
         self._first = random.random((BAND, scene.camera.columns), dtype=np.float32)
         self._row = 0
 
-    def deviation(self, values: Pixels, rows: int) -> Pixels:
-        """Return the deviations of the next rows."""
+    def draw(self, rows: int) -> Drawn:
+        """Choose the quantiles of the next rows."""
         place = self._row + np.arange(rows)
         self._row += rows
+        return lambda: [(self._effects, self._normal(place))]
+
+    def _normal(self, place: IndexArray) -> Pixels:
         band = place // BAND
         step = (band // 2 * _STRIDE % _PAIRS / _PAIRS).astype(np.float32)
         quantile = self._first[place % BAND] + step[:, None]
         entry = (quantile * _ENTRIES).astype(np.int32) % _ENTRIES
-        total: Pixels = _deviates()[entry]
-        total[band % 2 == 1] *= np.float32(-1.0)
-        total *= pixel_spread(self._effects, self._scene, values)
-        self._stage_ended(self._effects[-1].name)  # all noises at once
-        return total
+        normal: Pixels = _deviates()[entry]
+        normal[band % 2 == 1] *= np.float32(-1.0)
+        return normal
 
 
 @lru_cache(maxsize=1)

@@ -23,6 +23,10 @@ class StageTimer:
         self._add(stage, now - self._last)
         self._last = now
 
+    def begin(self) -> None:
+        """Count no time since the last stage ended: what comes now is done in another thread."""
+        self._last = perf_counter()
+
     def parallel_stages_ended(self, timers: Sequence[Self]) -> None:
         """Divide the time since the last stage ended among stages that ran at the same time.
 

@@ -16,7 +16,8 @@ from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.effect import NoiseEffect
+from occ_model.effects.noise_spread import pixel_spread
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned

@@ -11,7 +11,8 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
 from occ_model.camera.photometry import WHITE, saturate
-from occ_model.effects.effect import NoiseEffect, PixelEffect, pixel_spread
+from occ_model.effects.effect import NoiseEffect, PixelEffect
+from occ_model.effects.noise_spread import pixel_spread
 from occ_model.effects.registry import planned
 from occ_model.receiver.locate import bright_level, cell_size, least_bright_share
 from occ_model.results import Plan, Region

@@ -12,7 +12,7 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
-from occ_model.effects.effect import pixel_spread
+from occ_model.effects.noise_spread import pixel_spread
 from occ_model.effects.registry import NOISES
 from occ_model.scene.scene import Scene
 from occ_model.study import theory

@@ -98,7 +98,8 @@ def gain_of(effect: OpticsEffect, scene: Scene) -> np.ndarray:
     optics = effect.apply(scene, Optics(np.zeros((4, 2))))
     (gain,) = (*optics.emission, *optics.transmission)
     assert isinstance(gain, Gain)
-    return gain.rows(range(scene.camera.rows)).astype(np.float64)
+    rows = np.arange(scene.camera.rows, dtype=np.float64)
+    return gain.at(rows, slice(None)).astype(np.float64)
 
 
 def corner_rays(scene: Scene) -> list[tuple[int, int, mpmath.matrix]]:

@@ -13,15 +13,17 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.picture_rows import Rim, Rows
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import Region
 from occ_model.scene.scene import Scene
+from occ_model.simulation.column_means import ColumnMeans
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.noise_source import ReusedNoise
-from occ_model.simulation.pixels import ExposedRows, PixelExposure, _ColumnMeans
+from occ_model.simulation.pixels import ExposedRows, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.confidence import wilson_interval
 
@@ -106,15 +108,24 @@ def panels_of_rows(draw: st.DrawFn) -> list[tuple[np.ndarray, np.ndarray | slice
     return blocks
 
 
+def rows_with(panel: np.ndarray | slice, values: np.ndarray) -> Rows:
+    """Rows that show the panel there."""
+    if isinstance(panel, slice):
+        inside = (panel,) if panel.stop > panel.start else ()
+        return Rows(range(len(values)), values, None, (), inside)
+    rim = Rim(slice(0, values.shape[1]), values, panel)
+    return Rows(range(len(values)), values, None, (rim,), ())
+
+
 @cases(blocks=panels_of_rows())
 def test_profile_means_are_those_of_exact_sums(
     blocks: list[tuple[np.ndarray, np.ndarray | slice]],
 ) -> None:
     columns = blocks[0][0].shape[1]
-    tally = _ColumnMeans(columns)
+    tally = ColumnMeans(columns)
     seen: list[list[float]] = [[] for _ in range(columns)]
     for values, panel in blocks:
-        tally.add(panel, values)
+        tally.add(rows_with(panel, values), values)
         mask = np.zeros(values.shape, dtype=bool)
         mask[(slice(None), panel) if isinstance(panel, slice) else panel] = True
         for column, kept in enumerate(seen):
@@ -150,8 +161,7 @@ def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
     chosen = np.array([0, 1, 1000, 1735, 3470, 3471])
     kept, total = [], 0.0
     for rows in blocks_of(exposure):
-        assert isinstance(rows.panel, slice)
-        assert rows.panel == slice(0, 3472)
+        assert rows.mean.inside == (slice(0, 3472),)
         kept.append(rows.values[:, chosen])
         total += float(rows.values.sum(dtype=np.float64))
     pixels = np.concatenate(kept).astype(np.float64)
@@ -176,7 +186,7 @@ def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
 def test_noise_that_is_used_again_has_no_mean_of_its_own() -> None:
     # Two million numbers in single precision, whose own sum would be off in the fifth digit.
     scene = Scene().replace(columns=1, rows=4)
-    noise = ReusedNoise([SensorNoise()], scene, 1, lambda _: None)
+    noise = ReusedNoise([SensorNoise()], scene, 1)
     numbers = noise._places[:, 0]
     mean = math.fsum(numbers.tolist()) / len(numbers)
     square = math.fsum((numbers.astype(np.float64) ** 2).tolist()) / len(numbers)

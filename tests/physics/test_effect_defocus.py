@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.camera.optics import Optics, picture_rows
+from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
     ColumnLight,
     luminance_levels,
@@ -14,6 +14,7 @@ from occ_model.camera.photometry import (
     panel_values,
     surroundings_values,
 )
+from occ_model.camera.picture_rows import PictureRows, in_blocks
 from occ_model.effects.defocus import Defocus, blur_of
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
@@ -47,8 +48,9 @@ def pictured_luminance(scene: Scene) -> np.ndarray:
     light = ColumnLight.of(scene)
     panel = panel_values(scene, light)
     around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
-    rows = picture_rows(scene, optics, panel, around, lambda stage: None)
-    return luminance_of(np.concatenate([part.values for part in rows]), scene.camera)
+    rows = PictureRows(scene, optics, panel, around)
+    parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
+    return luminance_of(np.concatenate(parts), scene.camera)
 
 
 def panel_share(scene: Scene) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.camera.optics import Optics, picture_rows
+from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
     ColumnLight,
     luminance_levels,
@@ -14,6 +14,7 @@ from occ_model.camera.photometry import (
     panel_values,
     surroundings_values,
 )
+from occ_model.camera.picture_rows import PictureRows, in_blocks
 from occ_model.camera.projection import image_points
 from occ_model.effects.emission import Emission
 from occ_model.effects.paper_view import paper_view_of
@@ -48,8 +49,9 @@ def pictured_luminance(scene: Scene) -> np.ndarray:
     light = ColumnLight.of(scene)
     panel = panel_values(scene, light)
     around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
-    rows = picture_rows(scene, optics, panel, around, lambda stage: None)
-    return luminance_of(np.concatenate([part.values for part in rows]), scene.camera)
+    rows = PictureRows(scene, optics, panel, around)
+    parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
+    return luminance_of(np.concatenate(parts), scene.camera)
 
 
 @pytest.mark.parametrize("order", [1.5, 2.0, 3.0, 10.0])
@@ -103,7 +105,7 @@ def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
     normal = turned(0.0, 0.0, -1.0)
     place = np.array([pose.offset_x, pose.offset_y, pose.distance])
     optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
-    gains = optics.emission[0].rows(range(ROWS))
+    gains = optics.emission[0].at(np.arange(ROWS, dtype=np.float64), slice(None))
     for x, y in ((-0.2, -0.3), (0.1, -0.3), (0.1, 0.2), (0.0, 0.0)):
         point = turned(x, y, 0.0) + place
         column, row = np.rint(image_points(point[:2] / point[2], scene.camera)).astype(int)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.effect import NoiseEffect, pixel_spread
+from occ_model.effects.effect import NoiseEffect
+from occ_model.effects.noise_spread import pixel_spread
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
 from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise, stream
@@ -32,10 +33,16 @@ def values_of(scene: Scene, force: dict[str, bool], source: str = "exact") -> np
 
 def reused(scene: Scene, seed: int, rows: int, level: float = 80.0) -> np.ndarray:
     """Deviations over an even grey, shape (rows, columns)."""
-    noise: Noise = ReusedNoise(SHOT, scene, seed, lambda stage: None)
+    noise: Noise = ReusedNoise(SHOT, scene, seed)
     values = np.full((1, scene.camera.columns), level, dtype=np.float32)
-    parts = [noise.deviation(values, end - start) for start, end in blocks(rows)]
-    return np.concatenate(parts).astype(float)
+    parts = [drawn(noise, end - start) for start, end in blocks(rows)]
+    return np.concatenate(parts).astype(float) * pixel_spread(SHOT, scene, values)
+
+
+def drawn(noise: Noise, rows: int) -> np.ndarray:
+    """The next rows of a source with one effect."""
+    ((_, numbers),) = noise.draw(rows)()
+    return numbers
 
 
 def blocks(rows: int) -> list[tuple[int, int]]:
@@ -72,10 +79,9 @@ def test_streams_of_effects_and_seeds_are_independent() -> None:
 def test_noise_does_not_depend_on_the_blocks_that_it_is_drawn_in(
     scene: Scene, source: type[ExactNoise] | type[ReusedNoise]
 ) -> None:
-    values = np.full((1, COLUMNS), 100.0, dtype=np.float32)
-    whole = source(SHOT, scene, 3, lambda stage: None).deviation(values, 37)
-    parts = source(SHOT, scene, 3, lambda stage: None)
-    pieces = [parts.deviation(values, rows) for rows in (1, 20, 3, 13)]
+    whole = drawn(source(SHOT, scene, 3), 37)
+    parts = source(SHOT, scene, 3)
+    pieces = [drawn(parts, rows) for rows in (1, 20, 3, 13)]
     np.testing.assert_array_equal(np.concatenate(pieces), whole)
 
 

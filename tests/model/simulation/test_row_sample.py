@@ -44,12 +44,10 @@ def test_sampled_rows_are_rows_of_the_picture(number: int) -> None:
     sample = sample_picture(view, plan, 1)
     assert sample is not None
     whole = render_plan(view, plan, seed=1).image
-    bands = {
-        band.tobytes()
-        for band in whole[: len(whole) // BAND * BAND].reshape(-1, BAND, whole.shape[1])
-    }
+    bands = whole[: len(whole) // BAND * BAND].reshape(-1, BAND, whole.shape[1])
     sampled = sample.image.reshape(-1, BAND, whole.shape[1])
-    assert all(band.tobytes() in bands for band in sampled)
+    for band in sampled:  # interpolated from other rows, a pixel may round to the next level
+        assert (bands == band).mean(axis=(1, 2)).max() > 0.999
     assert len({band.tobytes() for band in sampled}) > BANDS / 2
 
 
@@ -80,10 +78,8 @@ def test_the_samples_column_means_are_those_of_the_picture(number: int) -> None:
 def test_noise_spread_over_the_bands_leaves_their_mean() -> None:
     scene = occ.load_preset("phone-136us").replace(columns=600)
     (effect,) = (e for e in NOISES if e.name == "sensor-noise")
-    level = np.full((1, 600), 120.0, dtype=np.float32)
-    spread = float(effect.spread(scene, np.array([120.0]))[0])
-    source = SystematicNoise([effect], scene, 3, lambda _stage: None)
-    blocks = np.stack([source.deviation(level, BAND) for _ in range(BANDS)]) / spread
+    source = SystematicNoise([effect], scene, 3)
+    blocks = np.stack([source.draw(BAND)()[0][1] for _ in range(BANDS)])
     assert abs(blocks.mean()) < 0.02
     assert blocks.std() == pytest.approx(1.0, abs=0.02)
     # Drawn numbers would leave 1 / sqrt(BANDS * BAND) = 0.07.

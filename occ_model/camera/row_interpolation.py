@@ -1,0 +1,60 @@
+"""Interpolation from a few rows to all rows of a band.
+
+Within a band of rows the light changes smoothly with the row, so that a polynomial through its
+values at a few nodes gives all its rows. At the Chebyshev nodes its error falls geometrically with
+their number, and the last coefficients of its Chebyshev series tell how small it is (L. N.
+Trefethen, *Approximation Theory and Approximation Practice*, 2013, chapters 3 and 8).
+"""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebvander
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray, Pixels
+
+NODES = 6
+"""Nodes of a band."""
+
+TOLERANCE = 2e-3
+"""Largest error of mean values, in grey levels: far less than rounding to bytes hides."""
+
+
+def node_rows(rows: range) -> FloatArray:
+    """Return the nodes of a band of evenly spaced rows, shape (nodes,): places between its rows."""
+    first, last = rows[0], rows[-1]
+    return np.asarray((first + last) / 2.0 + (last - first) / 2.0 * _nodes())
+
+
+@lru_cache(maxsize=16)
+def row_weights(rows: int) -> Pixels:
+    """Return the weights that make a band's rows from its nodes, shape (rows, nodes)."""
+    found = chebvander(np.linspace(-1.0, 1.0, rows), NODES - 1) @ _coefficients()
+    return np.asarray(found, dtype=np.float32)
+
+
+def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
+    """Return in which columns the rows follow from values at the nodes, shape (columns,).
+
+    Parameters
+    ----------
+    values : ndarray of float32, shape (nodes, columns)
+        In grey levels.
+    tolerance
+        Largest error, in grey levels.
+    """
+    last = np.abs(_coefficients()[-2:].astype(np.float32) @ values)
+    return np.asarray(last.sum(axis=0) <= tolerance)
+
+
+def _nodes() -> FloatArray:
+    return np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
+
+
+@lru_cache(maxsize=1)
+def _coefficients() -> FloatArray:
+    """Return what makes Chebyshev coefficients of the values at the nodes, shape (nodes, nodes)."""
+    transform = 2.0 / NODES * chebvander(_nodes(), NODES - 1).T
+    transform[0] /= 2.0
+    return np.asarray(transform)

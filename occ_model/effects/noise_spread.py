@@ -1,0 +1,93 @@
+"""The standard deviation of noise, for many pixels."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.picture_rows import Rows
+from occ_model.camera.row_interpolation import smooth_columns
+from occ_model.effects.effect import NoiseEffect
+from occ_model.scene.scene import Scene
+
+_PER_LEVEL = 4
+"""Entries of the table to a grey level."""
+
+_TABULATED: FloatArray = np.arange(256 * _PER_LEVEL + 1) / _PER_LEVEL
+
+_TOLERANCE = 0.01
+"""Largest error of an interpolated deviation, in grey levels."""
+
+
+class NoiseSpread:
+    """The standard deviation of all noise of some effects together, in grey levels.
+
+    Parameters
+    ----------
+    effects
+        The noise.
+    scene
+        The scene.
+    """
+
+    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene) -> None:
+        self._effects = effects
+        self._scene = scene
+        self._table = self._exact(_TABULATED).astype(np.float32)
+        self._steps = np.append(np.diff(self._table), np.float32(0.0))
+        self._known: tuple[Pixels | None, Pixels] = (None, self._table)
+
+    def __call__(self, values: Pixels) -> Pixels:
+        """Return the deviations of pixels with some mean values before saturation, same shape.
+
+        Those of more than one row are read from a table, in quarters of a grey level.
+        """
+        if len(values) == 1:
+            return self._exact(values.astype(np.float64)).astype(np.float32)
+        place = np.clip(values, np.float32(0.0), np.float32(_TABULATED[-1]))
+        place *= np.float32(_PER_LEVEL)
+        entry = place.astype(np.int32)
+        place -= entry
+        place *= self._steps[entry]
+        place += self._table[entry]
+        return place
+
+    def of_rows(self, rows: Rows, values: Pixels) -> Pixels:
+        """Return the deviations of all pixels of some rows, shape (rows, columns).
+
+        Parameters
+        ----------
+        rows
+            The rows.
+        values : ndarray of float32, shape (rows, columns)
+            Their mean values before saturation.
+        """
+        known, spread = self._known
+        if rows.nodes is not known:  # most rows are like the previous rows
+            spread = self(rows.nodes)
+            self._known = (rows.nodes, spread)
+        found = rows.spread_out(spread, [self(rim.values) for rim in rows.rims])
+        if rows.weights is not None:
+            bent = ~smooth_columns(spread, _TOLERANCE)
+            if bent.any():
+                found[:, bent] = self(values[:, bent])
+        return found
+
+    def _exact(self, values: FloatArray) -> FloatArray:
+        squares = sum(effect.spread(self._scene, values) ** 2 for effect in self._effects)
+        return np.asarray(np.sqrt(squares))
+
+
+def pixel_spread(effects: Sequence[NoiseEffect], scene: Scene, values: Pixels) -> Pixels:
+    """Return the standard deviation in grey levels of all noise together, shape as ``values``.
+
+    Parameters
+    ----------
+    effects
+        The noise.
+    scene
+        The scene.
+    values : ndarray of float32, shape (rows, columns)
+        Mean pixel values before saturation.
+    """
+    return NoiseSpread(effects, scene)(values)

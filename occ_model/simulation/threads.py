@@ -1,0 +1,46 @@
+"""Work on the bands of a picture in several threads, its results in order.
+
+numpy and OpenCV release the interpreter's lock while they compute.
+"""
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TypeVar
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
+
+_AHEAD = 2
+"""Items for each thread that are prepared before their turn."""
+
+
+def threads() -> int:
+    """Return how many threads compute: one a core, or fewer if OMP_NUM_THREADS says so.
+
+    Worker processes, of which there is one a core, are started with one thread each.
+    """
+    cores = os.cpu_count() or 1
+    wanted = os.environ.get("OMP_NUM_THREADS", "")
+    return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores
+
+
+def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
+    """Do the work for each item, in threads; yield the results in the order of the items.
+
+    Items are taken in the calling thread, a few ahead of the work: what is drawn there at random
+    does not depend on the threads.
+    """
+    count = threads()
+    if count == 1:
+        yield from map(work, items)
+        return
+    waiting: deque[Future[_Result]] = deque()
+    with ThreadPoolExecutor(count, "band") as pool:
+        for item in items:
+            waiting.append(pool.submit(work, item))
+            if len(waiting) > _AHEAD * count:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()

@@ -17,6 +17,12 @@ _FINE = 4.0
 _SAMPLED = 16
 """Rows of a cell that are sampled where the outline is high: they are as good as all."""
 
+_FEW_ROWS = 4
+"""Rows of a rim that are not divided further."""
+
+_WIDE = 4
+"""Width of a rim, in those of the blur, from which its rows are divided."""
+
 _EXACT = 4096
 """Rows of an outline that are all used: a blur may be wider than the panel is high."""
 
@@ -74,22 +80,23 @@ class Coverage:
             covered[:, part.columns] = part.share
         return covered
 
-    def parts(self, rows: range) -> list[CoveredPart]:
+    def parts(self, rows: range, columns: slice | None = None) -> list[CoveredPart]:
         """Return some rows part by part, from the left: the rims of the panel and what is between.
 
         Between its rims the panel covers either all of each pixel or nothing.
         """
-        parts, before = [], 0
-        for start, stop in self._rims(rows):
+        columns = columns or slice(0, self._columns)
+        parts, before = [], columns.start
+        for start, stop in self._rims(rows, columns):
             if start > before:
                 parts.append(self._even(rows, slice(before, start)))
             parts.append(CoveredPart(slice(start, stop), self._rim(rows, slice(start, stop))))
             before = stop
-        if before < self._columns:
-            parts.append(self._even(rows, slice(before, self._columns)))
+        if before < columns.stop:
+            parts.append(self._even(rows, slice(before, columns.stop)))
         return parts
 
-    def _rims(self, rows: range) -> list[tuple[int, int]]:
+    def _rims(self, rows: range, columns: slice) -> list[tuple[int, int]]:
         """Return the columns near which the outline runs in some rows, from the left."""
         (x0, y0), (x1, y1) = self._starts, self._ends
         reach = self._margin + self._cell
@@ -99,8 +106,8 @@ class Coverage:
         ends = np.array([[0.0], [1.0]]) + np.zeros(len(x0))
         np.divide([[low], [high]] - y0, y1 - y0, out=ends, where=y0 != y1)
         x = x0 + np.clip(ends, 0.0, 1.0) * (x1 - x0)
-        start = np.clip(np.floor(x.min(axis=0)) - reach, 0, self._columns)
-        stop = np.clip(np.ceil(x.max(axis=0)) + reach + 1, 0, self._columns)
+        start = np.clip(np.floor(x.min(axis=0)) - reach, columns.start, columns.stop)
+        stop = np.clip(np.ceil(x.max(axis=0)) + reach + 1, columns.start, columns.stop)
         order = np.argsort(start)
         merged: list[tuple[int, int]] = []
         for first, last in zip(start[order].tolist(), stop[order].tolist(), strict=True):
@@ -109,6 +116,15 @@ class Coverage:
             elif last > first:
                 merged.append((int(first), int(last)))
         return merged
+
+    def _within(self, rows: range, columns: slice) -> Pixels:
+        """Return some columns of some rows."""
+        share = np.empty((len(rows), columns.stop - columns.start), dtype=np.float32)
+        for part in self.parts(rows, columns):
+            share[:, part.columns.start - columns.start : part.columns.stop - columns.start] = (
+                part.share
+            )
+        return share
 
     def _even(self, rows: range, columns: slice) -> CoveredPart:
         """Return columns that the outline is not near to: inside where it runs round the first."""
@@ -124,6 +140,12 @@ class Coverage:
             return self._enlarged(self._coarse, rows, range(columns.start, columns.stop))
         margin, step = self._margin, rows.step
         width = 2 * margin + 1
+        if len(rows) > _FEW_ROWS and columns.stop - columns.start > _WIDE * width:
+            # Most of these rows are near an outline in a small part of the columns only.
+            half = len(rows) // 2
+            return np.concatenate(
+                [self._within(rows[:half], columns), self._within(rows[half:], columns)]
+            )
         if not margin:
             return self._sharp(np.asarray(rows), columns, 1)
         if step < width:

@@ -127,17 +127,15 @@ class PictureRows:
         stage_ended
             Called with the name of each stage that has just ended.
         """
-        inside, beside, covered = [], [], []
+        inside, covered = [], []
         for part in self._coverage.parts(place):
             if isinstance(part.share, np.ndarray):
                 covered.append((part.columns, part.share))
             elif part.share:
                 inside.append(part.columns)
-            else:
-                beside.append(part.columns)
         stage_ended(self._optics.cover_stage)
         rims = tuple(self._rim(place, *part, stage_ended) for part in covered)
-        nodes, weights = self._between_rims(place, inside, beside, stage_ended)
+        nodes, weights = self._between_rims(place, tuple(inside), stage_ended)
         stage_ended(STAGE)
         return Rows(place, nodes, weights, rims, tuple(inside))
 
@@ -149,24 +147,25 @@ class PictureRows:
             values = np.where(shown, self._panel[:, columns], self._surroundings[:, columns])
         else:
             line = np.asarray(place, dtype=np.float64)
-            values = self._mixed(share, line, columns, stage_ended)
+            light = share * self._emitted(line, columns, stage_ended)
+            light += self._around[columns]
+            values = self._encoded(light, line, columns, stage_ended)
         return Rim(columns, values, shown)
 
     def _between_rims(
         self,
         place: range,
-        inside: Sequence[slice],
-        beside: Sequence[slice],
+        inside: tuple[slice, ...],
         stage_ended: Callable[[str], object],
     ) -> tuple[Pixels, Pixels | None]:
         """Return the nodes and the weights of the rows, without the rims."""
         if not (self._optics.emission or self._optics.transmission):
-            return self._alike(tuple(inside)), None
+            return self._alike(inside), None
         line = node_rows(place)
-        nodes = self._even(line, inside, beside, stage_ended)
+        nodes = self._even(line, inside, stage_ended)
         if len(place) > len(line) and smooth_columns(nodes).all():
             return nodes, row_weights(len(place))
-        return self._even(np.asarray(place, np.float64), inside, beside, stage_ended), None
+        return self._even(np.asarray(place, np.float64), inside, stage_ended), None
 
     def _alike(self, inside: tuple[slice, ...]) -> Pixels:
         """Return the row that all rows are like between the rims."""
@@ -181,35 +180,37 @@ class PictureRows:
     def _even(
         self,
         line: FloatArray,
-        inside: Sequence[slice],
-        beside: Sequence[slice],
+        inside: tuple[slice, ...],
         stage_ended: Callable[[str], object],
     ) -> Pixels:
-        values = np.zeros((len(line), len(self._own)), dtype=np.float32)
-        for share, parts in ((1.0, inside), (0.0, beside)):
-            for columns in parts:
-                values[:, columns] = self._mixed(share, line, columns, stage_ended)
-        return values
+        """Return pixel values of some rows, as if there were no rims."""
+        light = np.repeat(self._around[None, :], len(line), axis=0)
+        for columns in inside:
+            light[:, columns] += self._emitted(line, columns, stage_ended)
+        return self._encoded(light, line, slice(None), stage_ended)
 
-    def _mixed(
+    def _emitted(
+        self, line: FloatArray, columns: slice, stage_ended: Callable[[str], object]
+    ) -> Pixels:
+        """Return the panel's own light, shape (rows, columns) or (columns,)."""
+        own = self._own[columns]
+        for gain in self._optics.emission:
+            own = own * gain.at(line, columns)
+            stage_ended(gain.stage)
+        return own
+
+    def _encoded(
         self,
-        share: float | Pixels,
+        light: Pixels,
         line: FloatArray,
         columns: slice,
         stage_ended: Callable[[str], object],
     ) -> Pixels:
-        """Return pixel values where the panel has some share of the light."""
-        light = self._around[None, columns]
-        if isinstance(share, np.ndarray) or share:
-            own = np.float32(share) * self._own[columns]
-            for gain in self._optics.emission:
-                own = own * gain.at(line, columns)
-                stage_ended(gain.stage)
-            light = light + own
+        """Return the pixel values of light behind the lens, which is overwritten."""
         for gain in self._optics.transmission:
-            light = light * gain.at(line, columns)
+            light *= gain.at(line, columns)
             stage_ended(gain.stage)
-        values = np.asarray(cv2.pow(np.ascontiguousarray(light), self._power), dtype=np.float32)
+        values = np.asarray(cv2.pow(light, self._power), dtype=np.float32)
         values *= np.float32(self._unit)
         stage_ended(STAGE)
         return values

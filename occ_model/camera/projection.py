@@ -59,10 +59,8 @@ def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
     return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
 
 
-def pixel_rays(
-    camera: Camera, rows: FloatArray, columns: slice = slice(None)
-) -> tuple[Pixels, Pixels]:
-    """Return the rays of the pixels in some rows, which may lie between pixels, and columns.
+def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
+    """Return the rays of the pixels in some rows, which may lie between pixels.
 
     Returns
     -------
@@ -71,7 +69,7 @@ def pixel_rays(
         In focal lengths.
     """
     column, row = _centre(camera)
-    x = (np.arange(camera.columns)[columns] - column) / camera.focal_length_pixels
+    x = (np.arange(camera.columns) - column) / camera.focal_length_pixels
     y = (rows - row) / camera.focal_length_pixels
     return x.astype(np.float32)[None, :], y.astype(np.float32)[:, None]
 

@@ -36,7 +36,7 @@ class Emission(OpticsEffect):
         scene = view.scene
         order = scene.transmitter.lambertian_order
         x, y = view.corner_rays.T
-        cosines = _cosine(scene, x, y)
+        cosines = _cosine(_normal(scene), x, y)
         # Where the panel's plane is seen edge-on between two corners, the least cosine is 0 there.
         is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())
         least = 0.0 if is_crossed else float(np.abs(cosines).min()) ** (order - 1.0)
@@ -47,18 +47,24 @@ class Emission(OpticsEffect):
         """Darken the panel by the angle at which each pixel sees it."""
         power = scene.transmitter.lambertian_order - 1.0
 
+        normal = _normal(scene)
+        across, _ = pixel_rays(scene.camera, np.zeros(1))
+
         def gain(rows: FloatArray, columns: slice) -> Pixels:
-            x, y = pixel_rays(scene.camera, rows, columns)
-            cosines = np.minimum(np.abs(_cosine(scene, x, y)), np.float32(1.0))
-            return np.asarray(cv2.pow(cosines, power), dtype=np.float32)
+            _, y = pixel_rays(scene.camera, rows)
+            cosines = np.abs(_cosine(normal, across[:, columns], y)).astype(np.float32)
+            return np.asarray(cv2.pow(np.minimum(cosines, np.float32(1.0)), power))
 
         return replace(optics, emission=(*optics.emission, Gain(self.name, gain)))
 
 
-def _cosine(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the cosine of the angle between the panel's normal and rays (x, y, 1), either sign."""
-    pose = scene.pose
-    normal = rotation_of(pose)[:, 2]
+def _normal(scene: Scene) -> FloatArray:
+    """Return the panel's normal, of length 1."""
+    return rotation_of(scene.pose)[:, 2]
+
+
+def _cosine(normal: FloatArray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the cosine of the angle between a normal and rays (x, y, 1), either sign."""
     along = normal[0] * x + normal[1] * y + normal[2]
     return np.asarray(along / np.sqrt(1.0 + x * x + y * y))
 

@@ -44,7 +44,8 @@ class NoiseSpread:
         """
         if len(values) == 1:
             return self._exact(values.astype(np.float64)).astype(np.float32)
-        place = np.clip(values, np.float32(0.0), np.float32(_TABULATED[-1]))
+        place = np.minimum(values, np.float32(_TABULATED[-1]))
+        np.maximum(place, np.float32(0.0), out=place)
         place *= np.float32(_PER_LEVEL)
         entry = place.astype(np.int32)
         place -= entry

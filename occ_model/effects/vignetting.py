@@ -44,8 +44,11 @@ class Vignetting(OpticsEffect):
         """Darken every pixel by its angle."""
         power = -scene.lens.vignetting_exponent / 2.0
 
+        across, _ = pixel_rays(scene.camera, np.zeros(1))
+        across = 1.0 + across * across
+
         def gain(rows: FloatArray, columns: slice) -> Pixels:
-            x, y = pixel_rays(scene.camera, rows, columns)
-            return np.asarray(cv2.pow(1.0 + x * x + y * y, power), dtype=np.float32)
+            _, y = pixel_rays(scene.camera, rows)
+            return np.asarray(cv2.pow(across[:, columns] + y * y, power), dtype=np.float32)
 
         return replace(optics, transmission=(*optics.transmission, Gain(self.name, gain)))

@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
+from occ_model.camera.row_memory import MEMORY
 
 _REACH = 4.0
 """Standard deviations after which a blurred edge ends: 3e-5 of it are left."""
@@ -44,6 +46,10 @@ class CoveredPart:
     share: float | Pixels
 
 
+def _shares(parts: list[CoveredPart]) -> list[Pixels]:
+    return [part.share for part in parts if isinstance(part.share, np.ndarray)]
+
+
 class Coverage:
     """The share of the light in each pixel that comes from the panel.
 
@@ -62,16 +68,20 @@ class Coverage:
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
         self._columns = columns
+        self._key = "coverage", outline.tobytes(), rows, columns, blur
         self._starts, self._ends = outline.T, np.roll(outline, -1, axis=0).T
         self._blur = blur
         self._margin = math.ceil(_REACH * blur)
-        seen = range(-self._margin, rows + self._margin)
+        self._seen = seen = range(-self._margin, rows + self._margin)
         cell = max(1, int(blur / _FINE))
         # The widest blur needs no more rows than a narrow one.
         self._stride = max(1, min(cell // _SAMPLED, _height(outline, seen) // _EXACT))
         self._cell = cell - cell % self._stride
-        self._crossings = _crossings(outline, seen, self._stride)
         self._coarse = self._whole(rows) if self._cell > 1 else None
+
+    @cached_property
+    def _crossings(self) -> tuple[IndexArray, FloatArray, FloatArray]:
+        return _crossings(self._starts.T, self._seen, self._stride)
 
     def rows(self, rows: range) -> Pixels:
         """Return some rows, shape (number of rows, columns), 0 to 1."""
@@ -83,9 +93,13 @@ class Coverage:
     def parts(self, rows: range, columns: slice | None = None) -> list[CoveredPart]:
         """Return some rows part by part, from the left: the rims of the panel and what is between.
 
-        Between its rims the panel covers either all of each pixel or nothing.
+        Between its rims the panel covers either all of each pixel or nothing. All columns are
+        remembered for other pictures.
         """
-        columns = columns or slice(0, self._columns)
+        if columns is None:
+            key = (*self._key, rows)
+            whole = slice(0, self._columns)
+            return MEMORY.recall(key, lambda: self.parts(rows, whole), _shares)
         parts, before = [], columns.start
         for start, stop in self._rims(rows, columns):
             if start > before:

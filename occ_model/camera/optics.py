@@ -1,9 +1,11 @@
 """Optics: how the lens pictures the panel, which effects change one after the other."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
+from typing import Self
 
 from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.row_memory import MEMORY
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -20,6 +22,22 @@ class Gain:
 
     stage: str
     at: Callable[[FloatArray, slice], Pixels]
+
+    @classmethod
+    def remembered(
+        cls, stage: str, depends_on: tuple[Hashable, ...], at: Callable[[FloatArray, slice], Pixels]
+    ) -> Self:
+        """Return a gain that is remembered for all pictures of what it depends on."""
+
+        def recalled(rows: FloatArray, columns: slice) -> Pixels:
+            place = (rows[0], rows[-1], len(rows), columns.start, columns.stop)
+            return MEMORY.recall((stage, *depends_on, *place), lambda: at(rows, columns), _itself)
+
+        return cls(stage, recalled)
+
+
+def _itself(factors: Pixels) -> tuple[Pixels]:
+    return (factors,)
 
 
 STAGE = "optics"

@@ -6,7 +6,7 @@ them the light changes smoothly from row to row, and a band of rows follows from
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -74,19 +74,45 @@ class Rows:
     @property
     def values(self) -> Pixels:
         """Mean pixel values before saturation, shape (rows, columns)."""
-        return self.spread_out(self.nodes, [rim.values for rim in self.rims])
-
-    def spread_out(self, nodes: Pixels, rims: Sequence[Pixels]) -> Pixels:
-        """Return what is known at the nodes and of the rims for each pixel of all rows."""
-        shape = (len(self.place), nodes.shape[1])
-        if self.weights is not None:
-            values = self.weights @ nodes
-        else:
-            values = np.empty(shape, dtype=np.float32)
-            values[:] = nodes
-        for rim, own in zip(self.rims, rims, strict=True):
-            values[:, rim.columns] = own
+        shape = (len(self.place), self.nodes.shape[1])
+        values = np.broadcast_to(self._rows_of(self.nodes), shape).copy()
+        for rim in self.rims:
+            values[:, rim.columns] = rim.values
         return values
+
+    def combine(
+        self, operation: np.ufunc, target: Pixels, nodes: Pixels, rims: Sequence[Pixels]
+    ) -> None:
+        """Combine pixels with what is known at the nodes and of the rims, in place.
+
+        Parameters
+        ----------
+        operation
+            Such as a sum or a product.
+        target : ndarray of float32, shape (rows, columns)
+            The pixels.
+        nodes, rims
+            Values in place of those of ``nodes`` and ``rims``, of the same shapes.
+        """
+        places = [rim.columns for rim in self.rims]
+        own = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
+        operation(target, self._rows_of(nodes), out=target)
+        for at, values in zip(places, own, strict=True):
+            target[:, at] = values
+
+    def each_row(self) -> "Rows":
+        """Return the same without weights: each row as a node, or one that all are like."""
+        if self.weights is None:
+            return self
+        return replace(self, nodes=self._rows_of(self.nodes), weights=None)
+
+    def changed(self, change: Callable[[Pixels], Pixels]) -> "Rows":
+        """Return the same with other values, which are not smooth: of rows without weights."""
+        rims = tuple(replace(rim, values=change(rim.values)) for rim in self.rims)
+        return replace(self, nodes=change(self.nodes), rims=rims)
+
+    def _rows_of(self, nodes: Pixels) -> Pixels:
+        return nodes if self.weights is None else self.weights @ nodes
 
 
 class PictureRows:

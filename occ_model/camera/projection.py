@@ -74,6 +74,11 @@ def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
     return x.astype(np.float32)[None, :], y.astype(np.float32)[:, None]
 
 
+def geometry_of(camera: Camera) -> tuple[int, int, float]:
+    """Return all that the rays of a camera's pixels depend on."""
+    return camera.rows, camera.columns, camera.focal_length_pixels
+
+
 def _centre(camera: Camera) -> FloatArray:
     return np.array([(camera.columns - 1) / 2, (camera.rows - 1) / 2])
 

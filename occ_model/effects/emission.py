@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.optics import Gain, Optics
-from occ_model.camera.projection import pixel_rays, rotation_of
+from occ_model.camera.projection import geometry_of, pixel_rays, rotation_of
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, reachable_luminances
 from occ_model.scene.scene import Scene
@@ -55,7 +55,10 @@ class Emission(OpticsEffect):
             cosines = np.abs(_cosine(normal, across[:, columns], y)).astype(np.float32)
             return np.asarray(cv2.pow(np.minimum(cosines, np.float32(1.0)), power))
 
-        return replace(optics, emission=(*optics.emission, Gain(self.name, gain)))
+        own = Gain.remembered(
+            self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain
+        )
+        return replace(optics, emission=(*optics.emission, own))
 
 
 def _normal(scene: Scene) -> FloatArray:

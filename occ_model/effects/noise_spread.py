@@ -53,26 +53,25 @@ class NoiseSpread:
         place += self._table[entry]
         return place
 
-    def of_rows(self, rows: Rows, values: Pixels) -> Pixels:
-        """Return the deviations of all pixels of some rows, shape (rows, columns).
+    def scale(self, normal: Pixels, rows: Rows, each_row: Rows) -> None:
+        """Multiply numbers by the deviations of the pixels of some rows.
 
         Parameters
         ----------
-        rows
-            The rows.
-        values : ndarray of float32, shape (rows, columns)
-            Their mean values before saturation.
+        normal : ndarray of float32, shape (rows, columns)
+            The numbers.
+        rows, each_row
+            The mean values, as they are known and without weights.
         """
         known, spread = self._known
         if rows.nodes is not known:  # most rows are like the previous rows
             spread = self(rows.nodes)
             self._known = (rows.nodes, spread)
-        found = rows.spread_out(spread, [self(rim.values) for rim in rows.rims])
-        if rows.weights is not None:
-            bent = ~smooth_columns(spread, _TOLERANCE)
-            if bent.any():
-                found[:, bent] = self(values[:, bent])
-        return found
+        rims = [self(rim.values) for rim in rows.rims]
+        if rows.weights is None or smooth_columns(spread, _TOLERANCE).all():
+            rows.combine(np.multiply, normal, spread, rims)
+        else:
+            each_row.combine(np.multiply, normal, self(each_row.nodes), rims)
 
     def _exact(self, values: FloatArray) -> FloatArray:
         squares = sum(effect.spread(self._scene, values) ** 2 for effect in self._effects)

@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.optics import Gain, Optics
-from occ_model.camera.projection import pixel_rays
+from occ_model.camera.projection import geometry_of, pixel_rays
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, reachable_luminances, saturated_value
 from occ_model.scene.scene import Scene
@@ -51,4 +51,5 @@ class Vignetting(OpticsEffect):
             _, y = pixel_rays(scene.camera, rows)
             return np.asarray(cv2.pow(across[:, columns] + y * y, power), dtype=np.float32)
 
-        return replace(optics, transmission=(*optics.transmission, Gain(self.name, gain)))
+        own = Gain.remembered(self.name, (power, *geometry_of(scene.camera)), gain)
+        return replace(optics, transmission=(*optics.transmission, own))

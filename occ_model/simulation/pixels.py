@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import cv2
 import numpy as np
@@ -158,26 +159,28 @@ class PixelExposure:
         timer = band.timer
         timer.begin()
         mean = self._mean.of(band.rows, timer.stage_ended)
-        values = mean.values
-        noise: Pixels | None = None
+        each_row = mean.each_row()
+        values: Pixels | None = None
         for effects, normal in band.drawn() if band.drawn else ():
             if effects not in spreads:
                 spreads[effects] = NoiseSpread(effects, self._scene)
-            normal *= spreads[effects].of_rows(mean, values)
-            noise = normal if noise is None else np.add(noise, normal, out=noise)
+            spreads[effects].scale(normal, mean, each_row)
+            values = normal if values is None else np.add(values, normal, out=values)
             timer.stage_ended(effects[-1].name)
-        values = self._saturated(values, timer)
-        if noise is not None:
-            values += noise
-            np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
+        held = self._held(each_row, timer)
+        if values is None:
+            return ExposedRows(band.place, held.values, mean)
+        held.combine(np.add, values, held.nodes, [rim.values for rim in held.rims])
+        np.maximum(values, np.float32(0.0), out=values)
+        np.minimum(values, np.float32(WHITE), out=values)
         return ExposedRows(band.place, values, mean)
 
-    def _saturated(self, mean: Pixels, timer: StageTimer) -> Pixels:
+    def _held(self, mean: Rows, timer: StageTimer) -> Rows:
         """Limit mean values to those that a pixel can hold."""
         for limit in self._limits:
-            mean = limit.apply(self._scene, mean)
+            mean = mean.changed(partial(limit.apply, self._scene))
             timer.stage_ended(limit.name)
-        return np.minimum(mean, np.float32(WHITE), out=mean)
+        return mean.changed(lambda values: np.minimum(values, np.float32(WHITE)))
 
     def pictures(
         self, enhancement: Enhancement, seed: int, source: NoiseSource | NoiseMaker

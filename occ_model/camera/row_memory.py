@@ -1,0 +1,69 @@
+"""Memory of rows that depend on the pose and the lens alone, while other things move.
+
+A slider changes one parameter at a time: of picture after picture the gains and the panel's rims
+stay what they were.
+"""
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Iterable
+from threading import Lock
+from typing import Any, TypeVar
+
+from occ_model.arrays import Pixels
+
+_Made = TypeVar("_Made")
+
+LIMIT = 24 * 2**20
+"""Most bytes that are remembered: the rows of one large picture and of its draft."""
+
+
+class RowMemory:
+    """Arrays by what they depend on; those used longest ago are forgotten first.
+
+    Parameters
+    ----------
+    limit
+        Most bytes that they have together.
+    """
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._lock = Lock()
+        self._known: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
+        self.size = 0
+
+    def recall(
+        self, key: Hashable, make: Callable[[], _Made], arrays: Callable[[_Made], Iterable[Pixels]]
+    ) -> _Made:
+        """Return what was made for a key, or make it.
+
+        Parameters
+        ----------
+        key
+            All that it depends on.
+        make
+            Makes it.
+        arrays
+            Returns the arrays that it has, which nobody may write to from now on.
+        """
+        with self._lock:
+            if key in self._known:
+                self._known.move_to_end(key)
+                found: _Made = self._known[key][0]
+                return found
+        made = make()
+        size = 0
+        for array in arrays(made):
+            array.flags.writeable = False
+            size += array.nbytes
+        with self._lock:
+            if key not in self._known and size <= self._limit:
+                self._known[key] = made, size
+                self.size += size
+            while self.size > self._limit:
+                self.size -= self._known.popitem(last=False)[1][1]
+        return made
+
+
+MEMORY = RowMemory(LIMIT)
+"""That of this process."""

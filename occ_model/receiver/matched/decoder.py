@@ -143,22 +143,29 @@ def _best_code(
     result = replace(
         result, correlation=r1, confidence=confidence, folded=signals[best], model=models[best]
     )
-    if r1 < _LEAST_CORRELATION or confidence < _LEAST_CONFIDENCE:
-        return replace(
-            result,
-            failure=f"No code stands out: the best, {code}, correlates by {r1:.3f} with the "
-            f"signal, the second best, {likely[second]}, by {r2:.3f}.",
-        )
+    failure = None
     if isinstance(templates, PayloadTemplates):
-        other = same_chips(code, likely, scheme_of(scene.transmitter))
-        if other is not None:
-            return replace(
-                result,
-                failure=f"The codes {code} and {other} send the same endless chips: the framing "
-                "does not tell them apart.",
-            )
+        failure = _why_ambiguous(code, likely, scene)
+    if failure is None and (r1 < _LEAST_CORRELATION or confidence < _LEAST_CONFIDENCE):
+        failure = (
+            f"No code stands out: the best, {code}, correlates by {r1:.3f} with the signal, the "
+            f"second best, {likely[second]}, by {r2:.3f}."
+        )
+    if failure is not None:
+        return replace(result, failure=failure)
     bits = np.array(bits_of(code, scene.transmitter.payload_length), dtype=np.uint8)
     return with_bits(result, Framed((), bits), scene)
+
+
+def _why_ambiguous(code: int, likely: IndexArray, scene: Scene) -> str | None:
+    """Return a sentence if another code sends the same chips, None if none does."""
+    other = same_chips(code, likely, scheme_of(scene.transmitter))
+    if other is None:
+        return None
+    return (
+        f"The codes {code} and {other} send the same endless chips: the framing does not tell them "
+        "apart."
+    )
 
 
 def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:

@@ -1,0 +1,102 @@
+"""Every scheme with every decoder: read, or refused with a sentence."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.transmitter.framings.registry import FRAMINGS
+from occ_model.transmitter.line_codes.registry import LINE_CODES
+
+DECODERS = ("threshold", "matched", "equalizer")
+
+SCENE = occ.load_preset("phone-68us").replace(
+    switching_frequency=4e3, distance=0.6, rows=100, bits=8, code=0b10110010
+)
+"""At 60 cm the panel fills the picture: 110 chips of 31 columns."""
+
+SCHEMES = [
+    (code, framing)
+    for code, framing in itertools.product(LINE_CODES, FRAMINGS)
+    if (code, framing) != ("nrz", "c-ook")
+]
+
+REFUSED = {
+    # 8 bits of length, 8 of payload and 16 of check sum, 6 chips each, and a preamble of 14.
+    ("fsk", "raw"): ("of 206 chips fit the panel's image",),
+    # From another start the chips are those of the code 29.
+    ("8b10b", "paper"): ("2 payloads fit the chips", "178 and 29 send the same endless chips"),
+}
+"""What a sentence about a scheme says at this scene."""
+
+
+def signal(scene: occ.Scene, start: float) -> np.ndarray:
+    """What a receiver reads, before the enhancement, of packets that start anywhere."""
+    return occ.column_profile(scene.replace(start_time=start))
+
+
+@pytest.mark.parametrize(("code", "framing"), SCHEMES)
+@pytest.mark.parametrize("decoder", DECODERS)
+def test_every_scheme_is_read_or_refused_with_a_sentence(
+    code: str, framing: str, decoder: str
+) -> None:
+    scene = SCENE.replace(line_code=code, framing=framing, enhancement="none")
+    for start in (0.0, 1.37e-3, 5.9e-3):
+        result = occ.decode(signal(scene, start), scene, decoder)
+        if (code, framing) in REFUSED:
+            assert result.failure is not None
+            assert any(said in result.failure for said in REFUSED[code, framing])
+        else:
+            assert result.failure is None
+            assert result.code == scene.transmitter.code
+            assert tuple(result.bits.tolist()) == scene.transmitter.payload_bits
+
+
+@pytest.mark.parametrize("correction", ["none", "reed-solomon"])
+@pytest.mark.parametrize("code", ["manchester", "4b6b", "8b10b"])
+@pytest.mark.parametrize("decoder", ["threshold", "equalizer"])
+def test_a_text_comes_back_as_a_text(code: str, correction: str, decoder: str) -> None:
+    scene = SCENE.replace(
+        line_code=code, framing="raw", payload="text:HELLO", error_correction=correction,
+        switching_frequency=14e3, exposure_time=40e-6, enhancement="none",
+    )  # fmt: skip
+    result = occ.decode(signal(scene, 2e-3), scene, decoder)
+    assert result.failure is None
+    assert result.payload == "HELLO"
+
+
+@pytest.mark.parametrize(("payload", "most"), [("text:HELLO", 12), ("hex:0123456789", 12)])
+def test_the_matched_decoder_says_when_there_are_too_many_payloads(payload: str, most: int) -> None:
+    scene = SCENE.replace(line_code="manchester", payload=payload)
+    result = occ.decode(signal(scene, 0.0), scene, "matched")
+    assert result.failure == (
+        "The payload has 40 bits; the matched decoder compares all payloads, by this scheme of up "
+        f"to {most} bits: use the sequence detector."
+    )
+
+
+def test_wrong_bits_of_a_text_are_shown_with_the_failure() -> None:
+    scene = SCENE.replace(
+        line_code="nrz", framing="raw", payload="text:HELLO", switching_frequency=6e3,
+        enhancement="none",
+    )  # fmt: skip
+    levels = signal(scene, 0.0)
+    columns = 1 / 6e3 / 8e-6
+    # The panel's first chips are dark and so outside; a chip of the fourth letter is inverted.
+    place = int((13 + 8 + 24 + 0.2) * columns)
+    levels[place : place + int(columns)] = levels.max()
+    result = occ.decode(levels[: int(100 * columns)], scene)
+    assert result.failure == "The check sum (CRC-16) does not fit: some chips were misread."
+    assert result.payload == "HEL?O"
+    assert result.code is None
+
+
+@pytest.mark.parametrize("decoder", ["threshold", "matched"])
+def test_a_chip_shorter_than_a_column_is_refused_or_read(decoder: str) -> None:
+    scene = SCENE.replace(line_code="manchester", switching_frequency=130e3)
+    result = occ.decode(signal(scene, 0.0), scene, decoder)
+    assert result.failure is not None or result.code == scene.transmitter.code
+    if decoder == "threshold":
+        assert result.failure is not None
+        assert "A chip lasts 0.96 columns" in result.failure

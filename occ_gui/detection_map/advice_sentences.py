@@ -61,6 +61,13 @@ class AdviceSentences(QObject):
         lines.append(AdviceLine(self._confidence(advice.limits)))
         return lines
 
+    def on_highest_frequency(self, advice: Advice) -> AdviceLine:
+        """Write the line on the highest frequency that is read, or that there is none."""
+        end = highest_frequency(advice)
+        if end is None:
+            return AdviceLine(self._nowhere(advice.limits, advice.frequency.found))
+        return self._line(self.tr("The highest frequency that it reads is {value}"), end)
+
     def left_out(self, effects: tuple[str, ...]) -> str:
         """Say which of the scene's effects the advice leaves out."""
         return self.tr("This advice leaves out: {effects}.").format(effects=", ".join(effects))
@@ -151,6 +158,17 @@ class AdviceSentences(QObject):
             "Each of these values was tried with {images} images; the intervals contain the rate "
             "in 95 of 100 cases if bit errors are independent of each other."
         ).format(images=found.images)
+
+
+def highest_frequency(advice: Advice) -> EndFacts | None:
+    """Return the facts on the highest frequency that is read, None if none is."""
+    ends = (end for end in advice.frequency.ends if end.side == "highest")
+    return next(ends, None)
+
+
+def formatted_frequency(value: float) -> str:
+    """Write a frequency with the digits of the advice."""
+    return HERTZ.format(value, _DIGITS)
 
 
 def _formatted(name: str, value: float) -> str:

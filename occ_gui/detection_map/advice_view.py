@@ -1,5 +1,7 @@
 """Page of advice: the limits of each decoder in sentences, with buttons that change the scene."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -12,6 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.detection_map.advice_sentences import AdviceLine, AdviceSentences
+from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.advice import Advice
@@ -20,7 +23,15 @@ _LEAST = QSize(200, 60)
 
 
 class AdviceView(QWidget):
-    """Sentences on the highest frequency and the working exposures of each decoder."""
+    """Sentences on the highest frequency and the working exposures of each decoder.
+
+    Parameters
+    ----------
+    decoders
+        The decoders' names.
+    parent
+        The parent widget.
+    """
 
     asked = Signal()
     """The user asks for advice on the current scene."""
@@ -34,8 +45,12 @@ class AdviceView(QWidget):
     destination_chosen = Signal(str, float)
     """The user goes to a limit: the parameter to change, and its value in SI units."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.cards = LimitCards(decoders)
+        """The highest frequencies in short, for another place than this page."""
+        self.cards.asked.connect(self.asked)
+        self.cards.destination_chosen.connect(self.destination_chosen)
         self._sentences = AdviceSentences(self)
         self._lines: list[QWidget] = []
         self.destinations: list[QPushButton] = []
@@ -92,6 +107,7 @@ class AdviceView(QWidget):
         self._lines, self.destinations, self._parameters = [], [], []
         self.progress.setValue(0)
         self._show_running(True)
+        self.cards.show_begun()
         if left_out:
             self._add(AdviceLine(self._sentences.left_out(left_out), is_title=True))
 
@@ -101,12 +117,14 @@ class AdviceView(QWidget):
 
     def show_advice(self, advice: Advice) -> None:
         """Add the advice on one decoder."""
+        self.cards.show_advice(advice)
         for line in self._sentences.lines(advice):
             self._add(line)
 
     def show_advice_ended(self, sentence: str) -> None:
         """Show that the search has ended; a sentence says why if it is incomplete."""
         self._ended = sentence
+        self.cards.show_ended(not sentence)
         self.state.set_full_text(sentence)
         self._show_running(False)
 
@@ -120,6 +138,7 @@ class AdviceView(QWidget):
         reachable
             The parameters whose limits hold all the same: only they were changed.
         """
+        self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self._lines:
             return
         text = self.tr("This advice is on the scene before the change.")

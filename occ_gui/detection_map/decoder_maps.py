@@ -4,8 +4,8 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtGui import QImage, QResizeEvent
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
 
 from occ_gui.detection_map.colour_map import (
     DIFFERENCES,
@@ -22,6 +22,9 @@ from occ_model.scene.parameters import quantity
 
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
 """Values at both ends of each colour map, in percent."""
+
+_MOST_IN_A_ROW, _LEAST_OF_TWO_ROWS = 2, 360
+"""Maps beside each other, and the least height in pixels of two rows of them."""
 
 
 class MapPlots(QWidget):
@@ -50,25 +53,41 @@ class MapPlots(QWidget):
         self._lines: dict[str, list[FloatArray]] = {}
         self._hidden: set[str] = set()
         self._bar_drawn = ""
-        self._labels = {
-            "band": "t = t_LED",
-            "null": "f = 2/t",
-            "packets": self.tr("two packets"),
-            "saturation": self.tr("white"),
-        }
         self.plots = tuple(self._new_plot() for _ in decoders)
         self.bar = ColourBar()
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        for plot in self.plots:
-            layout.addWidget(plot, 1)
+        self._grid = QGridLayout()
+        self._grid.setSpacing(4)
+        self._columns = 0
+        layout.addLayout(self._grid, 1)
         layout.addWidget(self.bar)
         self._name_plots()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Put the maps beside each other, or in two rows where that makes them less narrow."""
+        super().resizeEvent(event)
+        self._place_plots()
+
+    def _place_plots(self) -> None:
+        shown = [plot for plot in self.plots if not plot.isHidden()]
+        in_rows = len(shown) > _MOST_IN_A_ROW and self.height() >= _LEAST_OF_TWO_ROWS
+        columns = -(-len(shown) // 2) if in_rows else max(len(shown), 1)
+        if columns == self._columns and self._grid.count() == len(shown):
+            return
+        self._columns = columns
+        for plot in self.plots:
+            self._grid.removeWidget(plot)
+        for place, plot in enumerate(shown):
+            self._grid.addWidget(plot, place // columns, place % columns)
+        for row in range(2):
+            self._grid.setRowStretch(row, int(row * columns < len(shown)))
+        for column in range(len(self.plots)):
+            self._grid.setColumnStretch(column, int(column < columns))
+
     def _new_plot(self) -> MapPlot:
         plot = MapPlot()
-        plot.labels = self._labels
         plot.setToolTip(
             self.tr("Click a point to set the scene to it, or use the arrow keys and Enter.")
         )
@@ -89,6 +108,7 @@ class MapPlots(QWidget):
             plot.setAccessibleName(self.tr("Detection map: {name}").format(name=plot.title))
         for place, plot in enumerate(self.plots):
             plot.setVisible(place < len(names))
+        self._place_plots()
         self._bar_drawn = ""
 
     def _title(self, name: str) -> str:

@@ -1,6 +1,6 @@
 """Map of one decoder over two parameters: rates, axes, theoretical limits, current setting."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -62,14 +62,12 @@ class MapPlot(QWidget):
         super().__init__(parent)
         self.title = ""
         self.lines: dict[str, list[FloatArray]] = {}
-        self.labels: Mapping[str, str] = {}
         self.setting: Point | None = None
         self._axes: tuple[Quantity, Quantity] | None = None
         self._shape = (1, 1)
         self._image = QImage()
         self._refused: Sequence[tuple[int, int]] = ()
         self._cursor: tuple[int, int] | None = None
-        self._labelled: list[QRectF] = []
         self._area = QRectF()
         self._area_of: tuple[QSize, bool] | None = None
         self.setMouseTracking(True)
@@ -138,7 +136,6 @@ class MapPlot(QWidget):
         """Draw the map."""
         painter = QPainter(self)
         area = self.area()
-        self._labelled = []
         painter.fillRect(area, self.palette().color(QPalette.ColorRole.Base))
         painter.drawImage(area, self._image)
         hatch = QBrush(self.palette().color(QPalette.ColorRole.Mid), Qt.BrushStyle.BDiagPattern)
@@ -152,9 +149,6 @@ class MapPlot(QWidget):
         for key, lines in self.lines.items():
             self._draw_lines(painter, key, lines)
         self._draw_marks(painter, area)
-        for key, lines in self.lines.items():  # labels cover lines and marks
-            if lines and self.labels.get(key):
-                self._draw_label(painter, self.labels[key], max(lines, key=len))
 
     def _cell(self, x: int, y: int) -> QRectF:
         area = self.area()
@@ -208,30 +202,6 @@ class MapPlot(QWidget):
             for each in (casing, pen):
                 painter.setPen(each)
                 painter.drawPolyline(path)
-
-    def _draw_label(self, painter: QPainter, text: str, line: FloatArray) -> None:
-        """Label a line: at its upper end, its lower end or its middle, whichever is free."""
-        size = self.fontMetrics().boundingRect(text).adjusted(-2, -1, 3, 1).size()
-        points = sorted((self.place_of(point) for point in line), key=QPointF.y)
-        spots = [self._beside(points[place], size) for place in (0, -1, len(points) // 2)]
-        free = (s for s in spots if not any(s.intersects(other) for other in self._labelled))
-        spot = next(free, None)
-        if spot is None:  # the legend explains its dashes, too
-            return
-        self._labelled.append(spot)
-        painter.fillRect(spot, _CASING)
-        painter.setPen(_INK)
-        painter.drawText(spot, Qt.AlignmentFlag.AlignCenter, text)
-
-    def _beside(self, point: QPointF, size: QSize) -> QRectF:
-        """Return a rectangle to the right of a point, or to its left, within the map."""
-        area = self.area()
-        left = point.x() + 5
-        if left + size.width() > area.right() - 2:
-            left = point.x() - 5 - size.width()
-        lowest = area.bottom() - size.height() - 2
-        top = min(max(point.y() + 2, area.top() + 2), lowest)
-        return QRectF(max(left, area.left() + 2), top, size.width(), size.height())
 
     def _draw_marks(self, painter: QPainter, area: QRectF) -> None:
         if self._cursor is not None:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -22,6 +23,9 @@ from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+
+_LEAST_WITH_CARDS = 480
+"""Pixels of height from which the cards of the limits stand above the map."""
 
 
 class MapView(QWidget):
@@ -79,7 +83,8 @@ class MapView(QWidget):
         self.left_out = ElidedLabel()
         self.left_out.setAccessibleName(self.tr("Effects that the map leaves out"))
         self.left_out.hide()
-        self.advice = AdviceView()
+        self.advice = AdviceView(decoders)
+        self.cards = self.advice.cards
         self._lay_out()
         self._show_status()
         self._connect()
@@ -114,6 +119,7 @@ class MapView(QWidget):
         column = QVBoxLayout(page)
         column.setContentsMargins(4, 2, 4, 2)
         column.setSpacing(2)
+        column.addWidget(self.cards)
         column.addLayout(head)
         column.addWidget(self.plots, 1)
         column.addLayout(foot)
@@ -125,6 +131,11 @@ class MapView(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._pages)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Show the limits above the map where there is space for both."""
+        super().resizeEvent(event)
+        self.cards.setVisible(self.height() >= _LEAST_WITH_CARDS)
 
     def _connect(self) -> None:
         self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))

@@ -104,6 +104,8 @@ QDockWidget QAbstractButton#qt_dockwidget_floatbutton:focus { border: 2px solid 
 QMainWindow::separator { background: palette(window); width: 6px; height: 6px; }
 QMainWindow::separator:hover { background: palette(highlight); }
 
+QFrame#card { background: palette(base); border: 1px solid palette(mid); border-radius: 8px; }
+
 QTabWidget::pane { border: none; border-top: 1px solid palette(midlight); }
 QTabBar::tab {
     padding: 5px 10px; border: none; border-bottom: 2px solid transparent;

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow
 from occ_gui.window.modes.arrangement import arrange
 from occ_gui.window.modes.mode import MODES, Mode
 
-_WIDEST_SIDE, _ANY_WIDTH = 400, 16_777_215
+_WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
 """Pixels; the latter is Qt's, by which a size is not limited."""
 
 

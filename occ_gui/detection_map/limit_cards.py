@@ -1,0 +1,203 @@
+"""Cards of the limits: the highest frequency that each decoder reads, with a button to go there."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, QTimer, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
+
+from occ_gui.detection_map.advice_sentences import (
+    AdviceSentences,
+    formatted_frequency,
+    highest_frequency,
+)
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.results.advice import Advice, EndFacts
+
+_PARAMETER = "switching_frequency"
+
+_REST_MS = 800
+"""Milliseconds that a scene must be at rest before its limits are searched."""
+
+
+class LimitCards(QWidget):
+    """A card for each decoder; while they are seen, the limits of a new scene are asked for.
+
+    Parameters
+    ----------
+    decoders
+        The decoders' names.
+    parent
+        The parent widget.
+    """
+
+    asked = Signal()
+    """The limits of the present scene are wanted."""
+
+    destination_chosen = Signal(str, float)
+    """The user goes to a limit: the parameter to change, and its value in SI units."""
+
+    def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.cards = {name: LimitCard(name) for name in decoders}
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 4, 0, 4)
+        row.setSpacing(8)
+        for card in self.cards.values():
+            row.addWidget(card, 1)
+            card.chosen.connect(self._go)
+        self._sentences = AdviceSentences(self)
+        self._is_known = self._is_running = False
+        self._waiting = QTimer(self, singleShot=True)
+        self._waiting.setInterval(_REST_MS)
+        self._waiting.timeout.connect(self._ask)
+
+    def _go(self, frequency: float) -> None:
+        self.destination_chosen.emit(_PARAMETER, frequency)
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the limits are about to be asked for."""
+        return self._waiting.isActive()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Ask for the limits, if they are not known."""
+        super().showEvent(event)
+        self._plan()
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
+        """Ask for nothing that is not seen."""
+        super().hideEvent(event)
+        self._waiting.stop()
+
+    def _plan(self) -> None:
+        if self.isVisible() and not self._is_known and not self._is_running:
+            self._waiting.start()
+
+    def _ask(self) -> None:
+        if not self._is_known and not self._is_running:
+            self.asked.emit()
+
+    def show_begun(self) -> None:
+        """Show that the limits are searched."""
+        self._waiting.stop()
+        self._is_running, self._is_known = True, False
+        for card in self.cards.values():
+            card.show_searching()
+
+    def show_advice(self, advice: Advice) -> None:
+        """Show the limit of one decoder."""
+        card = self.cards.get(advice.limits.decoder)
+        if card is not None:
+            line = self._sentences.on_highest_frequency(advice)
+            card.show_limit(highest_frequency(advice), line.text)
+
+    def show_ended(self, is_complete: bool) -> None:
+        """Show that the search has ended, with a limit for each decoder or without."""
+        self._is_running, self._is_known = False, is_complete
+        if not is_complete:
+            for card in self.cards.values():
+                card.show_unknown()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the limits are of an earlier scene; if so they are asked for again."""
+        self._is_known = not outdated and not self._is_running
+        for card in self.cards.values():
+            card.set_outdated(outdated)
+        self._waiting.stop()
+        self._plan()
+
+
+class LimitCard(QFrame):
+    """The highest frequency that a decoder reads.
+
+    Parameters
+    ----------
+    decoder
+        Its name.
+    parent
+        The parent widget.
+    """
+
+    chosen = Signal(float)
+    """The user goes to the frequency, in hertz, at which every bit was read."""
+
+    def __init__(self, decoder: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("card")
+        self._decoder = decoder
+        self._destination: float | None = None
+        self.name = ElidedLabel(decoder)
+        self.value = QLabel()
+        self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+        self.value.setAccessibleName(self.tr("Highest frequency, {name}").format(name=decoder))
+        self.go = QPushButton(self.tr("Go"))
+        self.go.setAccessibleName(
+            self.tr("Go to the highest frequency, {name}").format(name=decoder)
+        )
+        self.go.clicked.connect(self._choose)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(12, 6, 8, 6)
+        grid.setSpacing(2)
+        grid.addWidget(self.name, 0, 0)
+        grid.addWidget(self.value, 1, 0)
+        grid.addWidget(self.go, 0, 1, 2, 1)
+        grid.setColumnStretch(0, 1)
+        self.show_unknown()
+        self.set_outdated(False)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Keep the size of the value relative to the font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+
+    def _choose(self) -> None:
+        if self._destination is not None:
+            self.chosen.emit(self._destination)
+
+    def _show(self, text: str, tip: str, destination: float | None) -> None:
+        self._destination = destination
+        self.value.setText(text)
+        self.value.setToolTip(tip)
+        self.go.setEnabled(destination is not None)
+        self.go.setToolTip(tip)
+
+    def show_unknown(self) -> None:
+        """Show that the limit is not known."""
+        self._show("", self.tr("Not searched yet."), None)
+
+    def show_searching(self) -> None:
+        """Show that the limit is searched."""
+        self._show("…", self.tr("Searching for the highest frequency that is read."), None)
+        self.set_outdated(False)
+
+    def show_limit(self, end: EndFacts | None, text: str) -> None:
+        """Show the upper end of the working range, None if the decoder reads nowhere.
+
+        Parameters
+        ----------
+        end
+            The end.
+        text
+            What it is, as in the advice.
+        """
+        if end is None:
+            self._show(self.tr("none"), text, None)
+            return
+        inside = end.inside
+        value = formatted_frequency(end.value)
+        beyond = self.tr("{value} or more").format(value=value) if end.fails is None else value
+        self._show(beyond, text, None if inside is None else inside.value)
+
+    def set_outdated(self, outdated: bool) -> None:
+        """Show whether the limit is of an earlier scene."""
+        self.value.setEnabled(not outdated)
+        self.name.set_full_text(
+            self.tr("{name}, an earlier scene").format(name=self._decoder)
+            if outdated
+            else self.tr("{name} reads up to").format(name=self._decoder)
+        )
+        if outdated:
+            self.go.setEnabled(False)

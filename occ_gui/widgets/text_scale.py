@@ -1,0 +1,35 @@
+"""Text scale: four sizes of text, all relative to the application's font."""
+
+from enum import Enum
+
+from PySide6.QtGui import QFont
+
+
+class TextSize(Enum):
+    """A size, as a factor of the application's font: 11, 13, 16 and 20 pixels of 13."""
+
+    SMALL = 11 / 13
+    BODY = 1.0
+    HEADING = 16 / 13
+    TITLE = 20 / 13
+
+
+def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
+    """Return a font of one of the sizes.
+
+    Parameters
+    ----------
+    font
+        The application's font, whose size is that of the body.
+    size
+        The size.
+    bold
+        Whether it is a heading's weight.
+    """
+    found = QFont(font)
+    if font.pointSizeF() > 0.0:
+        found.setPointSizeF(size.value * font.pointSizeF())
+    else:  # a font whose size is given in pixels
+        found.setPixelSize(round(size.value * font.pixelSize()))
+    found.setBold(bold)
+    return found

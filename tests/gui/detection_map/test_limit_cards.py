@@ -1,0 +1,110 @@
+"""Cards of the limits: the advice's highest frequencies, asked for while they are seen."""
+
+from dataclasses import replace
+
+import pytest
+from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
+from PySide6.QtCore import QSize
+from pytestqt.qtbot import QtBot
+
+from occ_gui.detection_map.advice_view import AdviceView
+from occ_gui.detection_map.limit_cards import LimitCards
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.widgets.text_scale import TextSize
+from occ_model.results import RangeEnd
+from occ_model.results.advice import Advice
+from occ_model.scene.scene import Scene
+from occ_model.study.advice import advice_of
+
+
+@pytest.fixture
+def cards(qtbot: QtBot) -> LimitCards:
+    made = LimitCards(["threshold", "matched"])
+    qtbot.addWidget(made)
+    return made
+
+
+def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
+    """Give advice with this upper end of the frequencies."""
+    limits = advice_on(scene).limits
+    found = replace(limits.frequency, highest=end, lowest=end and limits.frequency.lowest)
+    return advice_of(replace(limits, frequency=found))
+
+
+def test_a_card_states_what_the_page_of_advice_states(
+    cards: LimitCards, small_scene: Scene, qtbot: QtBot
+) -> None:
+    view = AdviceView()
+    qtbot.addWidget(view)
+    advice = advice_on(small_scene)
+    view.show_advice(advice)
+    cards.show_advice(advice)
+    card = cards.cards["threshold"]
+    assert card.value.text() == "14.7 kHz"
+    (sentence,) = [text for text in view.sentences() if card.value.text() in text]
+    assert card.value.toolTip() == sentence
+    assert cards.cards["matched"].value.text() == ""
+
+
+def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Scene) -> None:
+    told: list[tuple[str, float]] = []
+    cards.destination_chosen.connect(lambda *to: told.append(to))
+    cards.show_advice(advice_on(small_scene))
+    cards.cards["threshold"].go.click()
+    assert told == [("switching_frequency", INSIDE.value)]
+
+
+def test_a_search_that_met_no_end_says_so(cards: LimitCards, small_scene: Scene) -> None:
+    cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))
+    assert cards.cards["threshold"].value.text() == "14.7 kHz or more"
+
+
+def test_without_a_place_to_go_the_button_rests(cards: LimitCards, small_scene: Scene) -> None:
+    card = cards.cards["threshold"]
+    cards.show_advice(with_end(small_scene, RangeEnd(GOOD, BAD)))
+    assert not card.go.isEnabled()
+    assert card.value.text() == "14.7 kHz"
+
+
+def test_limits_of_an_earlier_scene_are_marked_and_asked_again(
+    cards: LimitCards, small_scene: Scene, qtbot: QtBot
+) -> None:
+    card = cards.cards["threshold"]
+    cards.show()
+    cards.show_begun()
+    cards.show_advice(advice_on(small_scene))
+    cards.show_ended(is_complete=True)
+    assert card.go.isEnabled()
+    assert not cards.is_waiting
+    with qtbot.waitSignal(cards.asked):
+        cards.show_outdated(True)
+        assert not card.go.isEnabled()
+        assert "earlier scene" in card.name.toolTip()
+    cards.show_begun()
+    assert card.value.text() == "…"
+
+
+def test_nothing_is_searched_for_cards_that_are_not_seen(
+    cards: LimitCards, small_scene: Scene
+) -> None:
+    cards.show_outdated(True)
+    assert not cards.is_waiting
+    cards.show()
+    assert cards.is_waiting
+    cards.hide()
+    assert not cards.is_waiting
+
+
+def test_cards_stand_above_a_map_that_leaves_space(qtbot: QtBot) -> None:
+    view = MapView(["threshold", "matched"])
+    qtbot.addWidget(view)
+    view.show()
+    for height, shown in ((300, False), (600, True), (300, False)):
+        view.resize(QSize(700, height))
+        assert view.cards.isVisible() == shown
+
+
+def test_the_value_of_a_card_is_as_large_as_a_heading(cards: LimitCards) -> None:
+    card = cards.cards["matched"]
+    wanted = TextSize.HEADING.value * card.font().pointSizeF()
+    assert card.value.font().pointSizeF() == pytest.approx(wanted)

@@ -1,0 +1,120 @@
+"""The look: contrasts of every theme, sizes of text, and a sheet without colours of its own."""
+
+import re
+
+import pytest
+from PySide6.QtCore import QPoint, QRect
+from PySide6.QtGui import QFont, QPalette
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.widgets.contrast import contrast
+from occ_gui.widgets.state_look import State, colours_of
+from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_gui.window.dock import beside
+from occ_gui.window.style_sheet import _SHEET, style_sheet
+from occ_gui.window.theme import palette_of
+from occ_model.files.resources import resource_names
+
+ROLE = QPalette.ColorRole
+THEMES = ("light", "dark")
+TEXT = [
+    (ROLE.WindowText, ROLE.Window), (ROLE.Text, ROLE.Base), (ROLE.Text, ROLE.AlternateBase),
+    (ROLE.Text, ROLE.Window), (ROLE.ButtonText, ROLE.Button), (ROLE.ButtonText, ROLE.Midlight),
+    (ROLE.HighlightedText, ROLE.Highlight), (ROLE.ToolTipText, ROLE.ToolTipBase),
+    (ROLE.PlaceholderText, ROLE.Base), (ROLE.Link, ROLE.Base), (ROLE.Link, ROLE.Window),
+    (ROLE.LinkVisited, ROLE.Base),
+]  # fmt: skip
+CONTROLS = [
+    (ROLE.Mid, ROLE.Window), (ROLE.Mid, ROLE.Base), (ROLE.Accent, ROLE.Window),
+    (ROLE.Accent, ROLE.Base), (ROLE.Highlight, ROLE.Window), (ROLE.Highlight, ROLE.Base),
+    (ROLE.Accent, ROLE.Button),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize(("front", "back"), TEXT, ids=str)
+def test_text_has_a_contrast_of_four_and_a_half(theme: str, front: ROLE, back: ROLE) -> None:
+    palette = palette_of(theme)
+    assert contrast(palette.color(front), palette.color(back)) >= 4.5
+
+
+@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize(("front", "back"), CONTROLS, ids=str)
+def test_frames_marks_and_focus_have_a_contrast_of_three(
+    theme: str, front: ROLE, back: ROLE
+) -> None:
+    palette = palette_of(theme)
+    assert contrast(palette.color(front), palette.color(back)) >= 3.0
+
+
+@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize("state", State)
+def test_the_words_of_a_state_can_be_read(theme: str, state: State) -> None:
+    found = colours_of(state, palette_of(theme))
+    assert contrast(found.ink, found.paper) >= 4.5
+
+
+def test_plots_are_white_or_nearly_black() -> None:
+    light, dark = (palette_of(theme).color(ROLE.Base) for theme in THEMES)
+    assert light.name() == "#ffffff"
+    assert dark.lightness() < 30
+
+
+def test_the_sheet_has_the_colours_of_the_palette_only() -> None:
+    assert re.findall(r"#[0-9a-fA-F]{3,8}\b(?![^{]*\{)", _SHEET) == []
+    for theme in THEMES:
+        palette = palette_of(theme)
+        known = {palette.color(role).name() for role in ROLE if role != ROLE.NColorRoles}
+        sheet = style_sheet(palette)
+        assert "palette(" not in sheet
+        assert set(re.findall(r"#[0-9a-f]{6}\b", sheet)) <= known
+
+
+def test_each_icon_of_the_sheet_is_a_file() -> None:
+    named = set(re.findall(r"\{icons\}/(\w+)\.svg", _SHEET))
+    assert named == set(resource_names("icons/style", ".svg"))
+
+
+def test_another_theme_has_a_sheet_of_its_colours(application: Application) -> None:
+    themes, window = application.desktop.theme, application.window
+    for theme in ("dark", "light"):
+        themes.choose(theme)
+        assert window.styleSheet() == style_sheet(palette_of(theme))
+    themes.choose("system")
+
+
+def test_sizes_of_text_follow_the_font() -> None:
+    font = QFont("DejaVu Sans")
+    font.setPixelSize(13)
+    assert [scaled(font, size).pixelSize() for size in TextSize] == [11, 13, 16, 20]
+    font.setPixelSize(26)
+    assert [scaled(font, size).pixelSize() for size in TextSize] == [22, 26, 32, 40]
+    font.setPointSizeF(9.0)
+    assert scaled(font, TextSize.TITLE, bold=True).pointSizeF() == pytest.approx(9 * 20 / 13, 0.05)
+    assert scaled(font, TextSize.TITLE, bold=True).bold()
+
+
+@pytest.mark.parametrize("corner", [QPoint(0, 0), QPoint(900, 500), QPoint(-300, -200)], ids=str)
+def test_a_floated_pane_is_whole_on_the_screen_near_its_place(corner: QPoint) -> None:
+    screen, place = QRect(0, 0, 1280, 800), QRect(corner, QRect(0, 0, 400, 300).size())
+    found = beside(place, screen)
+    assert screen.contains(found)
+    assert found.size() == place.size()
+    if screen.contains(place.translated(24, 24)):
+        assert (found.topLeft() - place.topLeft()).manhattanLength() <= 48
+
+
+def test_a_pane_larger_than_the_screen_is_made_smaller() -> None:
+    screen = QRect(100, 0, 800, 600)
+    assert beside(QRect(0, 0, 1000, 900), screen) == screen
+
+
+@pytest.mark.qt_log_ignore("This plugin does not support")
+def test_a_floated_pane_lands_beside_its_place(application: Application, qtbot: QtBot) -> None:
+    dock = application.window.docks["decode"]
+    place = QRect(dock.mapToGlobal(QPoint()), dock.size())
+    dock.setFloating(True)
+    screen = dock.screen().availableGeometry()
+    qtbot.waitUntil(lambda: dock.geometry() == beside(place, screen))
+    dock.setFloating(False)

@@ -35,6 +35,7 @@ def tell_story(parts: Parts) -> None:
     simulation.submitted.connect(story.verdict.end_failure)
     parts.outdated.mark_verdict(story.verdict)
     parts.outdated.mark_readings(story.rows)
+    parts.outdated.mark_picture(story.rows.stripes)  # it comes later than the reading
     parts.decode.decoder_chosen.connect(story.choose_decoder)
     image.picture_chosen.connect(story.choose_picture)
     story.picture_chosen.connect(image.choose_picture)

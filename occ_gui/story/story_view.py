@@ -120,8 +120,6 @@ class StoryView(QWidget):
         self.verdict.show_reading(reading)
         self.rows.show_reading(reading)
 
-    show_snapshot = show_reading
-
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
         """Show this profile of a photo in place of the previous one, or none."""
         self.rows.show_photo_profile(photo)

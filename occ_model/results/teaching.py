@@ -130,8 +130,6 @@ class LightCurve:
         if not self.edges[0] <= column < self.edges[-1]:
             return None
         return int(np.searchsorted(self.edges, column, side="right")) - 1
-<<<<<<< HEAD
-=======
 
     def light_at(self, column: float) -> float:
         """Return the light at a column within the curve, from it on where it jumps there."""
@@ -146,51 +144,3 @@ class LightCurve:
         integral = np.concatenate([[0.0], np.cumsum(areas)])
         at_first, at_last = np.interp([first, last], self.columns, integral)
         return float(at_last - at_first) / (last - first)
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One step of a lesson.
-
-    Parameters
-    ----------
-    text
-        What to look at.
-    question
-        What to find out.
-    answer
-        The answer, to compare with.
-    scene
-        The scene to show.
-    pane
-        The pane to show it in, empty for the current one.
-    photo
-        Name of the sample photo to open, empty for none.
-    """
-
-    text: str
-    question: str
-    answer: str
-    scene: Scene
-    pane: str = ""
-    photo: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Lesson:
-    """A guided lesson.
-
-    Parameters
-    ----------
-    name
-        The file's name.
-    title
-        Its title.
-    steps
-        Its steps, in order.
-    """
-
-    name: str
-    title: str
-    steps: tuple[Step, ...]
->>>>>>> 99ab767 (Tell the story of the picture in four linked rows)

@@ -89,6 +89,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     application.learning.explanation.set_seen(True)
     assert [mark.parentWidget() for mark in marks(application)] == [
         application.image.simulation,
+        application.story.rows.stripes,
         application.story.rows,
         application.profile,
         application.decode,

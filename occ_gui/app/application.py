@@ -12,6 +12,7 @@ from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
+from occ_gui.app.welcome import Welcome
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
@@ -111,6 +112,7 @@ class Application(QObject):
         # Before the session is written.
         self.window.closing.connect(self._end_lesson)
         self.desktop = Desktop(self)
+        self.welcome = Welcome(self)
         self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
         self._connect_scene()

@@ -151,6 +151,8 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
         _take_screenshot(application, options.screenshot)
         return 0
     _close_on_interrupt(application)
+    if begin.is_new and not (options.photo or options.mode or options.dock):
+        application.welcome.show_once()
     return qt.exec()
 
 

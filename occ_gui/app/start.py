@@ -55,6 +55,11 @@ class Start:
     session_file: "SessionFile | None"
     fresh: bool
 
+    @property
+    def is_new(self) -> bool:
+        """Whether neither the command line nor an earlier session says what to show."""
+        return not self.scene_asked and self.session.scene is None
+
     def restore(self, application: "Application", with_photo: bool) -> None:
         """Restore the session in a window before it is shown, and store it from now on."""
         if self.session_file is None:

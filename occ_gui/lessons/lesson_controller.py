@@ -100,6 +100,12 @@ class LessonController(QObject):
                 self._all.lessons, self._places | self._done, failure, self._all.problems
             )
 
+    def begin_first(self) -> None:
+        """Begin the first lesson."""
+        self.set_seen(True)
+        if self._all.lessons:
+            self.choose(self._all.lessons[0].name)
+
     def choose(self, name: str) -> None:
         """Continue a lesson at the step reached."""
         for lesson in self._all.lessons:

@@ -213,6 +213,7 @@ class Menus(QObject):
 
     def _make_help_menu(self) -> None:
         menu = self._top("help", self.tr("&Help"))
+        self._add(menu, "welcome", self.tr("&Welcome…"))
         self._add(menu, "lessons", self.tr("&Lessons"))
         self._add(menu, "about", self.tr("&About"))
         self._add(menu, "shortcuts", self.tr("&Keyboard shortcuts…"), self.tr("F1"))

@@ -1,0 +1,1 @@
+"""The first page that a new user sees: three doors into the program."""

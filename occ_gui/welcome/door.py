@@ -1,0 +1,59 @@
+"""A door: a large button with a picture, a title and a sentence."""
+
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
+
+from occ_gui.widgets.icons import pixmap
+
+_PICTURE = 96
+_LARGER = 1.2
+_SIZE = QSize(208, 208)
+
+
+class Door(QPushButton):
+    """Leads to one way of using the program.
+
+    Parameters
+    ----------
+    picture
+        Name of its drawing in ``resources/icons``.
+    title, sentence
+        What one finds behind it.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, picture: str, title: str, sentence: str, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._name = picture
+        self._picture, self._title, self._sentence = QLabel(), QLabel(title), QLabel(sentence)
+        font = self._title.font()
+        font.setBold(True)
+        font.setPointSizeF(font.pointSizeF() * _LARGER)
+        self._title.setFont(font)
+        self.setAccessibleName(title)
+        self.setAccessibleDescription(sentence)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(16, 16, 16, 16)
+        layout.setSpacing(8)
+        for label in (self._picture, self._title, self._sentence):
+            label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            label.setAlignment(Qt.AlignmentFlag.AlignHCenter)
+            label.setWordWrap(label is not self._picture)
+            layout.addWidget(label)
+        layout.addStretch()
+        self.setFixedSize(_SIZE.expandedTo(layout.sizeHint()))
+        self._draw()
+
+    def _draw(self) -> None:
+        colour = self.palette().color(QPalette.ColorRole.ButtonText)
+        self._picture.setPixmap(pixmap(self._name, colour, _PICTURE, self.devicePixelRatioF()))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange):
+            self._draw()

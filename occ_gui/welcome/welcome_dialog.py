@@ -1,0 +1,66 @@
+"""Welcome: three doors into the program, shown at the first start and from the menu."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from occ_gui.welcome.door import Door
+
+_LARGER = 1.5
+
+
+class WelcomeDialog(QDialog):
+    """Asks what the user wants to do first; closing it means to explore freely."""
+
+    chosen = Signal(str)
+    """The door: ``learn``, ``photo`` or ``explore``."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Welcome"))
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        title = QLabel(self.tr("Light that carries bits"))
+        font = title.font()
+        font.setBold(True)
+        font.setPointSizeF(font.pointSizeF() * _LARGER)
+        title.setFont(font)
+        about = QLabel(
+            self.tr(
+                "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
+                "code is read back from them. See how, and where it ends."
+            )
+        )
+        about.setWordWrap(True)
+        self.doors = {
+            "learn": Door(
+                "door-learn",
+                self.tr("Learn in five minutes"),
+                self.tr("See how a rolling shutter turns a blinking lamp into stripes."),
+            ),
+            "photo": Door(
+                "door-photo",
+                self.tr("Match my photo"),
+                self.tr("Open a photo of a blinking LED, and measure the camera with it."),
+            ),
+            "explore": Door(
+                "door-explore",
+                self.tr("Free exploration"),
+                self.tr("Move the sliders, and watch picture, profile and code follow."),
+            ),
+        }
+        row = QHBoxLayout()
+        row.setSpacing(16)
+        for name, door in self.doors.items():
+            door.setProperty("door", name)
+            door.clicked.connect(self._choose)
+            row.addWidget(door)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(24, 24, 24, 24)
+        layout.setSpacing(16)
+        layout.addWidget(title)
+        layout.addWidget(about)
+        layout.addLayout(row)
+
+    def _choose(self) -> None:
+        name = self.sender().property("door")
+        self.accept()
+        self.chosen.emit(name)

@@ -1,0 +1,84 @@
+"""Three doors lead a new user into the program, once and whenever they are asked for."""
+
+import pytest
+from gui.user import User
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.app.start import Start
+from occ_gui.files.session import Session
+from occ_gui.welcome.welcome_dialog import WelcomeDialog
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+
+@pytest.fixture
+def doors(application: Application, user: User, qtbot: QtBot) -> WelcomeDialog:
+    user.choose("&Welcome…")
+    dialog = application.welcome.dialog
+    assert dialog is not None
+    qtbot.waitUntil(dialog.isVisible)
+    return dialog
+
+
+def test_the_first_door_begins_the_first_lesson(
+    application: Application, doors: WelcomeDialog, user: User
+) -> None:
+    doors.doors["learn"].click()
+    user.wait_until_idle()
+    assert application.window.modes.mode == "lessons"
+    place = application.learning.lessons_pane.step.place.text()
+    assert place == "What is a rolling shutter?, step 1 of 3"
+    assert application.welcome.dialog is None
+
+
+def test_the_second_door_asks_for_a_photo(
+    application: Application, doors: WelcomeDialog, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[object] = []
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: asked.append(a) or ("", ""))
+    doors.doors["photo"].click()
+    assert application.window.modes.mode == "photo"
+    assert len(asked) == 1
+
+
+def test_the_third_door_changes_nothing_of_the_scene(
+    application: Application, doors: WelcomeDialog, small_scene: Scene
+) -> None:
+    doors.doors["explore"].click()
+    assert application.window.modes.mode == "explore"
+    assert application.store.scene == small_scene
+
+
+def test_the_page_comes_by_itself_only_once(
+    application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stored: dict[str, str] = {}
+    preferences = application.preferences
+    monkeypatch.setattr(preferences, "recall", lambda key: stored.get(key, ""))
+    monkeypatch.setattr(preferences, "keep", stored.__setitem__)
+    application.welcome.show_once()
+    dialog = application.welcome.dialog
+    assert dialog is not None
+    dialog.close()
+    assert application.welcome.dialog is None
+    application.welcome.show_once()
+    assert application.welcome.dialog is None
+
+
+@pytest.mark.parametrize(("asked", "scene", "is_new"), [(False, None, True), (True, None, False)])
+def test_a_start_that_names_a_scene_is_no_first_one(
+    asked: bool, scene: Scene | None, is_new: bool
+) -> None:
+    start = Start(Scene(), SimulationSettings(), asked, None, Session(scene), None, fresh=False)
+    assert start.is_new == is_new
+    later = Start(Scene(), SimulationSettings(), asked, None, Session(Scene()), None, fresh=False)
+    assert not later.is_new
+
+
+def test_each_door_says_what_is_behind_it(doors: WelcomeDialog) -> None:
+    for door in doors.doors.values():
+        assert door.accessibleName()
+        assert door.accessibleDescription().endswith(".")
+        assert not door.grab().isNull()

@@ -21,7 +21,7 @@ PAGE_OF_PANE = {
     "map": "sweeps.md#the-detection-map",
     "equations": "model.md",
     "compare": "guide.md#compare-two-states",
-    "lessons": "guide.md#follow-a-lesson",
+    "lessons": "lessons.md#follow-a-lesson",
 }
 """Page and heading that explain a pane, by the pane's name."""
 

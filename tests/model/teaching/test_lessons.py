@@ -7,7 +7,9 @@ import pytest
 import occ_model as occ
 from occ_model.errors import SceneFileError
 from occ_model.files.resources import resource_path
-from occ_model.teaching.lessons import USER_FOLDER, lessons, read_lesson
+from occ_model.teaching.answers import check_answer
+from occ_model.teaching.lessons import EQUATIONS, PANES, USER_FOLDER, lessons, read_lesson
+from occ_model.teaching.quantities import QUANTITIES
 
 
 def test_every_lesson_names_a_pane_and_photo_that_exist() -> None:
@@ -126,3 +128,16 @@ def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_told(
     assert found.lessons[count:] == (read_lesson(tmp_path / "good.toml"),)
     assert list(found.problems) == ["bad.toml"]
     assert "line 8: pane is 1 in place of a text." in found.problems["bad.toml"]
+
+
+def test_the_lesson_of_the_manual_is_one_and_its_tables_are_complete(tmp_path: Path) -> None:
+    page = resource_path("docs", "lessons.md").read_text(encoding="utf-8")
+    path = tmp_path / "mine.toml"
+    path.write_text(page.split("```toml\n")[1].split("```")[0], encoding="utf-8")
+    (step,) = read_lesson(path).steps
+    assert check_answer(step, "5").outcome == "right"
+    for name, quantity in QUANTITIES.items():
+        row = f"| `{name}` | {quantity.meaning} | {quantity.asked_in or 'a number'} |"
+        assert row in page
+    for word in (*PANES, *EQUATIONS, USER_FOLDER):
+        assert f"`{word}`" in page

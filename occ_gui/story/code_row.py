@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from occ_gui.decoding.verdict import wrong_places
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.bit_cells import draw_field, header_texts
-from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
+from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.plot import SIMULATION
@@ -25,9 +25,9 @@ class CodeRow(StoryRow):
     """Chips as cells, and under them header and bits, the right ones ticked, the wrong crossed."""
 
     def __init__(
-        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Code"), axis, cursor, parent)
+        super().__init__(self.tr("Code"), axis, crosshair, parent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._decoded: DecodeResult | None = None
         self._sent: tuple[int, ...] = ()
@@ -113,18 +113,22 @@ class CodeRow(StoryRow):
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Say why there are no chips: none were read, or the decoder reads whole packets."""
-        painter.setPen(self.colour(QPalette.ColorRole.Text))
         text = self.tr("No chips were read.")
         if decoded.code is not None:
             text = self.tr("This decoder compares whole packets, and reads no single chips.")
+        self._write(painter, place, text)
+
+    def _write(self, painter: QPainter, place: QRectF, text: str) -> None:
+        painter.setPen(self.colour(QPalette.ColorRole.Text))
         inner = place.adjusted(8, 0, 0, 0)
         painter.drawText(inner, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)
 
     def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Draw bits that have no columns of their own side by side."""
-        count = max(len(self._sent), decoded.bits.size)
-        if not decoded.bits.size or not count:
+        if not decoded.bits.size:
+            self._write(painter, place, self.tr("No bits were read."))
             return
+        count = max(len(self._sent), decoded.bits.size)
         width = min(34.0, place.width() / count)
         for bit, value in enumerate(decoded.bits.tolist()):
             cell = QRectF(place.left() + 8 + bit * width, place.top(), width, place.height())

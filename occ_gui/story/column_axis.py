@@ -100,7 +100,7 @@ class ColumnAxis(QObject):
             self.changed.emit()
 
 
-class ColumnCursor(QObject):
+class Crosshair(QObject):
     """The column under the mouse, and the column whose exposure is shown."""
 
     pointed_at = Signal()

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QWidget
 
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.bit_cells import draw_field, header_texts
-from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
+from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_digits
@@ -52,9 +52,9 @@ class LightRow(StoryRow):
     """The user has moved the window."""
 
     def __init__(
-        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Light"), axis, cursor, parent)
+        super().__init__(self.tr("Light"), axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self.setToolTip(
             self.tr(
@@ -80,9 +80,9 @@ class LightRow(StoryRow):
             return None
         return light_over_columns(self._scene, first, last, most, self._edged)
 
-    def window(self) -> tuple[float, float] | None:
+    def exposure_window(self) -> tuple[float, float] | None:
         """Return the columns at which the chosen column's exposure begins and ends."""
-        column, scene = self.cursor.column, self._scene
+        column, scene = self.crosshair.column, self._scene
         if column is None or scene is None:
             return None
         return float(column), column + scene.camera.exposure_time / scene.camera.readout_time
@@ -176,7 +176,7 @@ class LightRow(StoryRow):
 
     def draw_markers(self, painter: QPainter, area: QRectF) -> None:
         """Draw the window: shaded, hatched where the LED is on, with its length above."""
-        window, scene = self.window(), self._scene
+        window, scene = self.exposure_window(), self._scene
         if window is None or scene is None:
             return
         light = self._light_area(area)
@@ -225,7 +225,7 @@ class LightRow(StoryRow):
     # Dragging the window.
 
     def _is_on_window(self, place: QPointF) -> bool:
-        window = self.window()
+        window = self.exposure_window()
         if window is None or not self.plot_area().contains(place):
             return False
         left, right = (self.x_of(column) for column in window)
@@ -234,7 +234,7 @@ class LightRow(StoryRow):
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Grab the window where the mouse is on it."""
         super().mousePressEvent(event)
-        place, column = event.position(), self.cursor.column
+        place, column = event.position(), self.crosshair.column
         if event.button() == Qt.MouseButton.LeftButton and self._is_on_window(place):
             self._grabbed = None if column is None else self.column_at(place.x()) - column
 
@@ -252,7 +252,7 @@ class LightRow(StoryRow):
         if self._grabbed is None:
             super().drag_to(place)
         elif self.moved_from_press(place):
-            self.cursor.choose(self.column_at(place.x()) - self._grabbed)
+            self.crosshair.choose(self.column_at(place.x()) - self._grabbed)
             self.window_dragged.emit()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.story.column_axis import ColumnAxis, ColumnCursor
+from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_means import envelope
 from occ_gui.story.curve_lines import DASH, lines_of
 from occ_gui.story.story_row import StoryRow
@@ -38,9 +38,9 @@ class ProfileRow(StoryRow):
     """The simulated columns, the band model's dashed, a photo's, and the decoder's threshold."""
 
     def __init__(
-        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Profile"), axis, cursor, parent)
+        super().__init__(self.tr("Profile"), axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._reading: Reading | None = None
         self._decoded: DecodeResult | None = None
@@ -86,7 +86,8 @@ class ProfileRow(StoryRow):
         if photo is None:
             return None
         if photo.comparison is None:  # in the photo's own levels
-            return photo.first_column + photo.scale * np.arange(len(photo.raw)), photo.raw
+            columns = np.arange(len(photo.raw), dtype=np.float64)
+            return np.asarray(photo.first_column + photo.scale * columns), photo.raw
         levels = photo.comparison.photo
         return photo.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels
 

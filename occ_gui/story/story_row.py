@@ -16,7 +16,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import GUTTER, ColumnAxis, ColumnCursor
+from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
 
@@ -46,18 +46,18 @@ class StoryRow(QWidget):
     ----------
     name
         The name of the row.
-    axis, cursor
+    axis, crosshair
         The range of columns and the column pointed at, shared by all rows.
     parent
         The parent widget.
     """
 
     def __init__(
-        self, name: str, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+        self, name: str, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
         self.name = name
-        self.axis, self.cursor = axis, cursor
+        self.axis, self.crosshair = axis, crosshair
         self._drawn: QPixmap | None = None
         self._press: QPointF | None = None
         self._last: QPointF | None = None
@@ -66,8 +66,8 @@ class StoryRow(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         axis.changed.connect(self.redraw)
-        cursor.pointed_at.connect(self.update)
-        cursor.chosen.connect(self.update)
+        crosshair.pointed_at.connect(self.update)
+        crosshair.chosen.connect(self.update)
 
     def redraw(self) -> None:
         """Draw the row anew."""
@@ -125,11 +125,11 @@ class StoryRow(QWidget):
         painter.drawPixmap(QPoint(0, 0), self._drawn)
         area = self.plot_area()
         painter.setClipRect(area)
-        read = self.cursor.read
-        if self.cursor.column is not None:
-            self._draw_line(painter, self.cursor.column, area, Qt.PenStyle.SolidLine)
-        if self.cursor.pointed is not None:
-            self._draw_line(painter, self.cursor.pointed, area, Qt.PenStyle.DashLine)
+        read = self.crosshair.read
+        if self.crosshair.column is not None:
+            self._draw_line(painter, self.crosshair.column, area, Qt.PenStyle.SolidLine)
+        if self.crosshair.pointed is not None:
+            self._draw_line(painter, self.crosshair.pointed, area, Qt.PenStyle.DashLine)
         self.draw_markers(painter, area)
         if read is not None:
             self.draw_pointed(painter, read, area)
@@ -208,7 +208,7 @@ class StoryRow(QWidget):
         if self._last is not None:
             self.drag_to(place)
             self._last = place
-        self.cursor.point_at(self.column_at(place.x()) if inside else None)
+        self.crosshair.point_at(self.column_at(place.x()) if inside else None)
 
     def drag_to(self, place: QPointF) -> None:
         """Follow the mouse with a button pressed."""
@@ -233,7 +233,7 @@ class StoryRow(QWidget):
 
     def click(self, place: QPointF) -> None:
         """Choose the column at a place."""
-        self.cursor.choose(self.column_at(place.x()))
+        self.crosshair.choose(self.column_at(place.x()))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Show the first range again."""
@@ -243,15 +243,15 @@ class StoryRow(QWidget):
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         """Point at no column."""
         super().leaveEvent(event)
-        self.cursor.point_at(None)
+        self.crosshair.point_at(None)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         """Choose the next column by the arrows, zoom by plus and minus, fit by Home."""
         key = Qt.Key(event.key())
-        column = self.cursor.column
+        column = self.crosshair.column
         if key in _STEPS and column is not None:
-            self.cursor.choose(column + _STEPS[key])
-            chosen = float(self.cursor.column or 0)
+            self.crosshair.choose(column + _STEPS[key])
+            chosen = float(self.crosshair.column or 0)
             self.axis.reveal(chosen, chosen)
         elif key in _ZOOMS:
             at = column if column is not None else (self.axis.first + self.axis.last) / 2

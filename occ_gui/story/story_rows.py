@@ -8,7 +8,7 @@ from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.code_row import CodeRow
-from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, ColumnCursor
+from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
 from occ_gui.story.curve_legend import CurveLegend
 from occ_gui.story.light_row import LightRow
@@ -40,17 +40,17 @@ class StoryRows(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.axis, self.cursor = ColumnAxis(self), ColumnCursor(self)
+        self.axis, self.crosshair = ColumnAxis(self), Crosshair(self)
         self._reading: Reading | None = None
         self._picture: Picture | None = None
         self._decoder = ""
         self._whose = PICTURES[0]
         self.range = RANGES[0]
         self.time, self.columns = TimeScale(self.axis), ColumnScale(self.axis)
-        self.light = LightRow(self.axis, self.cursor)
-        self.stripes = StripesRow(self.axis, self.cursor)
-        self.profile = ProfileRow(self.axis, self.cursor)
-        self.code = CodeRow(self.axis, self.cursor)
+        self.light = LightRow(self.axis, self.crosshair)
+        self.stripes = StripesRow(self.axis, self.crosshair)
+        self.profile = ProfileRow(self.axis, self.crosshair)
+        self.code = CodeRow(self.axis, self.crosshair)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
@@ -59,7 +59,7 @@ class StoryRows(QWidget):
             (self.profile, 6), (self.code, 0), (self.columns, 0),
         ):  # fmt: skip
             layout.addWidget(part, stretch)
-        for signal in (self.cursor.pointed_at, self.cursor.chosen):
+        for signal in (self.crosshair.pointed_at, self.crosshair.chosen):
             signal.connect(self._read_out)
         self.axis.changed.connect(self._on_range)
 
@@ -105,7 +105,7 @@ class StoryRows(QWidget):
         self.light.show_reading(reading)
         self._show_decoded()
         first = int(reading.panel_origin[0] + reading.packet_columns / 2)
-        self.cursor.set_columns(len(reading.profile), first)
+        self.crosshair.set_columns(len(reading.profile), first)
         self._set_range()
         self._read_out()
 
@@ -145,7 +145,7 @@ class StoryRows(QWidget):
 
     def values(self) -> ColumnValues | None:
         """Return the values of the column at the crosshair, else of the chosen one."""
-        column = self.cursor.read
+        column = self.crosshair.read
         if self._reading is None or column is None:
             return None
         return values_at(column, self._reading.scene, self.light, self.profile, self.code)

@@ -7,7 +7,7 @@ from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResize
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from occ_gui.simulation.preview import Picture
-from occ_gui.story.column_axis import GUTTER, ColumnAxis, ColumnCursor
+from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
 from occ_gui.story.column_means import resampled
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.guarded_paint import guarded
@@ -25,16 +25,16 @@ class StripesRow(StoryRow):
 
     Parameters
     ----------
-    axis, cursor
+    axis, crosshair
         The range of columns and the column pointed at.
     parent
         The parent widget.
     """
 
     def __init__(
-        self, axis: ColumnAxis, cursor: ColumnCursor, parent: QWidget | None = None
+        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Picture"), axis, cursor, parent)
+        super().__init__(self.tr("Picture"), axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._frame: Frame | None = None
         self._image: ByteArray | None = None

@@ -69,7 +69,7 @@ def test_the_stripes_show_each_column_at_its_place(
     first, last = rows.stripes.rows_shown()
     means = snapshot.frame.camera_image[first:last].mean(axis=0)
     inside = range(int(rows.axis.first) + 2, int(rows.axis.last) - 2)
-    chosen = rows.cursor.column
+    chosen = rows.crosshair.column
     seen = [drawn[round(rows.stripes.x_of(column))] for column in inside if column != chosen]
     wanted = [means[column] for column in inside if column != chosen]
     np.testing.assert_allclose(seen, wanted, atol=1.0)
@@ -87,7 +87,7 @@ def test_the_values_at_the_crosshair_are_the_models(
     lit = occ.on_time(scene) / scene.camera.exposure_time
     chips, frequency = occ.packet(scene), scene.transmitter.switching_frequency
     for column in (1, 1213, 1344, 1501):
-        rows.cursor.point_at(column + 0.2)
+        rows.crosshair.point_at(column + 0.2)
         values = rows.values()
         assert values is not None
         time = scene.model.start_time + column * scene.camera.readout_time
@@ -109,22 +109,23 @@ def test_the_values_at_the_crosshair_are_the_models(
 def test_the_bits_at_the_crosshair_are_those_read(rows: StoryRows, snapshot: Snapshot) -> None:
     code, result = rows.code, snapshot.decoded
     assert code.edges is not None
-    read = {}
+    read: dict[int | None, int | None] = {}
     for field in code.fields:
-        rows.cursor.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
+        rows.crosshair.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
         values = rows.values()
         assert values is not None
         read[values.bit] = values.value
         assert values.state is (State.NEUTRAL if field.bit is None else State.GOOD)
-    assert read == {None: None, **dict(enumerate(result.bits.tolist()))}
+    assert read.pop(None) is None
+    assert read == dict(enumerate(result.bits.tolist()))
     assert code.accessibleDescription() == "sent 1011001110, received 1011001110, 0 wrong"
 
 
 def test_outside_the_picture_nothing_is_pointed_at(rows: StoryRows, snapshot: Snapshot) -> None:
-    chosen = rows.cursor.column
+    chosen = rows.crosshair.column
     for column in (-3.0, len(snapshot.profile) + 2.0):
-        rows.cursor.point_at(column)
-        assert rows.cursor.pointed is None
+        rows.crosshair.point_at(column)
+        assert rows.crosshair.pointed is None
         values = rows.values()
         assert values is not None
         assert values.column == chosen
@@ -132,7 +133,7 @@ def test_outside_the_picture_nothing_is_pointed_at(rows: StoryRows, snapshot: Sn
 
 def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qtbot: QtBot) -> None:
     light = rows.light
-    window = light.window()
+    window = light.exposure_window()
     assert window is not None
     grabbed = (window[0] + window[1]) / 2
     button = Qt.MouseButton.LeftButton
@@ -140,9 +141,9 @@ def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qt
     for moved in (20, 60, 100):
         qtbot.mouseMove(light, place_of(light, grabbed + moved))
     qtbot.mouseRelease(light, button, pos=place_of(light, grabbed + 100))
-    moved_window = light.window()
+    moved_window = light.exposure_window()
     assert moved_window is not None
-    assert rows.cursor.column == moved_window[0]
+    assert rows.crosshair.column == moved_window[0]
     # A pixel of the mouse is less than one column here.
     assert moved_window[0] - window[0] == pytest.approx(100.0, abs=1.0)
     assert moved_window[1] - moved_window[0] == pytest.approx(68.0 / 8.0)
@@ -152,7 +153,7 @@ def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qt
 def test_a_click_on_any_row_chooses_a_column(rows: StoryRows, qtbot: QtBot) -> None:
     for row, column in zip(all_rows(rows), (1250, 1300, 1500, 1700), strict=True):
         qtbot.mouseClick(row, Qt.MouseButton.LeftButton, pos=place_of(row, column))
-        assert rows.cursor.column == pytest.approx(column, abs=1)
+        assert rows.crosshair.column == pytest.approx(column, abs=1)
 
 
 def test_the_wheel_zooms_all_rows_about_the_mouse(rows: StoryRows) -> None:
@@ -166,24 +167,24 @@ def test_the_wheel_zooms_all_rows_about_the_mouse(rows: StoryRows) -> None:
 
 def test_a_drag_moves_all_rows_and_a_double_click_fits(rows: StoryRows, qtbot: QtBot) -> None:
     row, button = rows.profile, Qt.MouseButton.LeftButton
-    home, chosen = (rows.axis.first, rows.axis.last), rows.cursor.column
+    home, chosen = (rows.axis.first, rows.axis.last), rows.crosshair.column
     start = place_of(row, 1400.0)
     qtbot.mousePress(row, button, pos=start)
     for step in (20, 60, 120):
         qtbot.mouseMove(row, start + QPoint(step, 0))
     qtbot.mouseRelease(row, button, pos=start + QPoint(120, 0))
     assert rows.light.x_of(1400.0) == pytest.approx(start.x() + 120, abs=1.5)
-    assert rows.cursor.column == chosen
+    assert rows.crosshair.column == chosen
     qtbot.mouseDClick(row, button, pos=start)
     assert (rows.axis.first, rows.axis.last) == home
 
 
 def test_the_keys_choose_zoom_and_fit(rows: StoryRows, qtbot: QtBot) -> None:
-    column, home = rows.cursor.column, rows.axis.span
+    column, home = rows.crosshair.column, rows.axis.span
     assert column is not None
     for key, moved in ((Qt.Key.Key_Right, 1), (Qt.Key.Key_PageUp, 11), (Qt.Key.Key_Left, 10)):
         qtbot.keyClick(rows.light, key)
-        assert rows.cursor.column == column + moved
+        assert rows.crosshair.column == column + moved
     qtbot.keyClick(rows.light, Qt.Key.Key_Plus)
     assert rows.axis.span < home
     qtbot.keyClick(rows.light, Qt.Key.Key_Home)

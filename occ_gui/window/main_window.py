@@ -147,7 +147,7 @@ class MainWindow(QMainWindow):
     def _show_page(self, page: str) -> None:
         """Show the story in the middle, the whole picture in its place, or neither."""
         self._story.setVisible(bool(page))
-        if page and hasattr(self._story, "show_whole_picture"):
+        if page:
             self._story.show_whole_picture(page == PICTURE)
 
     def show_photo_name(self, name: str | None) -> None:

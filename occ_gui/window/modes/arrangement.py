@@ -8,15 +8,21 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow
 from occ_gui.window.modes.mode import Groups, Mode
 
 _AREA = Qt.DockWidgetArea
-_ELSEWHERE = {"controls": _AREA.LeftDockWidgetArea}
-"""Where a pane stands that the mode neither shows nor puts behind its main pane."""
+_ELSEWHERE = {
+    "controls": _AREA.LeftDockWidgetArea,
+    "decode": _AREA.RightDockWidgetArea,
+    "photo": _AREA.RightDockWidgetArea,
+    "equations": _AREA.RightDockWidgetArea,
+    "lessons": _AREA.RightDockWidgetArea,
+}
+"""Where a pane stands that the mode neither shows nor puts behind its main pane; else below."""
 
 
 def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
     """Show the panes of a mode at their places, and hide all others.
 
-    Another pane comes up, when it is asked for, behind the mode's main pane, or at the bottom
-    where that is no dock.
+    Another pane, when it is asked for, shares the place of the mode's main pane, or stands at the
+    right or below where that is no dock.
     """
     for dock in docks.values():
         window.removeDockWidget(dock)
@@ -51,13 +57,18 @@ def _place(
 
 
 def _put_behind(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
+    main = docks.get(mode.main)
+    fronts: dict[Qt.DockWidgetArea, QDockWidget] = {}
     for name, dock in docks.items():
         if name in mode.panes:
             continue
-        if name in _ELSEWHERE or mode.main not in docks:
-            window.addDockWidget(_ELSEWHERE.get(name, _AREA.BottomDockWidgetArea), dock)
+        area = _ELSEWHERE.get(name, _AREA.BottomDockWidgetArea)
+        front = fronts.get(area) if main is None or name == "controls" else main
+        if front is None:
+            window.addDockWidget(area, dock)
+            fronts[area] = dock
         else:
-            window.tabifyDockWidget(docks[mode.main], dock)
+            window.tabifyDockWidget(front, dock)
         dock.hide()
-    if mode.main in docks:
-        docks[mode.main].raise_()
+    if main is not None:
+        main.raise_()

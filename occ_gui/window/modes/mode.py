@@ -48,10 +48,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             centre=STORY,
             main=PICTURE,
             left=(("controls",),),
-            right=(("decode", "photo", "equations"),),
-            bottom=(("profile", "accuracy", "map", "compare"),),
-            widths={"controls": 340, "decode": 360},
-            heights={"profile": 308},
+            widths={"controls": 340},
         ),
         "photo": Mode(
             centre=PICTURE,
@@ -80,9 +77,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             main="lessons",
             left=(("controls",),),
             right=(("lessons",),),
-            bottom=(("profile",),),
-            widths={"controls": 340, "lessons": 340},
-            heights={"profile": 240},
+            widths={"controls": 320, "lessons": 340},
         ),
     }
 )

@@ -36,7 +36,7 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS, decoders
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -70,7 +70,7 @@ class Application(QObject):
         self.simulation = SimulationController(self.store, self.settings)
         effects = [name for effect in EFFECTS for name in effect.parameters]
         self.controls = ControlPanel([], effects)
-        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView()
+        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView(decoders())
         self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.story = StoryView(self.image)
         self.detection = MapView(QUICK_DECODERS)
@@ -205,6 +205,7 @@ class Application(QObject):
         self.slider_strips.set_shown(self.preferences.slider_strips)
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
+        self.decode.decoder_chosen.connect(self.simulation.read_with)
 
     @property
     def is_idle(self) -> bool:

@@ -36,7 +36,9 @@ class _LevelAxis(Axis):
 class SignalPlot(QWidget):
     """The signal, its threshold and the chips read; or the signal folded on one packet.
 
-    A decoder that compares the signal with the forward model of a code folds it.
+    A decoder that compares the signal with the forward model of a code folds it. One that undoes
+    the exposure shows what is left of the signal then, and one that finds the chips by their light
+    shows that light beside the signal's.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -71,15 +73,21 @@ class SignalPlot(QWidget):
 
     def show_result(self, result: DecodeResult, packet_columns: float) -> None:
         """Show the steps of this result, at first two packets of ``packet_columns`` each."""
-        folded = result.folded is not None
+        folded, in_light = result.folded is not None, result.light is not None
         if result.folded is not None and result.model is not None:
             self._show_folded(result.folded, result.model)
+        elif result.light is not None and result.light_model is not None:
+            self._show_columns(result, result.light, self.tr("share of full light"), packet_columns)
+            _draw(self.model, result.light_model)
+        elif result.equalized is not None:
+            self._show_columns(result, result.equalized, self.tr("light"), packet_columns)
         else:
-            self._show_signal(result, packet_columns)
+            signal = result.signal if result.signal is not None else np.zeros(1)
+            self._show_columns(result, signal, self.tr("level"), packet_columns)
         self.threshold.setVisible(result.threshold is not None)
         self.chips.setVisible(not folded and bool(result.chips.size))
         self.legend.show_line("threshold", result.threshold is not None)
-        self.legend.show_line("model", folded)
+        self.legend.show_line("model", folded or in_light)
         self.legend.show_line("chips", self.chips.isVisible())
         self.setVisible(result.signal is not None)
 
@@ -91,14 +99,15 @@ class SignalPlot(QWidget):
         self.plot.setXRange(0, len(folded) - 1, padding=0.02)
         self.plot.setYRange(0.0, 1.0, padding=0.05)
 
-    def _show_signal(self, result: DecodeResult, packet_columns: float) -> None:
-        signal = result.signal if result.signal is not None else np.zeros(1)
+    def _show_columns(
+        self, result: DecodeResult, signal: FloatArray, label: str, packet_columns: float
+    ) -> None:
         self.plot.setLabel("bottom", self.tr("column of the region"))
-        self.plot.setLabel("left", self.tr("level"))
+        self.plot.setLabel("left", label)
         _draw(self.signal, signal)
         self.model.setData([], [])
         low, high = float(signal.min()), float(signal.max())
-        strip = max(high - low, 1.0) * _CHIP_STRIP_HEIGHT
+        strip = (high - low or 1.0) * _CHIP_STRIP_HEIGHT
         if result.threshold is not None:
             self.threshold.setValue(result.threshold)
         if result.chip_starts is not None:

@@ -1,6 +1,6 @@
 """Pane of decoding: whether the code was read, the bits, and the steps of the decoder."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
@@ -24,8 +24,9 @@ class DecodeView(QWidget):
     decoder_chosen = Signal(str)
     """The name of the decoder that the user chose to see."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._names = tuple(decoders)
         self._reading: Reading | None = None
         self._early: Reading | None = None
         self._drawn: DecodeResult | None = None
@@ -99,12 +100,13 @@ class DecodeView(QWidget):
         else:
             self._early = self._drawn = None
         self._reading = reading
+        results = self._results(reading)
         with QSignalBlocker(self.decoders):
-            while self.decoders.count() < len(reading.results):
+            while self.decoders.count() < len(results):
                 self.decoders.addTab("")
-            while self.decoders.count() > len(reading.results):
+            while self.decoders.count() > len(results):
                 self.decoders.removeTab(self.decoders.count() - 1)
-        self._mark_tabs(reading.results)
+        self._mark_tabs(reading)
         self.origin.show()
         self.strip.setVisible(bool(reading.sent))
         self.left_out.setVisible(bool(reading.called_for))
@@ -122,17 +124,26 @@ class DecodeView(QWidget):
             return
         self._is_outdated = outdated
         self.strip.show_outdated(outdated)
-        self._mark_tabs(reading.results)
+        self._mark_tabs(reading)
         self.verdict.setText(self._verdict(self._chosen(reading)))
 
-    def _mark_tabs(self, results: Iterable[DecodeResult]) -> None:
-        for place, result in enumerate(results):
-            mark = "✓" if is_right(result, self._sent) else "✗"
-            mark = "…" if self._is_outdated else mark
-            self.decoders.setTabText(place, f"{result.decoder} {mark}")
+    def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
+        """Give the result of every decoder; of one that has not read, that it will."""
+        there = {result.decoder: result for result in reading.results}
+        names = dict.fromkeys((*self._names, *there))
+        awaited = self.tr("This decoder takes longer: it reads the picture now.")
+        return tuple(there.get(name) or DecodeResult(name, failure=awaited) for name in names)
+
+    def _mark_tabs(self, reading: Reading) -> None:
+        there = {result.decoder for result in reading.results}
+        for place, result in enumerate(self._results(reading)):
+            mark = " ✓" if is_right(result, self._sent) else " ✗"
+            mark = " …" if self._is_outdated else mark
+            mark = mark if result.decoder in there else ""
+            self.decoders.setTabText(place, f"{result.decoder}{mark}")
 
     def _chosen(self, reading: Reading) -> DecodeResult:
-        return reading.results[max(0, self.decoders.currentIndex())]
+        return self._results(reading)[max(0, self.decoders.currentIndex())]
 
     def decoder(self) -> str:
         """Return the name of the decoder whose result is shown; empty before the first result."""

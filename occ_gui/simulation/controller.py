@@ -42,6 +42,7 @@ from occ_gui.simulation.snapshot import (
     SimulationRequest,
     Snapshot,
 )
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -129,6 +130,7 @@ class SimulationController(QObject):
         self._read: Reading | None = None
         self._whose = PICTURES[0]
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
+        self._more: tuple[str, ...] = ()
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
         self._drafted.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
@@ -179,11 +181,18 @@ class SimulationController(QObject):
         """
         self._rows_per_pixel = rows_per_pixel
 
+    def read_with(self, decoder: str) -> None:
+        """Read the present scene, and those after it, with this decoder too."""
+        self._more = () if decoder in QUICK_DECODERS else (decoder,)
+        read = self._read
+        if self._more and (read is None or decoder not in {r.decoder for r in read.results}):
+            self.runner.submit(self._request())
+
     def _request(self) -> SimulationRequest:
         scene = self._scenes.scene
         step = max(LEAST_DRAFT_STEP, math.floor(self._rows_per_pixel()))
         step = min(step, scene.camera.rows)
-        return SimulationRequest(scene, self._settings.settings, self._whose, step)
+        return SimulationRequest(scene, self._settings.settings, self._whose, step, self._more)
 
     def _submit(self) -> None:
         request = self._request()

@@ -42,7 +42,7 @@ def reading_by_profile(request: SimulationRequest) -> Reading | None:
     ProjectionError
         The panel has no picture in this pose.
     """
-    found = read_profile(request.scene, request.settings)
+    found = read_profile(request.scene, request.settings, (*QUICK_DECODERS, *request.more))
     if found is None:
         return None
     first, *others = found.results
@@ -88,7 +88,8 @@ def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     scene = frame.scene
     first = occ.decode(frame.image, scene)
     results = [_in_whole_picture(first, frame)]
-    results += [_in_whole_picture(other, frame) for other in _decode_with_others(first, scene)]
+    others = _decode_with_others(first, scene, request.more)
+    results += [_in_whole_picture(other, frame) for other in others]
     return Reading(
         request=request,
         source="draft",
@@ -125,7 +126,7 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         signal=frame.signal,
         corners=frame.corners,
         decoded=decoded,
-        others=tuple(_decode_with_others(decoded, scene)),
+        others=tuple(_decode_with_others(decoded, scene, request.more)),
         called_for=called_for_by_signal(frame.plan, scene),
         frame=frame,
         reading_seconds=seconds,
@@ -151,9 +152,11 @@ def _beside(scene: Scene) -> _Beside:
     }
 
 
-def _decode_with_others(decoded: DecodeResult, scene: Scene) -> Iterator[DecodeResult]:
+def _decode_with_others(
+    decoded: DecodeResult, scene: Scene, more: tuple[str, ...]
+) -> Iterator[DecodeResult]:
     """Decode the signal that one decoder has located in the picture with the other decoders."""
-    for name in QUICK_DECODERS:
+    for name in (*QUICK_DECODERS, *more):
         if name == decoded.decoder:
             continue
         if decoded.signal is None:  # no panel found, which holds for all decoders

@@ -33,6 +33,8 @@ class SimulationRequest:
         Whose picture is shown first, the ``"camera"``'s or the ``"receiver"``'s.
     draft_step
         A draft shows one of so many rows of the picture.
+    more
+        Decoders that are not quick, and read it as well.
     """
 
     scene: Scene
@@ -40,6 +42,7 @@ class SimulationRequest:
     # Neither changes the results.
     whose: str = field(default=PICTURES[0], compare=False)
     draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
+    more: tuple[str, ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

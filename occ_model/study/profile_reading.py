@@ -5,6 +5,7 @@ means, and with them the verdict of every decoder, follow in milliseconds at any
 picture; the picture itself confirms them later.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -38,7 +39,7 @@ class ProfileReading:
         Means of the panel's pixels in each column, before the receiver's enhancement and after it,
         in grey levels; also in columns that do not show the panel.
     results
-        The result of each decoder, in the order of ``QUICK_DECODERS``.
+        The result of each decoder, in the order asked for.
     """
 
     plan: Plan
@@ -58,7 +59,9 @@ def has_profile_path(scene: Scene, chosen: Plan) -> bool:
     return "image" not in chosen.kinds and panel_span(scene) is not None
 
 
-def read_profile(scene: Scene, settings: SimulationSettings) -> ProfileReading | None:
+def read_profile(
+    scene: Scene, settings: SimulationSettings, decoders: Sequence[str] = QUICK_DECODERS
+) -> ProfileReading | None:
     """Read a scene by the profile path.
 
     Parameters
@@ -67,6 +70,8 @@ def read_profile(scene: Scene, settings: SimulationSettings) -> ProfileReading |
         The scene.
     settings
         How its picture is simulated; the effects are planned for the signal all the same.
+    decoders
+        The decoders' names.
 
     Returns
     -------
@@ -90,7 +95,7 @@ def read_profile(scene: Scene, settings: SimulationSettings) -> ProfileReading |
     columns = expose_columns(view, chosen)
     random = np.random.default_rng(settings.seed)
     profile, signal, observed = _column_means(scene, columns, chosen, span, random)
-    results = tuple(observed.read(scene, decoder) for decoder in QUICK_DECODERS)
+    results = tuple(observed.read(scene, decoder) for decoder in decoders)
     return ProfileReading(chosen, view.corners, profile, signal, results)
 
 

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.decoding import decode_steps
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Snapshot
@@ -171,3 +172,28 @@ def test_both_plots_are_tall_enough_to_be_read(
     for widget in (signal_plot, run_length_plot):
         least = max(widget.minimumSizeHint().height(), widget.minimumHeight())
         assert least >= 100
+
+
+def test_the_light_of_the_chips_is_drawn_beside_the_signals(
+    signal_plot: SignalPlot, paper: Snapshot
+) -> None:
+    found = occ.decode(paper.frame.image, paper.scene, "sequence")
+    assert found.light is not None
+    assert found.light_model is not None
+    signal_plot.show_result(found, paper.packet_columns)
+    assert levels(signal_plot.signal) == found.light.tolist()
+    assert levels(signal_plot.model) == found.light_model.tolist()
+    assert "model of the code" in legend_texts(signal_plot)
+    assert "threshold" not in legend_texts(signal_plot)
+
+
+def test_the_threshold_is_drawn_in_the_equalized_light(
+    signal_plot: SignalPlot, paper: Snapshot
+) -> None:
+    found = occ.decode(paper.frame.image, paper.scene, "equalizer")
+    assert found.equalized is not None
+    signal_plot.show_result(found, paper.packet_columns)
+    assert levels(signal_plot.signal) == found.equalized.tolist()
+    assert signal_plot.threshold.value() == found.threshold
+    assert found.equalized.min() < signal_plot.threshold.value() < found.equalized.max()
+    assert "model of the code" not in legend_texts(signal_plot)

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
@@ -119,6 +120,26 @@ def test_each_decoders_tab_shows_whether_it_read_the_code(
     view.show_reading(snapshot)
     shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
     assert shown == ["threshold ✗", "matched ✓"]
+
+
+def test_a_slow_decoder_is_asked_for_when_its_tab_is_chosen(
+    qtbot: QtBot, snapshot_of: SnapshotOf
+) -> None:
+    view = DecodeView(("threshold", "matched", "equalizer", "sequence"))
+    qtbot.addWidget(view)
+    view.show()
+    snapshot = snapshot_of(code=5, exposure_time=136e-6, switching_frequency=20e3)
+    view.show_reading(snapshot)
+    shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
+    assert shown == ["threshold ✗", "matched ✓", "equalizer", "sequence"]
+    with qtbot.waitSignal(view.decoder_chosen) as asked:
+        view.decoders.setCurrentIndex(3)
+    assert asked.args == ["sequence"]
+    assert "takes longer" in view.reason.text()
+    read = occ.decode(snapshot.frame.image, snapshot.scene, "sequence")
+    view.show_reading(replace(snapshot, others=(*snapshot.others, read)))
+    assert view.verdict.text() == "✓ Code 5 read, all bits right"
+    assert view.decoders.tabText(3) == "sequence ✓"
 
 
 def test_a_chosen_decoder_stays_chosen_and_shows_its_result(

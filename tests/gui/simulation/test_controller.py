@@ -304,6 +304,26 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
         assert result.region == alone.region
 
 
+def test_a_decoder_asked_for_reads_this_scene_and_later_ones(bench: Bench) -> None:
+    def read() -> list[str]:
+        shown = bench.controller._read
+        assert shown is not None
+        return [result.decoder for result in shown.results]
+
+    bench.wait_until_idle()
+    assert read() == list(QUICK_DECODERS)
+    bench.controller.read_with("sequence")
+    bench.wait_until_idle()
+    assert read() == [*QUICK_DECODERS, "sequence"]
+    bench.store.change(iso=150.0)
+    bench.wait_until_idle()
+    assert read() == [*QUICK_DECODERS, "sequence"]
+    bench.controller.read_with("matched")
+    bench.store.change(iso=160.0)
+    bench.wait_until_idle()
+    assert read() == list(QUICK_DECODERS)
+
+
 def test_where_no_panel_is_found_every_decoder_says_so(
     bare_snapshot_of: Callable[..., Snapshot],
 ) -> None:

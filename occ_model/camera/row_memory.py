@@ -9,7 +9,7 @@ from collections.abc import Callable, Hashable, Iterable
 from threading import Lock
 from typing import Any, TypeVar
 
-from occ_model.arrays import Pixels
+from numpy.typing import NDArray
 
 _Made = TypeVar("_Made")
 
@@ -33,7 +33,10 @@ class RowMemory:
         self.size = 0
 
     def recall(
-        self, key: Hashable, make: Callable[[], _Made], arrays: Callable[[_Made], Iterable[Pixels]]
+        self,
+        key: Hashable,
+        make: Callable[[], _Made],
+        arrays: Callable[[_Made], Iterable[NDArray[Any]]],
     ) -> _Made:
         """Return what was made for a key, or make it.
 

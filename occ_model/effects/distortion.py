@@ -12,7 +12,8 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.optics import Optics
-from occ_model.camera.projection import image_points, image_rays
+from occ_model.camera.projection import geometry_of, image_points, image_rays
+from occ_model.camera.row_memory import MEMORY
 from occ_model.effects.defocus import blur_of
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView
@@ -114,7 +115,14 @@ def _within(points: FloatArray, camera: Camera, reach: float) -> np.ndarray:
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the outline of a panel with these corners, without and with distortion, by points.
+    """Return the outline of a panel with these corners, without and with distortion, by points."""
+    lens = scene.lens, *geometry_of(scene.camera), blur_of(scene)
+    key = "outlines", corners.tobytes(), *lens
+    return MEMORY.recall(key, lambda: _traced(scene, corners), tuple)
+
+
+def _traced(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Trace both outlines.
 
     Parts so far outside that none of their light reaches the picture are cut off first: the
     equations need not be valid there.

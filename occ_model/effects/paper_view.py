@@ -29,6 +29,9 @@ _BINS = 64
 """Steps between the darkest and the brightest column in which columns are counted."""
 
 
+_EDGES = np.arange(_BINS + 1.0)
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class PaperView:
     """The picture of a scene by the paper's model.
@@ -161,18 +164,20 @@ def _histogram(values: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return levels from the least value to the greatest, and the share of values between them."""
     low, high = float(values.min()), float(values.max())
     # A little beyond both ends, so that no rounding puts a column outside.
-    levels = np.linspace(low * (1 - 1e-9), high * (1 + 1e-9) + 1e-9, _BINS + 1)
-    step = levels[1] - levels[0]
-    counts = np.bincount(((values - levels[0]) / step).astype(np.int64), minlength=_BINS)
+    least = low * (1 - 1e-9)
+    step = (high * (1 + 1e-9) + 1e-9 - least) / _BINS
+    levels = least + step * _EDGES
+    counts = np.bincount(((values - least) * (1.0 / step)).astype(np.int64), minlength=_BINS)
     return levels, counts[:_BINS] / len(values)
 
 
 def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
-    left, top = corners.min(axis=0).tolist()
-    right, bottom = corners.max(axis=0).tolist()
+    columns, rows = corners.T.tolist()
+    left, top, right, bottom = min(columns), min(rows), max(columns), max(rows)
     slack = 1e-6 * max(right - left, bottom - top, 1.0)
-    on_rim = (np.abs(corners - (left, top)) < slack) | (np.abs(corners - (right, bottom)) < slack)
-    return (left, top, right, bottom) if on_rim.all() else None
+    upright = all(min(column - left, right - column) < slack for column in columns)
+    level = all(min(row - top, bottom - row) < slack for row in rows)
+    return (left, top, right, bottom) if upright and level else None
 
 
 def _corner_rays(region: Region, camera: Camera) -> FloatArray:
@@ -192,11 +197,16 @@ def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
     rows, columns
         Size of the image.
     """
-    left, top = np.clip(np.ceil(corners.min(axis=0)), 0, (columns, rows)).astype(int).tolist()
-    right, bottom = np.clip(np.ceil(corners.max(axis=0)), 0, (columns, rows)).astype(int).tolist()
+    across, down = corners.T.tolist()
+    left, right = (_first_from(end(across), columns) for end in (min, max))
+    top, bottom = (_first_from(end(down), rows) for end in (min, max))
     if left >= right or top >= bottom:
         return None
     return Region(top, bottom, left, right)
+
+
+def _first_from(place: float, size: int) -> int:
+    return math.ceil(min(max(place, 0.0), float(size)))
 
 
 def reachable_luminances(scene: Scene) -> tuple[float, float]:

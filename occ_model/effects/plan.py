@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.effect import ROUNDING, Effect, FileEffect
@@ -120,7 +121,9 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
         file = _file_in(left_out, bounds, forced)
         if file is not None and (signal is None or not signal.is_enhanced):
             # A file is made of pixels, whatever is observed of it later.
-            pixels = _bounds(view, noise, None, "image", stretch)
+            pixels = bounds
+            if observable != "image":
+                pixels = _bounds(view, noise, None, "image", stretch)
             dithers = _noise_that_dithers(pixels, forced, stretch)
             through = _ThroughFile(file, view, stretch, bool(dithers))
             kept = {**forced, **dict.fromkeys(dithers, True)}
@@ -130,7 +133,7 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
                 for name, bound in pixels.items()
             }
     decisions = tuple(
-        _decide(effect, bounds[effect.name], effect.name in left_out, tolerance, forced, file)
+        _decide(effect, bounds[effect.name], left_out, tolerance, forced, file)
         for effect in EFFECTS
     )
     return Plan(tolerance, observable, decisions, spent, stretch)
@@ -245,13 +248,25 @@ def _leave_out(
 def _decide(
     effect: Effect,
     bound: float,
-    is_left_out: bool,
+    left_out: set[str],
     tolerance: float,
     forced: Mapping[str, bool],
     file: FileEffect | None,
 ) -> Decision:
     by_hand = forced.get(effect.name)
-    included = not is_left_out if by_hand is None else by_hand
+    included = effect.name not in left_out if by_hand is None else by_hand
+    decided = _decided if bound else _decided_of_nothing
+    return decided(effect, bound, included, tolerance, by_hand, file)
+
+
+def _decided(
+    effect: Effect,
+    bound: float,
+    included: bool,
+    tolerance: float,
+    by_hand: bool | None,
+    file: FileEffect | None,
+) -> Decision:
     size = f"at most {bound:.2g} levels" if bound else "none in this scene"
     if bound and file is not None and file is not effect:
         size += f" through {file.label}"
@@ -278,6 +293,10 @@ def _decide(
         why=why,
         reason=reason,
     )
+
+
+_decided_of_nothing = lru_cache(maxsize=256)(_decided)
+"""The same for effects that a scene does not have, most of them: their sentences are few."""
 
 
 def _comparison(bound: float, tolerance: float, included: bool) -> str:

@@ -29,6 +29,7 @@ EFFECTS: tuple[Effect, ...] = (
 
 NOISES = tuple(effect for effect in EFFECTS if isinstance(effect, NoiseEffect))
 FILES = tuple(effect for effect in EFFECTS if isinstance(effect, FileEffect))
+_MOVING = tuple(effect for effect in EFFECTS if isinstance(effect, LightEffect | OpticsEffect))
 OTHERS = tuple(effect for effect in EFFECTS if effect not in NOISES)
 
 NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
@@ -38,11 +39,7 @@ _Kind = TypeVar("_Kind", bound=Effect)
 
 def moves_light(scene: Scene) -> bool:
     """Return whether any effect of the scene can change the light of the paper's model."""
-    return any(
-        effect.is_present(scene)
-        for effect in EFFECTS
-        if isinstance(effect, LightEffect | OpticsEffect)
-    )
+    return any(effect.is_present(scene) for effect in _MOVING)
 
 
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse
+from occ_model.photo.evidence.repeated_wave import RepeatedWave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve
 
 _LEAST_GIVEN, _LEAST_READ = 0.8, 0.9
@@ -26,15 +27,16 @@ class Surroundings:
 
     Parameters
     ----------
-    smooth
-        The explanation without a code.
+    smooth, wave
+        The explanations without a code: a smooth curve, and any wave that repeats.
     likelihood
-        The hypothesis' likelihood, comparable with that of the smooth curve.
+        The hypothesis' likelihood, comparable with theirs.
     rows_alike
         Correlation of the rows' stripes with each other.
     """
 
     smooth: SmoothCurve
+    wave: RepeatedWave
     likelihood: float
     rows_alike: float
 
@@ -73,6 +75,11 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
             f"The stripes repeat after {columns:.1f} columns and are bright for {share:.0f} % of "
             "them, as those of any regular object are, such as a blind; if a lamp blinks so, say "
             "that it sends a square wave."
+        )
+    elif found.was_read and not blinks and beside.likelihood < beside.wave.likelihood:
+        reasons.append(
+            f"A repeated wave of {beside.wave.numbers} numbers, as of any regular object, explains "
+            f"the stripes better than: {found.sent}."
         )
     if found.information < _LEAST_INFORMATION:
         reasons.append(

@@ -9,6 +9,7 @@ from occ_model.errors import MatchError
 from occ_model.photo.evidence.doubts import doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
 from occ_model.photo.evidence.refusal import Surroundings, refusals
+from occ_model.photo.evidence.repeated_wave import repeated_wave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
 from occ_model.results import Stripes
 
@@ -104,7 +105,10 @@ class Judge:
     def _refusals(
         self, found: Hypothesis, likelihood: float, everyone: Sequence[Hypothesis]
     ) -> list[str]:
-        beside = Surroundings(self._smooth(found, everyone), likelihood, self._rows_alike)
+        independent = self._independent(everyone)
+        wave = repeated_wave(self._stripes.profile, found, independent, self._error)
+        smooth = self._smooth(found, everyone)
+        beside = Surroundings(smooth, wave, likelihood, self._rows_alike)
         return refusals(found, beside, blinks=self._blinks)
 
     def _smooth(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> SmoothCurve:

@@ -85,7 +85,7 @@ def autocorrelation(values: FloatArray) -> FloatArray:
 def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
     """Refine a period by a fit of its harmonics, in Gauss-Newton steps."""
     count = len(flattened)
-    harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 6)))
+    harmonics = harmonics_within(count, period)
     change = 0.1 * period / count  # small against a column at the last stripe
     best, best_residual = period, np.inf
     slope = residual = np.zeros(count)
@@ -114,11 +114,19 @@ def unrepeated_share(flattened: FloatArray, period: float) -> float:
     period
         In columns.
     """
-    count = len(flattened)
-    harmonics = int(np.clip(period / 2.5, 1, min(_HARMONICS, count / 6)))
-    residual = _residual(flattened, period, harmonics)
+    residual = without_repetition(flattened, period)
     about = flattened - flattened.mean()
     return float(residual @ residual) / max(float(about @ about), 1e-300)
+
+
+def without_repetition(flattened: FloatArray, period: float) -> FloatArray:
+    """Give what no repeated wave of a period explains, shape as ``flattened``."""
+    return _residual(flattened, period, harmonics_within(len(flattened), period))
+
+
+def harmonics_within(columns: int, period: float) -> int:
+    """Give the number of harmonics of a repeated wave that columns tell apart."""
+    return int(np.clip(period / 2.5, 1, min(_HARMONICS, columns / 6)))
 
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:

@@ -17,7 +17,7 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.transmitter.waveform import Waveform
 
-SAMPLE = (18, 41, 88, 103)
+SAMPLE = (18, 41, 88, 103, 448, 481)
 """Pictures of which most were once said to be explained."""
 
 
@@ -28,7 +28,7 @@ SAMPLE = (18, 41, 88, 103)
 def negatives(request: pytest.FixtureRequest) -> list[Said]:
     if request.param == "sample":
         return [said_of_negative(seed) for seed in SAMPLE]
-    return said_of(said_of_negative, range(60))
+    return said_of(said_of_negative, range(400))
 
 
 def test_no_picture_without_an_led_is_sure(negatives: list[Said]) -> None:
@@ -37,8 +37,7 @@ def test_no_picture_without_an_led_is_sure(negatives: list[Said]) -> None:
 
 def test_few_pictures_without_an_led_are_doubtful(negatives: list[Said]) -> None:
     doubtful = [one for one in negatives if one.verdict == "doubtful"]
-    # Two in 88 fresh ones were (tests/benchmarks/matching.py); few enough to look at each.
-    assert len(doubtful) <= 0.05 * len(negatives)
+    assert len(doubtful) <= 0.02 * len(negatives)
 
 
 @pytest.mark.parametrize(

@@ -4,21 +4,21 @@ import math
 from collections.abc import Sequence
 
 import pyqtgraph as pg
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor, QPalette, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
-from occ_gui.accuracy.point_numbers import PointNumbers
+from occ_gui.accuracy.point_names import NamedPoint, PointNames
+from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.plot import BAND, NOISE, PHOTO, SIMULATION, marker, new_plot, thin
-from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
+from occ_gui.widgets.plot import BAND, NOISE, PHOTO, REGION, SIMULATION, new_plot, thin
+from occ_model.results import ACCURACY_PARTS, CLOSED_FORM, LEAST_ERROR, AccuracyPoint
 
-SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "d"), strict=True))
+SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "t", "d"), strict=True))
 COLOURS: dict[str, QColor] = dict(
-    zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, NOISE), strict=True)
+    zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, REGION, NOISE), strict=True)
 )
 
 _FLOOR = round(math.log10(LEAST_ERROR))
@@ -30,16 +30,11 @@ _LEAST_HEIGHT = 56
 _LABEL_GAP = 14
 """Pixels between an axis, its numbers and its label."""
 
-_NUMBERED_PART = "effects"
-"""The part of the study whose points are numbered."""
+_CURVES = ("integration",)
+"""The parts whose points are joined."""
 
 _OUTDATED_OPACITY = 0.3
 """Opacity of points that were measured for an earlier scene."""
-
-_KEY_MIN_WIDTH = 640
-"""Smallest width in pixels at which the names of the numbered points are shown."""
-
-_SAMPLE = QSize(14, 14)
 
 _MARGIN = 0.35
 """Smallest margin around the points, in powers of ten."""
@@ -63,7 +58,7 @@ class AccuracyPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._points: list[AccuracyPoint] = []
-        self._drawn: Sequence[AccuracyPoint] = ()
+        self._drawn: Sequence[Way] = ()
         self._complete: tuple[AccuracyPoint, ...] = ()
         self._measuring = False
         self._outdated = False
@@ -87,13 +82,13 @@ class AccuracyPlot(QWidget):
         widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
         self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
         self._make_items()
-        self._numbers = PointNumbers(self.plot)
-        self._make_legend()
+        self.names = PointNames(self.plot)
+        self.plot.dress_with(self._dress)
         self._lay_out()
         self._fit()
 
     def _make_items(self) -> None:
-        self.lines = {part: pg.PlotCurveItem(pen=thin(COLOURS[part])) for part in CHAINED_PARTS}
+        self.lines = {part: pg.PlotCurveItem(pen=thin(COLOURS[part])) for part in _CURVES}
         self.scatters = {
             part: pg.ScatterPlotItem(
                 symbol=SYMBOLS[part], size=8, brush=COLOURS[part], pen=None,
@@ -106,23 +101,6 @@ class AccuracyPlot(QWidget):
         for item in (self._floor, *self.lines.values(), *self.scatters.values(), self.rings):
             self.plot.addItem(item, ignoreBounds=True)
 
-    def _make_legend(self) -> None:
-        self.legend = LineLegend()
-        words = {
-            "integration": self.tr("exposure"),
-            "effects": self.tr("effects"),
-            "path": self.tr("path"),
-            "noise": self.tr("noise"),
-        }
-        for part, meaning in ACCURACY_PARTS.items():
-            sample = marker(SYMBOLS[part], 8, COLOURS[part])
-            self.legend.add_sample(part, sample, _SAMPLE, words[part], meaning)
-        self.legend.add_sample(
-            "current", marker("o", 12, None), _SAMPLE, self.tr("now"),
-            self.tr("The current settings."),
-        )  # fmt: skip
-        self.plot.dress_with(self._dress)
-
     def _dress(self, palette: QPalette) -> None:
         ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5)
         self.rings.setPen(ring)
@@ -130,7 +108,7 @@ class AccuracyPlot(QWidget):
             scatter.setBrush(seen_on(palette, COLOURS[part]))
         for part, line in self.lines.items():
             line.setPen(thin(seen_on(palette, COLOURS[part])))
-        self._numbers.set_colour(seen_on(palette, COLOURS[_NUMBERED_PART]))
+        self._name_points(palette)
         grey = palette.color(QPalette.ColorRole.Mid)
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 
@@ -140,23 +118,14 @@ class AccuracyPlot(QWidget):
         self._fit_button.setAutoRaise(True)
         self._fit_button.setToolTip(self.tr("Show all points."))
         self._fit_button.clicked.connect(self._fit_again)
-        self.key = QLabel()
-        self.key.setTextFormat(Qt.TextFormat.PlainText)
-        self.key.setAccessibleName(self.tr("Numbered points"))
-        self.key.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.key.hide()
         head = QHBoxLayout()
         head.addWidget(self.title, 1)
         head.addWidget(self._fit_button)
-        body = QHBoxLayout()
-        body.addWidget(self.plot, 1)
-        body.addWidget(self.key)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
         layout.addLayout(head)
-        layout.addLayout(body, 1)
-        layout.addWidget(self.legend, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addWidget(self.plot, 1)
 
     @property
     def measured(self) -> tuple[AccuracyPoint, ...]:
@@ -202,23 +171,28 @@ class AccuracyPlot(QWidget):
         self.title.set_full_text(self.tr("Error over time: {state}").format(state=state))
 
     def _draw(self, points: Sequence[AccuracyPoint], opacity: float) -> None:
-        self._drawn = points
+        self._drawn = ways_shown(points)
+        shown = [way.point for way in self._drawn]
         for part in ACCURACY_PARTS:
-            of_part = [point for point in points if point.part == part]
+            of_part = [point for point in shown if point.part == part]
             self.scatters[part].setData(*_places(of_part), data=of_part)
             self.scatters[part].setOpacity(opacity)
         for part, line in self.lines.items():
-            line.setData(*_places([p for p in points if p.part == part and not p.current]))
+            chain = [p for p in points if p.part == part and not p.current]
+            line.setData(*_places([point for point in chain if point.name != CLOSED_FORM]))
             line.setOpacity(opacity)
-        self.rings.setData(*_places([point for point in points if point.current]))
+        self.rings.setData(*_places([point for point in shown if point.current]))
         self.rings.setOpacity(opacity)
-        numbered = [point for point in points if point.part == _NUMBERED_PART]
-        others = [point for point in points if point.part != _NUMBERED_PART]
-        self._numbers.show(*_places(numbered), zip(*_places(others), strict=True))
-        self._numbers.set_opacity(opacity)
-        self.key.setText("\n".join(f"{n}  {point.name}" for n, point in enumerate(numbered)))
-        self._show_key()
+        self._name_points(self.palette())
+        self.names.set_opacity(opacity)
         self._fit()
+
+    def _name_points(self, palette: QPalette) -> None:
+        xs, ys = _places([way.point for way in self._drawn])
+        self.names.show(
+            [NamedPoint(x, y, way.name) for way, x, y in zip(self._drawn, xs, ys, strict=True)],
+            palette.color(QPalette.ColorRole.Text),
+        )
 
     def _fit_again(self) -> None:
         self._fits_points = True
@@ -232,20 +206,12 @@ class AccuracyPlot(QWidget):
         if not self._fits_points:
             return
         before = self._complete if self._measuring else ()
-        xs, ys = _places((*self._drawn, *before))
+        xs, ys = _places((*(way.point for way in self._drawn), *before))
         box = self.plot.getViewBox()
         box.setXRange(min(xs, default=-2.0) - _MARGIN, max(xs, default=3.0) + _MARGIN, padding=0)
         top = max(ys, default=2.0)
         margin = max(_MARGIN, _RING * (top - _FLOOR) / max(box.height() - 2 * _RING, _RING))
         box.setYRange(_FLOOR - margin, top + margin, padding=0)
-
-    def _show_key(self) -> None:
-        self.key.setVisible(self.width() >= _KEY_MIN_WIDTH and bool(self.key.text()))
-
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the names of the numbered points if the plot is wide enough."""
-        super().resizeEvent(event)
-        self._show_key()
 
 
 def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
@@ -255,4 +221,5 @@ def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
 
 
 def _describe(point: AccuracyPoint) -> str:
-    return f"{point.name}: {1e3 * point.seconds:.3g} ms, {point.error:.3g} levels"
+    numbers = f"{1e3 * point.seconds:.3g} ms, {point.error:.3g} levels"
+    return f"{point.name}: {numbers}\n({ACCURACY_PARTS[point.part]})"

@@ -1,23 +1,33 @@
-"""Pane of accuracy and time: the tolerance, the table of effects, and error over time."""
+"""Pane of accuracy and time: the costs of effects, other tolerances, other ways to compute.
+
+Each of the three questions has a part of the pane: the table of effects with the selected one, the
+slider from fast to exact with its sentence, and the plot of the ways to compute.
+"""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
+from occ_gui.accuracy.cost_measurement import SceneCosts
+from occ_gui.accuracy.cost_sentences import forecast_sentence, picture_sentence, switch_sentence
+from occ_gui.accuracy.effect_detail import EffectDetail
+from occ_gui.accuracy.effect_rows import rows_of, slowest_of
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.plan_changes import PlanChanges, Switch
-from occ_gui.scene.parameter_rows import QuantityRow, explain
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.accuracy.side_panels import Panel, SidePanels
+from occ_gui.accuracy.tolerance_slider import ToleranceSlider
+from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.results import AccuracyPoint, Forecast, MeasuredCosts, TimeShares
+from occ_model.scene.simulation_settings import SimulationSettings
 
-_WIDEST_TABLE = 780
-"""Largest useful width of the table in pixels; the plot takes the remaining width."""
+_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 544, 352, 320
+"""Pixels that the parts need beside each other."""
 
 
 class AccuracyView(QWidget):
-    """The tolerance, the table of effects, and the plot of error over time.
+    """The slider from fast to exact, the table of effects, and the plot of error over time.
 
     It draws only while it is visible, as :meth:`set_seen` says.
     """
@@ -44,13 +54,15 @@ class AccuracyView(QWidget):
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
         self._drawn: Snapshot | None = None
+        self._costs: SceneCosts | None = None
+        self._forecast: tuple[SimulationRequest, Forecast] | None = None
         self._seen = False
         self._changes = PlanChanges()
-        self._sentence = ""
         self._marked: tuple[Switch, ...] = ()
-        self.tolerance = QuantityRow(TOLERANCE)
+        self._selected = ""
+        self.tolerance = ToleranceSlider()
         self.tolerance.edited.connect(self.mended)
-        self.tolerance.edited.connect(lambda _, value: self.tolerance_edited.emit(value))
+        self.tolerance.edited.connect(self.tolerance_edited)
         self.tolerance.refused.connect(self.refused)
         self.observable = _choice(
             self.tr("What the tolerance limits"),
@@ -74,36 +86,40 @@ class AccuracyView(QWidget):
         )
         self.noise.activated.connect(lambda: self.noise_chosen.emit(self.noise.currentData()))
         self.summary = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.table, self.plot = EffectTable(), AccuracyPlot()
+        self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
         self.table.switched.connect(self.effect_switched)
+        self.table.chosen.connect(self._select)
+        self.panels = SidePanels(
+            (
+                Panel(self.tr("Effects"), self.table, _TABLE_WIDTH, 1),
+                Panel(self.tr("Ways to compute"), self.plot, _PLOT_WIDTH, 3),
+                Panel(self.tr("Selected effect"), self.detail, _DETAIL_WIDTH, 2),
+            )
+        )
         self._lay_out()
 
     def _lay_out(self) -> None:
-        label = QLabel(TOLERANCE.label)
-        label.setToolTip(explain(TOLERANCE))
-        row = QHBoxLayout()
-        row.addWidget(label)
-        row.addWidget(self.tolerance, 1)
+        controls = QHBoxLayout()
+        controls.setSpacing(8)
+        controls.addWidget(self.tolerance, 1)
         for text, control in ((self.tr("of the"), self.observable), (self.tr("Noise"), self.noise)):
-            row.addWidget(QLabel(text))
-            row.addWidget(control)
-        left = self.effects = QWidget()
-        left.setMaximumWidth(_WIDEST_TABLE)
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.summary)
-        column.addWidget(self.table, 1)
-        panes = QSplitter(Qt.Orientation.Horizontal)
-        panes.addWidget(left)
-        panes.addWidget(self.plot)
-        panes.setChildrenCollapsible(False)
-        panes.setSizes([590, 350])
+            controls.addWidget(QLabel(text))
+            controls.addWidget(control)
+        second = QHBoxLayout()
+        second.setSpacing(8)
+        second.addWidget(self.summary, 1)
+        second.addWidget(self.panels.tabs)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 2, 4, 2)
+        layout.setContentsMargins(8, 2, 8, 2)
         layout.setSpacing(2)
-        layout.addLayout(row)
-        layout.addWidget(panes, 1)
+        layout.addLayout(controls)
+        layout.addLayout(second)
+        layout.addWidget(self.panels, 1)
+
+    @property
+    def of_scene(self) -> tuple[QWidget, ...]:
+        """The parts that show results of the scene."""
+        return self.table, self.detail
 
     def set_seen(self, seen: bool) -> None:
         """Draw from now on, or stop drawing while the pane is hidden."""
@@ -122,43 +138,87 @@ class AccuracyView(QWidget):
         """Show these results in place of the last ones."""
         self._snapshot = snapshot
         if self._changes.update(snapshot.frame):
-            self._sentence = self._switched_effects()
-            self.plan_changed.emit(self._sentence)
+            self.plan_changed.emit(switch_sentence(self._changes.switches))
         self._redraw()
 
+    def show_costs(self, costs: SceneCosts) -> None:
+        """Show what the effects of a scene cost and change, as far as measured."""
+        self._costs = costs
+        self._draw()
+
+    def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
+        """Show what a picture with the present settings would take, and how exact it would be."""
+        self._forecast = (request, expected)
+        self._draw()
+
+    def show_study_begun(self) -> None:
+        """Show that a study of the current scene has begun."""
+        self.plot.show_study_begun()
+
+    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
+        """Add a point of the study, the given number of a total."""
+        self.plot.show_point(point, number, total)
+
+    def show_study_finished(self) -> None:
+        """Show that the study is complete."""
+        self.plot.show_study_finished()
+
+    def show_study_outdated(self) -> None:
+        """Show that the study's points belong to an earlier scene."""
+        self.plot.show_study_outdated()
+
+    def show_study_failed(self, sentence: str) -> None:
+        """Show why the study failed."""
+        self.plot.show_study_failed(sentence)
+
     def _redraw(self) -> None:
-        snapshot = self._snapshot
-        if snapshot is None or snapshot is self._drawn or not self._seen:
+        if self._snapshot is None or self._snapshot is self._drawn or not self._seen:
             return
-        self._drawn = snapshot
-        frame = snapshot.frame
-        new = {switch.decision.effect for switch in self._changes.switches}
-        self.table.show_frame(frame, new)
+        self._drawn = self._snapshot
+        self._draw()
         if self._marked != self._changes.switches:
             self._marked = self._changes.switches
-            self.table.bring_into_view(new)
-        effects = sum(frame.timings.get(effect, 0.0) for effect in frame.plan.included)
-        cost = self.tr("Frame {frame:.1f} ms, of which effects {effects:.1f} ms").format(
-            frame=1e3 * snapshot.simulation_seconds, effects=1e3 * effects
-        )
-        self.summary.set_full_text(f"{self._sentence}. {cost}" if self._sentence else cost)
+            self.table.bring_into_view(self._new)
 
-    def _switched_effects(self) -> str:
-        """Name the effects that were switched, with the time that each costs or saves."""
-        switches = self._changes.switches
-        switched_in = [self._cost(s, "+") for s in switches if s.decision.included]
-        switched_out = [self._cost(s, "−") for s in switches if not s.decision.included]  # noqa: RUF001
-        parts = []
-        if switched_in:
-            parts.append(self.tr("Switched in: {effects}").format(effects="; ".join(switched_in)))
-        if switched_out:
-            parts.append(self.tr("Switched out: {effects}").format(effects="; ".join(switched_out)))
-        return ". ".join(parts)
+    @property
+    def _new(self) -> set[str]:
+        return {switch.decision.effect for switch in self._changes.switches}
 
-    def _cost(self, switch: Switch, sign: str) -> str:
-        return self.tr("{label}, {sign}{time:.1f} ms").format(
-            label=switch.decision.label, sign=sign, time=1e3 * switch.seconds
-        )
+    def _draw(self) -> None:
+        """Draw all that is known of the picture that is shown."""
+        snapshot = self._snapshot
+        if snapshot is None or not self._seen:
+            return
+        frame, costs, pending = snapshot.frame, self._known_costs(snapshot), None
+        if self._forecast is not None and self._forecast[0].scene == snapshot.request.scene:
+            pending = self._forecast[1]
+        same = pending is None or pending.plan.included == frame.plan.included
+        self.table.show_rows(rows_of(frame, costs, self._new, None if same else pending))
+        if same or pending is None:
+            sentence = picture_sentence(costs.picture, pending)
+        else:
+            sentence = forecast_sentence(frame, costs.picture, pending)
+        if self._changes.switches:
+            sentence += " " + switch_sentence(self._changes.switches) + "."
+        self.summary.set_full_text(sentence)
+        self._show_detail(costs)
+
+    def _known_costs(self, snapshot: Snapshot) -> MeasuredCosts:
+        picture = TimeShares.of(snapshot.frame)
+        if self._costs is None:
+            return MeasuredCosts(picture)
+        return self._costs.of(snapshot.request, picture)
+
+    def _select(self, effect: str) -> None:
+        self._selected = effect
+        self._draw()
+        self.panels.show_panel(self.detail)
+
+    def _show_detail(self, costs: MeasuredCosts) -> None:
+        rows = {row.effect: row for row in self.table.effects.rows}
+        effect = self._selected or slowest_of(self.table.effects.rows)
+        difference = costs.differences.get(effect)
+        self.detail.show_row(rows.get(effect), None if difference is None else difference.crop)
 
 
 def _choice(name: str, meaning: str, words: dict[str, str]) -> QComboBox:

@@ -5,20 +5,28 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer
 
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
+from occ_gui.background.cancellable import Cancellable
+from occ_gui.background.latest_wins import LatestWins
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.snapshot import SimulationRequest
-from occ_model.results import AccuracyPoint
-from occ_model.study.accuracy import accuracy, point_count
+from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
+from occ_model.results import AccuracyPoint, Forecast, MeasuredCosts, TimeShares
+from occ_model.study.forecast import forecast
 
 IDLE_MS = 700
 """Milliseconds without a change after which the study starts."""
 
 
 class AccuracyPane(Protocol):
-    """A pane that shows the points of a study as they are measured."""
+    """A pane that shows what is measured, as it is measured."""
+
+    def show_costs(self, costs: SceneCosts) -> None:
+        """Show what the effects of a scene cost and change, as far as measured."""
+
+    def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
+        """Show what a picture with the present settings would take, and how exact it would be."""
 
     def show_study_begun(self) -> None:
         """Show that a study of the current scene has begun."""
@@ -37,30 +45,29 @@ class AccuracyPane(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
-    """One point of a study, and the total number of points."""
+class ForecastRequest:
+    """A simulation whose time and error are to be predicted from what was measured."""
 
-    point: AccuracyPoint
-    total: int
+    request: SimulationRequest
+    costs: MeasuredCosts
 
 
-def measure(request: SimulationRequest, report: Report) -> None:
-    """Measure the points of a study and report each.
+@dataclass(frozen=True, slots=True)
+class _Predicted:
+    request: SimulationRequest
+    expected: Forecast
 
-    Raises
-    ------
-    ProjectionError
-        The scene has no picture.
-    """
-    total = point_count(request.scene, request.settings)
-    for point in accuracy(request.scene, request.settings):
-        report(Measured(point, total))
+
+def _predict(asked: ForecastRequest) -> _Predicted:
+    request = asked.request
+    return _Predicted(request, forecast(request.scene, request.settings, asked.costs))
 
 
 class AccuracyController(QObject):
     """Starts the study when nothing has changed for a while, and cancels it at the next change.
 
     It never runs during the simulation of a picture: both would be slower, and its times wrong.
+    What the next picture would take is predicted at every change.
 
     Parameters
     ----------
@@ -69,7 +76,7 @@ class AccuracyController(QObject):
     simulation
         The simulation of pictures, which takes precedence.
     pane
-        Shows the points; nothing is measured while it is hidden.
+        Shows what is measured; nothing is measured while it is hidden.
     """
 
     def __init__(
@@ -87,20 +94,32 @@ class AccuracyController(QObject):
         self._seen = False
         self._done: SimulationRequest | None = None
         self._count = 0
+        self._costs: SceneCosts | None = None
+        self._snapshot: Snapshot | None = None
         self._idle_timer = QTimer(self, singleShot=True)
         self._idle_timer.timeout.connect(self._start)
-        self.runner: Cancellable[SimulationRequest, None] = Cancellable(measure, "accuracy study")
+        self.runner: Cancellable[SimulationRequest, None] = Cancellable(
+            CostMeasurement(), "accuracy study"
+        )
         self.runner.reported.connect(self._show)
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
+        self.forecasts: LatestWins[ForecastRequest, _Predicted] = LatestWins(
+            _predict, "forecast of costs"
+        )
+        self.forecasts.finished.connect(
+            lambda found: self._pane.show_forecast(found.request, found.expected)
+        )
         for store in (scenes, settings):
             store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
+        simulation.snapshot_shown.connect(self._take)
 
     @property
     def is_idle(self) -> bool:
         """Whether nothing is being measured or about to be."""
-        return not (self._idle_timer.isActive() or self.runner.is_running)
+        busy = self._idle_timer.isActive() or self.runner.is_running
+        return not busy and self.forecasts.is_idle
 
     def _request(self) -> SimulationRequest:
         return SimulationRequest(self._scenes.scene, self._settings.settings)
@@ -109,6 +128,7 @@ class AccuracyController(QObject):
         """Measure while the pane is visible, and stop when it is hidden."""
         self._seen = seen
         if seen:
+            self._predict()
             self._wait_until_idle()
             return
         self._idle_timer.stop()
@@ -121,7 +141,21 @@ class AccuracyController(QObject):
         self.runner.cancel()
         self._done = None
         self._pane.show_study_outdated()
+        self._predict()
         self._wait_until_idle()
+
+    def _take(self, snapshot: Snapshot) -> None:
+        self._snapshot = snapshot
+        self._predict()
+
+    def _predict(self) -> None:
+        """Predict from the last picture, where it is one of the present scene."""
+        snapshot, request = self._snapshot, self._request()
+        if not self._seen or snapshot is None or snapshot.request.scene != request.scene:
+            return
+        times = TimeShares.of(snapshot.frame)
+        costs = MeasuredCosts(times) if self._costs is None else self._costs.of(request, times)
+        self.forecasts.submit(ForecastRequest(request, costs))
 
     def _wait_until_idle(self) -> None:
         if self._seen and not self.runner.is_running and self._done is None:
@@ -134,9 +168,14 @@ class AccuracyController(QObject):
         self.runner.start(self._request())
         self._pane.show_study_begun()
 
-    def _show(self, measured: Measured) -> None:
+    def _show(self, found: SceneCosts | Measured) -> None:
+        if isinstance(found, SceneCosts):
+            self._costs = found
+            self._pane.show_costs(found)
+            self._predict()
+            return
         self._count += 1
-        self._pane.show_point(measured.point, self._count, measured.total)
+        self._pane.show_point(found.point, self._count, found.total)
 
     def _finish(self, _result: object) -> None:
         self._done = self._request()
@@ -150,3 +189,4 @@ class AccuracyController(QObject):
         """Stop measuring."""
         self._idle_timer.stop()
         self.runner.stop()
+        self.forecasts.stop()

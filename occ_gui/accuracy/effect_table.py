@@ -1,7 +1,6 @@
-"""Table of effects: bound, decision of the plan, computing time, and a switch for each."""
+"""Table of effects: a picture, the error, the computing time and a switch for each."""
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from PySide6.QtCore import (
@@ -13,55 +12,32 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QColor, QFont, QPalette
+from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView, QWidget
 
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.accuracy.effect_cells import PictureCell, TimeCell
+from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.plot import REGION, SIMULATION
-from occ_model.results import Decision, Frame
+from occ_gui.widgets.plot import REGION
 
 _Index = QModelIndex | QPersistentModelIndex
 
-SWITCH, EFFECT, DECISION, BOUND, TIME, REASON = range(6)
+STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
 """The columns of the table."""
 
 _TINT = QColor(REGION)
 _TINT.setAlpha(70)
 
-_LEADING = 7
-"""Pixels between the rows: few, so that all effects fit into the pane."""
+LOWEST_ROW, HIGHEST_ROW = 16, 32
+"""Pixels of a row in a low pane and in a high one."""
 
+_ROWS = 11
+"""Rows that the table has room for before it has any."""
+
+_PICTURE_WIDTH = 96
+_TIME_WIDTH = 112
 _STATES: tuple[bool | None, ...] = (None, True, False)
 """Choices of a switch: the plan decides, on, off."""
-
-
-@dataclass(frozen=True, slots=True)
-class EffectRow:
-    """Contents of one row.
-
-    Parameters
-    ----------
-    effect
-        The effect's name.
-    texts
-        The text of each column.
-    reason
-        The reason for the decision, as a sentence.
-    included
-        Whether the effect is simulated.
-    absent
-        Whether the scene does not have the effect and it is not simulated.
-    new
-        Whether the plan has just switched it.
-    """
-
-    effect: str
-    texts: tuple[str, ...]
-    reason: str
-    included: bool
-    absent: bool
-    new: bool
 
 
 class EffectModel(QAbstractTableModel):
@@ -71,46 +47,41 @@ class EffectModel(QAbstractTableModel):
         super().__init__(parent)
         self.rows: tuple[EffectRow, ...] = ()
         self._titles = {
-            SWITCH: (self.tr("Switch"), self.tr("Whether the plan decides, or you.")),
-            EFFECT: (self.tr("Effect"), self.tr("In the order that light travels.")),
-            DECISION: (self.tr("Plan"), self.tr("Whether it is simulated.")),
-            BOUND: (
-                self.tr("Levels"),
-                self.tr("How much leaving it out can change, in levels of the stretched profile."),
+            STAGE: ("", self.tr("Where on the light's way it happens.")),
+            PICTURE: (
+                self.tr("with | without"),
+                self.tr("The effect alone: a part of the panel with it, and without it."),
             ),
-            TIME: (self.tr("ms"), self.tr("Its computing time in the picture shown.")),
-            REASON: (self.tr("Why"), self.tr("The reason for the decision.")),
+            EFFECT: (self.tr("Effect"), self.tr("● in the picture, ○ left out.")),
+            ERROR: (
+                self.tr("Error without"),
+                self.tr(
+                    "How much the picture would change without it, in levels of the stretched "
+                    "profile (of 255). Measured; with ≤ it is the calculated bound."
+                ),
+            ),
+            TIME: (
+                self.tr("Time (ms)"),
+                self.tr("Its computing time in the picture shown; in brackets, if it were in it."),
+            ),
+            SWITCH: (self.tr("Switch"), self.tr("Whether the plan decides, or you.")),
         }
 
-    def show_frame(self, frame: Frame, new: Collection[str]) -> None:
-        """Show a picture's plan and times, some effects marked as just switched."""
-        rows = tuple(self._row(d, frame.timings, d.effect in new) for d in frame.plan.decisions)
+    def show_rows(self, rows: Sequence[EffectRow]) -> None:
+        """Show these rows in place of the last ones."""
         if [row.effect for row in rows] != [row.effect for row in self.rows]:
             self.beginResetModel()
-            self.rows = rows
+            self.rows = tuple(rows)
             self.endResetModel()
             return
-        before, self.rows = self.rows, rows
+        before, self.rows = self.rows, tuple(rows)
+        longest = longest_of(before) != longest_of(rows)  # the scale of all bars
         for place, (old, row) in enumerate(zip(before, rows, strict=True)):
-            if old != row:
-                self.dataChanged.emit(self.index(place, SWITCH), self.index(place, REASON))
-
-    def _row(self, decision: Decision, timings: Mapping[str, float], new: bool) -> EffectRow:
-        state = self.tr("● in") if decision.included else self.tr("○ out")
-        texts = (
-            "",
-            decision.label,
-            self.tr("{state}, new").format(state=state) if new else state,
-            _levels(decision.bound) if decision.bound else self.tr("none"),
-            _milliseconds(timings.get(decision.effect)) if decision.included else "",
-            decision.why,
-        )
-        absent = not decision.bound and not decision.included
-        sentence = f"{decision.label}: {decision.reason}"
-        return EffectRow(decision.effect, texts, sentence, decision.included, absent, new)
+            if old != row or longest:
+                self.dataChanged.emit(self.index(place, STAGE), self.index(place, SWITCH))
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
-        """Count the effects."""
+        """Count the rows."""
         return 0 if parent.isValid() else len(self.rows)
 
     def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
@@ -135,46 +106,37 @@ class EffectModel(QAbstractTableModel):
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return row.texts[column]
+                return _text(row, column)
             case Qt.ItemDataRole.ToolTipRole:
-                return row.reason
+                return row.error_meaning if column == ERROR and row.error else row.reason
             case Qt.ItemDataRole.TextAlignmentRole:
                 return _alignment(column)
             case Qt.ItemDataRole.BackgroundRole:
-                return _TINT if row.new else None
-            case Qt.ItemDataRole.FontRole:
-                return _bold() if column == DECISION and row.included else None
+                return _TINT if row.new or row.pending is not None else None
             case Qt.ItemDataRole.ForegroundRole:
                 return _colour(row, column)
         return None
 
 
-def _levels(bound: float) -> str:
-    return f"{bound:.0f}" if 100.0 <= bound < 1e5 else f"{bound:.2g}"
-
-
-def _milliseconds(seconds: float | None) -> str:
-    """Format a time; an effect that is computed together with another one has none of its own."""
-    if seconds is None:
-        return "0"
-    return f"{1e3 * seconds:.2f}" if seconds < 0.01 else f"{1e3 * seconds:.1f}"
+def _text(row: EffectRow, column: int) -> str:
+    if column == EFFECT:
+        if row.effect == ELSE:
+            return row.label
+        dot = "●" if row.included else "○"
+        change = {None: "", True: " → ●", False: " → ○"}[row.pending]
+        return f"{dot}{change} {row.label}"
+    return {STAGE: row.stage, ERROR: row.error, TIME: row.time}.get(column, "")
 
 
 def _alignment(column: int) -> Qt.AlignmentFlag:
-    side = Qt.AlignmentFlag.AlignRight if column in (BOUND, TIME) else Qt.AlignmentFlag.AlignLeft
+    side = Qt.AlignmentFlag.AlignRight if column in (ERROR, TIME) else Qt.AlignmentFlag.AlignLeft
     return side | Qt.AlignmentFlag.AlignVCenter
 
 
-def _bold() -> QFont:
-    font = QFont()
-    font.setBold(True)
-    return font
-
-
 def _colour(row: EffectRow, column: int) -> QColor | None:
-    if row.absent:
+    if row.absent or column == STAGE:
         return QPalette().color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
-    return seen_on(QPalette(), SIMULATION) if column == DECISION and row.included else None
+    return None
 
 
 class _FlatSwitch(QComboBox):
@@ -182,7 +144,7 @@ class _FlatSwitch(QComboBox):
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the smallest size that shows the text."""
-        return QSize(super().minimumSizeHint().width(), self.fontMetrics().height() + _LEADING)
+        return QSize(super().minimumSizeHint().width(), LOWEST_ROW)
 
 
 class EffectTable(QTableView):
@@ -190,6 +152,9 @@ class EffectTable(QTableView):
 
     switched = Signal(str, object)
     """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
+
+    chosen = Signal(str)
+    """The effect whose row is selected."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -204,20 +169,27 @@ class EffectTable(QTableView):
         self.setShowGrid(False)
         self.setWordWrap(False)
         self.setTabKeyNavigation(False)
-        self.setSelectionMode(QTableView.SelectionMode.NoSelection)
+        self.setSelectionBehavior(QTableView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QTableView.SelectionMode.SingleSelection)
         self.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.setVerticalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        self.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        self.verticalHeader().hide()
-        header = self.horizontalHeader()
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setItemDelegateForColumn(PICTURE, PictureCell(lambda: self.effects.rows, self))
+        self.setItemDelegateForColumn(TIME, TimeCell(lambda: self.effects.rows, self))
+        rows, header = self.verticalHeader(), self.horizontalHeader()
+        rows.hide()
+        rows.setMinimumSectionSize(LOWEST_ROW)
+        rows.setDefaultSectionSize(LOWEST_ROW)
         header.setHighlightSections(False)
-        header.setStretchLastSection(True)
+        header.setSectionsClickable(False)
         header.setMinimumSectionSize(24)
+        header.setFixedHeight(LOWEST_ROW)
         self.effects.modelReset.connect(self._make_switches)
+        self.selectionModel().currentRowChanged.connect(self._choose)
 
-    def show_frame(self, frame: Frame, new: Collection[str]) -> None:
-        """Show a picture's plan and times, some effects marked as just switched."""
-        self.effects.show_frame(frame, new)
+    def show_rows(self, rows: Sequence[EffectRow]) -> None:
+        """Show these rows in place of the last ones."""
+        self.effects.show_rows(rows)
 
     def bring_into_view(self, effects: Collection[str]) -> None:
         """Scroll to the first of these effects."""
@@ -226,42 +198,75 @@ class EffectTable(QTableView):
                 self.scrollTo(self.effects.index(place, EFFECT))
                 return
 
+    def choose(self, effect: str) -> None:
+        """Select the row of an effect."""
+        for place, row in enumerate(self.effects.rows):
+            if row.effect == effect:
+                self.selectRow(place)
+
     def show_force(self, force: Mapping[str, bool]) -> None:
         """Show which effects the user has switched, without emitting a signal."""
         self._force = force
         for effect, switch in self.switches.items():
             switch.setCurrentIndex(_STATES.index(force.get(effect)))
 
+    def _choose(self, current: QModelIndex) -> None:
+        if current.isValid():
+            self.chosen.emit(self.effects.rows[current.row()].effect)
+
     def _make_switches(self) -> None:
         self.switches = {}
         for place, row in enumerate(self.effects.rows):
+            if row.effect == ELSE:
+                continue
             switch = self._switch(row)
             self.switches[row.effect] = switch
             self.setIndexWidget(self.effects.index(place, SWITCH), switch)
         self.show_force(self._force)
-        self._size_sections()
+        self._size_columns()
+        self._size_rows()
 
     def _switch(self, row: EffectRow) -> QComboBox:
         switch = _FlatSwitch()
         switch.setFont(self.font())
-        switch.addItems([self.tr("auto"), self.tr("on"), self.tr("off")])
-        switch.setAccessibleName(self.tr("Switch: {label}").format(label=row.texts[EFFECT]))
+        switch.addItems([self.tr("plan"), self.tr("on"), self.tr("off")])
+        switch.setAccessibleName(self.tr("Switch: {label}").format(label=row.label))
         switch.setToolTip(
-            self.tr("{label}\nauto: the plan decides; on, off: you do.").format(
-                label=row.texts[EFFECT]
-            )
+            self.tr("{label}\nplan: the plan decides; on, off: you do.").format(label=row.label)
         )
         keep_wheel_for_scrolling(switch)
         switch.activated.connect(lambda index: self.switched.emit(row.effect, _STATES[index]))
         return switch
 
-    def _size_sections(self) -> None:
-        """Make every column but the last as wide as its widest text."""
+    def _size_columns(self) -> None:
+        """Make every column as wide as its widest text, and the name take what remains."""
         header, metrics = self.horizontalHeader(), self.fontMetrics()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
-        self.resizeColumnToContents(EFFECT)
+        title = str(self.effects.headerData(ERROR, Qt.Orientation.Horizontal))
         switch = next(iter(self.switches.values()))
-        header.resizeSection(SWITCH, switch.minimumSizeHint().width() + 4)
-        self.verticalHeader().setDefaultSectionSize(switch.minimumSizeHint().height())
-        for column, widest in ((BOUND, "8.8e+08"), (DECISION, "● out, new "), (TIME, "8888.88")):
-            header.resizeSection(column, metrics.horizontalAdvance(widest) + 14)
+        for column, width in (
+            (STAGE, metrics.horizontalAdvance("Sensor") + 12),
+            (PICTURE, _PICTURE_WIDTH),
+            (ERROR, metrics.horizontalAdvance(title) + 12),
+            (TIME, _TIME_WIDTH),
+            (SWITCH, switch.minimumSizeHint().width() + 4),
+        ):
+            header.resizeSection(column, width)
+        header.setSectionResizeMode(EFFECT, QHeaderView.ResizeMode.Stretch)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Use the height for higher rows."""
+        super().resizeEvent(event)
+        self._size_rows()
+
+    def _size_rows(self) -> None:
+        count = max(1, len(self.effects.rows))
+        height = min(max(self.viewport().height() // count, LOWEST_ROW), HIGHEST_ROW)
+        if height != self.verticalHeader().defaultSectionSize():
+            self.verticalHeader().setDefaultSectionSize(height)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size at which all rows are in view."""
+        lines = 1 + (len(self.effects.rows) or _ROWS)
+        height = lines * LOWEST_ROW + 2 * self.frameWidth()
+        return QSize(super().minimumSizeHint().width(), height)

@@ -97,9 +97,7 @@ class Application(QObject):
         comparison = self.photo_wiring.comparison
         readers = (self.image, comparison, self.profile, self.decode, self.story)
         self.simulation.show_in([self.image, self.learning, self.accuracy], readers)
-        self.study = AccuracyController(
-            self.store, self.settings, self.simulation, self.accuracy.plot
-        )
+        self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
         self.detection_map = DetectionMapWiring(
             self.store, self.settings, self.detection, self.slider_strips
         )
@@ -107,7 +105,7 @@ class Application(QObject):
         self.outdated.mark_picture(self.image.simulation)
         tell_story(self)
         self.outdated.mark_readings(self.profile, self.decode)
-        self.outdated.mark_results(self.accuracy.effects)
+        self.outdated.mark_results(*self.accuracy.of_scene)
         self.learning.exposure_made.connect(self.outdated.mark_results)
         # Before the session is written.
         self.window.closing.connect(self._end_lesson)

@@ -11,8 +11,8 @@ Request = TypeVar("Request")
 Result = TypeVar("Result")
 
 Report: TypeAlias = Callable[[Any], None]
-"""Takes the share of the work that is done, or a part of the result; ends cancelled work by raising
-an exception."""
+"""Takes the share of the work that is done, a part of the result, or None, which is not given on;
+ends cancelled work by raising an exception."""
 
 _NO_RUN = 0
 
@@ -114,7 +114,8 @@ class _Worker(QObject):
         def report(something: Any) -> None:
             if run != self.wanted:
                 raise Cancelled
-            self.reported.emit(run, something)
+            if something is not None:
+                self.reported.emit(run, something)
 
         if run != self.wanted:  # cancelled before it began
             return

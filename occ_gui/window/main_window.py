@@ -31,7 +31,7 @@ from occ_gui.window.toolbar.toolbar import ToolBar
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
-_LEAST_DECODING = QSize(320, 300)
+_LEAST_DECODING = QSize(320, 264)
 
 
 class MainWindow(QMainWindow):

@@ -16,11 +16,11 @@ from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
-_MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "D"), strict=True))
+_MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "v", "D"), strict=True))
 _COLOURS = dict(
     zip(
         ACCURACY_PARTS,
-        (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.NOISE),
+        (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION, colours.NOISE),
         strict=True,
     )
 )

@@ -1,6 +1,12 @@
 """Result types of the model: pictures, plans, decodings, matches, studies."""
 
-from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
+from occ_model.results.accuracy import (
+    ACCURACY_PARTS,
+    CHAINED_PARTS,
+    CLOSED_FORM,
+    LEAST_ERROR,
+    AccuracyPoint,
+)
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.effect_costs import (
@@ -22,6 +28,7 @@ from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint
 __all__ = [
     "ACCURACY_PARTS",
     "CHAINED_PARTS",
+    "CLOSED_FORM",
     "LEAST_ERROR",
     "AccuracyPoint",
     "Alternative",

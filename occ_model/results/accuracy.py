@@ -6,12 +6,16 @@ ACCURACY_PARTS = {
     "integration": "exposure: samples in time, closed form",
     "effects": "effects, one after the other",
     "path": "columns alone, whole pictures",
+    "draft": "drafts: every k-th row of the picture",
     "noise": "noise drawn, noise used again",
 }
 """The parts of an accuracy study, with their titles."""
 
 CHAINED_PARTS = ("integration", "effects")
 """The parts whose points, but for that of the present settings, form a curve."""
+
+CLOSED_FORM = "closed form"
+"""Name of the exposure that is integrated exactly."""
 
 LEAST_ERROR = 1e-3
 """Least error in levels that is drawn; smaller ones are drawn as this one."""

@@ -1,8 +1,9 @@
 """Measure the time and the error of each way to simulate a scene.
 
-Four comparisons: samples of the exposure with its closed form; the effects, switched on one after
-the other, with all of them; the profile path with the image path; and reused noise with noise drawn
-for each pixel. All errors are root mean squares in levels of the stretched profile.
+Five comparisons: samples of the exposure with its closed form; the effects, switched on one after
+the other, with all of them; the profile path with the image path; drafts with the picture of all
+rows; and reused noise with noise drawn for each pixel. All errors are root mean squares in levels
+of the stretched profile.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -21,7 +22,7 @@ from occ_model.effects.noise_spread import pixel_spread
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
-from occ_model.results import AccuracyPoint, Plan
+from occ_model.results import CLOSED_FORM, AccuracyPoint, Plan
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings
@@ -34,12 +35,18 @@ from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 SAMPLES = tuple(2**power for power in range(13))
 """1 to 4096 samples an exposure."""
 
+DRAFT_STEPS = (4, 16, 64)
+"""A draft has every fourth row, every 16th or every 64th."""
+
+_LEAST_ROWS = 4
+"""Least rows of the panel in a draft."""
+
 _EXACT_COLUMNS = 97
 """Columns whose exposure is computed in rational arithmetic as the reference."""
 
 Result = TypeVar("Result")
 
-_ENOUGH_SECONDS = 0.05
+_ENOUGH_SECONDS = 0.15
 _REPEATS = 5
 
 
@@ -80,7 +87,8 @@ def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int
     complete = plan(scene, 0.0, settings.observable)
     noise = 2 if planned(complete, NoiseEffect) else 0
     paths = 1 if panel_span(scene) is None else 2
-    return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + noise
+    drafts = len(draft_steps(scene))
+    return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + drafts + noise
 
 
 def _points(
@@ -93,6 +101,7 @@ def _points(
     complete = complete or CompleteSimulation(scene, settings.observable, settings.seed)
     yield from _ladder(scene, settings, chosen, complete)
     yield from _paths(scene, settings, chosen)
+    yield from _drafts(scene, settings, chosen)
     yield from _noise_sources(scene, settings, chosen.stretch)
 
 
@@ -110,7 +119,7 @@ def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
         name = f"{samples} sample{'s' if samples > 1 else ''}"
         yield AccuracyPoint("integration", name, seconds, error(lit))
     seconds, lit = timed(partial(lit_fraction, scene))
-    yield AccuracyPoint("integration", "closed form", seconds, error(lit))
+    yield AccuracyPoint("integration", CLOSED_FORM, seconds, error(lit))
 
 
 def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
@@ -169,6 +178,31 @@ def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator
     difference = _observed(scene, by_image, settings) - truth
     seconds, _ = timed(partial(_rendered, scene, frozenset(chosen.included), settings))
     yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch)
+
+
+def _drafts(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
+    """Compare the profiles of drafts with that of the picture with all effects."""
+    steps = draft_steps(scene)
+    if not steps:
+        return
+    seed, noise = settings.seed, settings.noise
+    region = paper_view_of(scene).region
+    seen = slice(region.first_column, region.last_column)
+    truth = render(scene, tolerance=0.0, seed=seed, noise=noise).profile[seen]
+    force = dict.fromkeys(chosen.included, True)
+    for step in steps:
+        work = partial(
+            render, scene, tolerance=np.inf, seed=seed, force=force, noise=noise, rows_step=step
+        )
+        seconds, frame = timed(work)
+        error = rms(frame.profile[seen] - truth) * chosen.stretch
+        yield AccuracyPoint("draft", f"draft 1/{step}", seconds, error)
+
+
+def draft_steps(scene: Scene) -> tuple[int, ...]:
+    """Return the steps of the drafts that are compared: those with several rows of the panel."""
+    rows = paper_view_of(scene).region.rows
+    return tuple(step for step in DRAFT_STEPS if step * _LEAST_ROWS <= rows)
 
 
 def _noise_sources(

@@ -1,24 +1,51 @@
 """The plot shows the points as they come, and until then those before, faint."""
 
 import math
+from itertools import combinations
 
 import pytest
-from PySide6.QtWidgets import QLabel
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
+from occ_gui.accuracy.ways_shown import ways_shown
 from occ_gui.widgets.axes import LogAxis
-from occ_model.results import ACCURACY_PARTS, LEAST_ERROR, AccuracyPoint
+from occ_model.results import LEAST_ERROR, AccuracyPoint
 
+ALL = ("vignetting", "jpeg")
 POINTS = (
     AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
-    AccuracyPoint("integration", "closed form", 1e-4, 1e-14, current=True),
+    AccuracyPoint("integration", "closed form", 1e-4, 1e-14),
     AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
-    AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0),
-    AccuracyPoint("effects", "this plan", 1e-2, 0.5, current=True),
+    AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0, effects=ALL[:1]),
+    AccuracyPoint("effects", "+ JPEG", 3e-2, 0.0, effects=ALL),
+    AccuracyPoint("effects", "this plan", 1e-2, 0.5, current=True, effects=ALL[1:]),
     AccuracyPoint("path", "profile path", 1e-4, 0.4),
+    AccuracyPoint("draft", "draft 1/4", 3e-3, 0.3),
     AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
 )
+SHOWN = [point for point in POINTS if point.name != "+ Vignetting"]
+
+
+def crowd() -> list[AccuracyPoint]:
+    """Return as many points as a real scene has, some at the same place."""
+    samples = [
+        AccuracyPoint("integration", f"{2**n} samples", 1e-5 * 2**n, 60.0 / 2**n) for n in range(13)
+    ]
+    drafts = [AccuracyPoint("draft", f"draft 1/{n}", 0.6 / n, 1.0 + n / 60) for n in (4, 16, 64)]
+    return [
+        *samples,
+        AccuracyPoint("integration", "closed form", 1.2e-4, 1e-14),
+        AccuracyPoint("effects", "paper's model", 1e-2, 12.0),
+        AccuracyPoint("effects", "+ JPEG", 0.8, 0.0, effects=ALL),
+        AccuracyPoint("effects", "this plan", 0.8, 0.0, current=True, effects=ALL),
+        AccuracyPoint("path", "profile path", 1e-3, 3.0),
+        AccuracyPoint("path", "image path", 0.8, 0.0),
+        *drafts,
+        AccuracyPoint("noise", "drawn for each pixel", 0.3, 0.005),
+        AccuracyPoint("noise", "reused plane", 0.05, 0.01),
+    ]
 
 
 @pytest.fixture
@@ -43,24 +70,46 @@ def names(plot: AccuracyPlot) -> list[str]:
 def test_each_point_is_at_its_time_and_error_with_its_marker(plot: AccuracyPlot) -> None:
     measure(plot)
     for part, scatter in plot.scatters.items():
-        of_part = [point for point in POINTS if point.part == part]
+        of_part = sorted(1e3 * point.seconds for point in SHOWN if point.part == part)
         xs, ys = scatter.getData()
-        assert [10**x for x in xs] == pytest.approx([1e3 * p.seconds for p in of_part])
-        expected = [max(p.error, LEAST_ERROR) for p in of_part]
-        assert [10**y for y in ys] == pytest.approx(expected)
-    assert len(set(SYMBOLS.values())) == len({c.name() for c in COLOURS.values()}) == 4
+        assert sorted(10**x for x in xs) == pytest.approx(of_part)
+        errors = sorted(max(p.error, LEAST_ERROR) for p in SHOWN if p.part == part)
+        assert sorted(10**y for y in ys) == pytest.approx(errors)
+    assert len(set(SYMBOLS.values())) == len({c.name() for c in COLOURS.values()}) == 5
 
 
-def test_the_settings_at_hand_are_ringed(plot: AccuracyPlot) -> None:
+def test_the_present_setting_is_ringed_exactly_once(plot: AccuracyPlot) -> None:
     measure(plot)
     xs, ys = plot.rings.getData()
-    assert [10**x for x in xs] == pytest.approx([0.1, 10.0])
-    assert [10**y for y in ys] == pytest.approx([LEAST_ERROR, 0.5])
+    assert [10**x for x in xs] == pytest.approx([10.0])
+    assert [10**y for y in ys] == pytest.approx([0.5])
+
+
+def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder() -> None:
+    shown = [way.name for way in ways_shown(crowd()) if way.point.part == "effects"]
+    assert shown == ["now: picture, all effects", "picture, no effects"]
+    bare = AccuracyPoint("effects", "this plan", 1e-3, 15.0, current=True)
+    points = [*POINTS[:5], bare]
+    shown = [way.name for way in ways_shown(points) if way.point.part == "effects"]
+    assert shown == ["now: picture, no effects", "picture, all effects"]
+
+
+@pytest.mark.parametrize("size", [QSize(352, 200), QSize(640, 190), QSize(720, 240)], ids=str)
+def test_every_point_is_named_and_no_name_covers_another(plot: AccuracyPlot, size: QSize) -> None:
+    plot.resize(size)
+    measure(plot, tuple(crowd()))
+    QApplication.processEvents()
+    places = plot.names.places
+    assert set(places) == {way.name for way in ways_shown(crowd())}
+    for one, other in combinations(places, 2):
+        assert not places[one].intersects(places[other]), (one, other)
+    area = plot.plot.getViewBox().sceneBoundingRect()
+    assert all(area.contains(place) for place in places.values())
 
 
 def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> None:
     measure(plot, POINTS[:3])
-    assert plot.title.toolTip().endswith("measuring… 3 of 7")
+    assert plot.title.toolTip().endswith(f"measuring… 3 of {len(POINTS)}")
     measure(plot)
     plot.show_study_finished()
     assert plot.title.toolTip().endswith(": measured")
@@ -76,10 +125,10 @@ def test_the_last_complete_points_stay_faint_until_new_ones_come(plot: AccuracyP
     measure(plot, POINTS[:2])
     plot.show_study_outdated()
     assert plot.title.toolTip().endswith(": stopped")
-    assert sorted(names(plot)) == sorted(point.name for point in POINTS)
+    assert sorted(names(plot)) == sorted(point.name for point in SHOWN)
     assert all(scatter.opacity() < 0.5 for scatter in plot.scatters.values())
     plot.show_study_begun()
-    assert sorted(names(plot)) == sorted(point.name for point in POINTS)
+    assert sorted(names(plot)) == sorted(point.name for point in SHOWN)
     plot.show_point(POINTS[0], 1, 7)
     assert names(plot) == ["1 sample"]
     assert all(scatter.opacity() == 1.0 for scatter in plot.scatters.values())
@@ -98,20 +147,12 @@ def test_why_nothing_was_measured_is_shown(plot: AccuracyPlot) -> None:
     assert plot.title.toolTip().endswith("The panel is behind the camera.")
 
 
-def test_the_effects_steps_are_numbered_and_named_where_they_fit(
-    plot: AccuracyPlot,
-) -> None:
-    measure(plot)
-    assert plot.key.text() == "0  paper's model\n1  + Vignetting\n2  this plan"
-    assert not plot.key.isVisible()
-    plot.resize(900, 240)
-    assert plot.key.isVisible()
-
-
-def test_a_point_tells_its_name_time_and_error(plot: AccuracyPlot) -> None:
+def test_a_point_tells_its_name_time_error_and_part(plot: AccuracyPlot) -> None:
     measure(plot)
     tip = plot.scatters["path"].opts["tip"]
-    assert tip(x=0.0, y=0.0, data=POINTS[5]) == "profile path: 0.1 ms, 0.4 levels"
+    assert tip(x=0.0, y=0.0, data=POINTS[6]) == (
+        "profile path: 0.1 ms, 0.4 levels\n(columns alone, whole pictures)"
+    )
 
 
 def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot) -> None:
@@ -123,14 +164,6 @@ def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot)
     assert box.viewRange() == [[0.0, 1.0], [0.0, 1.0]]
     plot._fit_button.click()
     assert box.viewRange()[1][0] < math.log10(LEAST_ERROR)
-
-
-def test_the_legend_names_every_part_and_explains_it(plot: AccuracyPlot) -> None:
-    texts = [label.text() for label in plot.legend.findChildren(QLabel) if label.text()]
-    assert texts == ["exposure", "effects", "path", "noise", "now"]
-    parents = [label.parentWidget() for label in plot.legend.findChildren(QLabel)]
-    tips = {parent.toolTip() for parent in parents if parent is not None}
-    assert set(ACCURACY_PARTS.values()) < tips
 
 
 def test_a_logarithmic_axis_is_numbered_at_powers_of_ten(qtbot: QtBot) -> None:

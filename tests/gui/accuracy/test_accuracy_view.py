@@ -1,5 +1,6 @@
 """Within one move of a slider the user sees which effect came in, and what it costs."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy import controller
-from occ_gui.accuracy.effect_table import DECISION, EffectRow
+from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.app.application import Application
 
 
@@ -39,8 +40,8 @@ def test_an_effect_included_by_a_slider_is_marked_with_its_cost(
     slider.setValue(200)
     user.wait_until_idle()
     shown = row(in_front, "led-edges")
-    assert (shown.included, shown.new, shown.texts[DECISION]) == (True, True, "● in, new")
-    assert in_front.accuracy.summary.toolTip().startswith("Switched in: LED rise and fall, +")
+    assert (shown.included, shown.new) == (True, True)
+    assert "Switched in: LED rise and fall, +" in in_front.accuracy.summary.toolTip()
     slider.setValue(205)  # the mark stays while the slider goes on
     user.wait_until_idle()
     assert row(in_front, "led-edges").new
@@ -52,8 +53,9 @@ def test_the_mark_goes_to_what_is_switched_next(in_front: Application, user: Use
     assert not row(in_front, "led-edges").new
     assert row(in_front, "vignetting").new
     user.enter("edge_time", "0")
-    assert row(in_front, "led-edges").texts[DECISION] == "○ out, new"
-    assert in_front.accuracy.summary.toolTip().startswith("Switched out: LED rise and fall, −")  # noqa: RUF001
+    edges = row(in_front, "led-edges")
+    assert (edges.included, edges.new) == (False, True)
+    assert "Switched out: LED rise and fall, −" in in_front.accuracy.summary.toolTip()  # noqa: RUF001
 
 
 def test_the_status_line_says_it_also_while_the_pane_is_behind(
@@ -72,7 +74,7 @@ def test_a_higher_tolerance_leaves_effects_out(
 ) -> None:
     assert row(in_front, "sensor-noise").included
     tolerance = in_front.accuracy.tolerance
-    tolerance.slider.setValue(tolerance.slider.maximum())
+    tolerance.slider.setValue(tolerance.slider.minimum() + 1)
     user.wait_until_idle()
     assert in_front.settings.settings.tolerance == 100.0
     assert not row(in_front, "sensor-noise").included
@@ -87,11 +89,51 @@ def test_a_switch_forces_its_effect_and_the_picture_changes(
         choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Down)
         user.wait_until_idle()
     assert in_front.settings.settings.force == {"sensor-noise": False}
-    assert "by hand" in row(in_front, "sensor-noise").texts[-1]
+    assert "by hand" in row(in_front, "sensor-noise").reason
     choose(qtbot, in_front, "sensor-noise", Qt.Key.Key_Home)
     user.wait_until_idle()
     assert in_front.settings.settings.force == {}
     assert not np.array_equal(pictures[-2], pictures[-1])
+
+
+def test_both_ends_of_the_slider_are_the_bare_model_and_the_exact_one(
+    qtbot: QtBot, in_front: Application, user: User
+) -> None:
+    slider, field = in_front.accuracy.tolerance.slider, in_front.accuracy.tolerance.field
+    slider.setValue(slider.minimum())
+    user.wait_until_idle()
+    assert in_front.settings.settings.tolerance == math.inf
+    assert field.lineEdit().text() == "∞ levels"
+    assert not any(row.included for row in in_front.accuracy.table.effects.rows[:-1])
+    slider.setValue(slider.maximum())
+    user.wait_until_idle()
+    assert in_front.settings.settings.tolerance == 0.0
+    assert row(in_front, "sensor-noise").included
+
+
+def test_a_move_of_the_slider_is_answered_before_the_picture_is(
+    qtbot: QtBot, in_front: Application, user: User, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    submit = in_front.simulation.runner.submit
+    monkeypatch.setattr(in_front.simulation.runner, "submit", lambda _request: None)
+    slider = in_front.accuracy.tolerance.slider
+    slider.setValue(slider.minimum())
+    summary = in_front.accuracy.summary
+    qtbot.waitUntil(lambda: "Switches out: " in summary.toolTip())
+    assert summary.toolTip().startswith("Next: ")
+    assert row(in_front, "sensor-noise").pending is False
+    submit(in_front.simulation.ages.present)
+    qtbot.waitUntil(lambda: summary.toolTip().startswith("This picture: "))
+    assert row(in_front, "sensor-noise").pending is None
+
+
+def test_a_selected_effect_is_shown_with_the_plans_reason(
+    in_front: Application, user: User
+) -> None:
+    in_front.accuracy.table.choose("sensor-noise")
+    detail = in_front.accuracy.detail
+    assert detail.title.text() == "Shot and read noise"
+    assert "tolerance 0.5" in detail.reason.text()
 
 
 def test_observable_and_noise_are_chosen(qtbot: QtBot, in_front: Application, user: User) -> None:
@@ -116,9 +158,12 @@ def test_a_wrong_tolerance_is_refused_and_the_field_restored(
     assert field.lineEdit().text() == "0.5 levels"
 
 
-def test_the_frames_time_and_the_effects_share_are_shown(in_front: Application) -> None:
-    assert in_front.accuracy.summary.toolTip().startswith("Frame ")
-    assert "of which effects" in in_front.accuracy.summary.toolTip()
+def test_the_stated_time_is_the_sum_of_the_rows(in_front: Application) -> None:
+    assert in_front.accuracy.summary.toolTip().startswith("This picture: ")
+    rows = in_front.accuracy.table.effects.rows
+    total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
+    time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"
+    assert f"{time} ms" in in_front.accuracy.summary.toolTip()
 
 
 def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Application) -> None:
@@ -138,7 +183,7 @@ def test_the_study_runs_in_front_and_ends_when_the_scene_changes(
     assert title.toolTip().endswith("stopped")
     assert not application.study.runner.is_running
     qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"))
-    assert application.study.is_idle
+    qtbot.waitUntil(lambda: application.study.is_idle)
 
 
 def test_behind_another_pane_no_study_is_made(

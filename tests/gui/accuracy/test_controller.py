@@ -1,22 +1,29 @@
 """The study runs while the scene is at rest and somebody looks, and never beside a simulation."""
 
+import math
 import threading
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.accuracy import controller as module
-from occ_gui.accuracy.controller import AccuracyController, Measured, measure
+from occ_gui.accuracy import cost_measurement
+from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
+from occ_gui.background.cancellable import Cancelled
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import SimulationRequest
-from occ_model.results import AccuracyPoint
+from occ_model.results import ACCURACY_PARTS, AccuracyPoint, Forecast, MeasuredCosts, TimeShares
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study import effect_differences
 
 PATIENCE_S = 10.0
 TOTAL = 3
@@ -27,6 +34,14 @@ class RecordingPane:
 
     def __init__(self) -> None:
         self.received: list[str] = []
+        self.costs: list[SceneCosts] = []
+        self.forecasts: list[Forecast] = []
+
+    def show_costs(self, costs: SceneCosts) -> None:
+        self.costs.append(costs)
+
+    def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
+        self.forecasts.append(expected)
 
     def show_study_begun(self) -> None:
         self.received.append("begun")
@@ -56,7 +71,9 @@ class Bench:
         self.pane = RecordingPane()
         self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)
 
-    def study(self, scene: Scene, settings: SimulationSettings) -> Iterator[AccuracyPoint]:
+    def study(
+        self, scene: Scene, settings: SimulationSettings, _complete: object
+    ) -> Iterator[AccuracyPoint]:
         self.measured.append(SimulationRequest(scene, settings))
         for number in range(TOTAL):
             assert self._allowed.acquire(timeout=PATIENCE_S)
@@ -81,8 +98,8 @@ class Bench:
 def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     monkeypatch.setattr(module, "IDLE_MS", 20)
     bench = Bench(small_scene, qtbot)
-    monkeypatch.setattr(module, "accuracy", bench.study)
-    monkeypatch.setattr(module, "point_count", lambda scene, settings: TOTAL)
+    monkeypatch.setattr(cost_measurement, "accuracy", bench.study)
+    monkeypatch.setattr(cost_measurement, "point_count", lambda scene, settings: TOTAL)
     yield bench
     bench.stop()
 
@@ -143,7 +160,8 @@ def test_measured_points_are_not_measured_again_when_shown_again(bench: Bench) -
     bench.wait_for("finished")
     bench.controller.set_seen(False)
     bench.controller.set_seen(True)
-    assert bench.controller.is_idle
+    assert not bench.controller.runner.is_running
+    bench.wait_until_idle()
     assert bench.pane.received[-1] == "finished"
 
 
@@ -153,7 +171,8 @@ def test_the_study_waits_while_a_picture_is_simulated(
     qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
     runner = bench.simulation.runner
     with monkeypatch.context() as busy:
-        busy.setattr(type(runner), "is_idle", property(lambda self: False))
+        simulating = SimpleNamespace(runner=SimpleNamespace(is_idle=False))
+        busy.setattr(bench.controller, "_simulation", simulating)
         bench.controller.set_seen(True)
         qtbot.waitUntil(lambda: bench.controller.is_idle)
         assert bench.measured == []
@@ -165,19 +184,88 @@ def test_the_study_waits_while_a_picture_is_simulated(
 def test_a_study_that_fails_tells_why_and_is_not_tried_again(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(scene: Scene, settings: SimulationSettings) -> Iterator[AccuracyPoint]:
+    def refuse(*_arguments: object) -> Iterator[AccuracyPoint]:
         raise occ.ProjectionError("The panel is behind the camera.")
 
-    monkeypatch.setattr(module, "accuracy", refuse)
+    monkeypatch.setattr(cost_measurement, "accuracy", refuse)
     bench.controller.set_seen(True)
     bench.wait_until_idle()
     assert bench.pane.received == ["begun", "The panel is behind the camera."]
 
 
-def test_the_models_own_study_has_as_many_points_as_it_says() -> None:
-    scene = occ.load_preset("phone-68us").replace(rows=30, columns=60)
-    points: list[Measured] = []
-    measure(SimulationRequest(scene, FIRST_SETTINGS), points.append)
+def measured_of(request: SimulationRequest, measurement: CostMeasurement) -> list[object]:
+    reports: list[object] = []
+    measurement(request, reports.append)
+    return [report for report in reports if report is not None]
+
+
+@pytest.fixture
+def tiny() -> SimulationRequest:
+    scene = occ.load_preset("phone-68us").replace(rows=30, columns=60, edge_time=5e-6)
+    return SimulationRequest(scene, FIRST_SETTINGS)
+
+
+def test_the_models_own_study_has_as_many_points_as_it_says(tiny: SimulationRequest) -> None:
+    points = [m for m in measured_of(tiny, CostMeasurement()) if isinstance(m, Measured)]
     assert {point.total for point in points} == {len(points)}
     parts = [point.point.part for point in points]
-    assert sum(one != other for one, other in pairwise(parts)) == 3
+    assert sum(one != other for one, other in pairwise(parts)) == len(ACCURACY_PARTS) - 1
+
+
+def test_the_costs_of_effects_come_before_the_points(tiny: SimulationRequest) -> None:
+    reports = measured_of(tiny, CostMeasurement())
+    kinds = [type(report) for report in reports]
+    assert kinds[0] is SceneCosts
+    first = kinds.index(Measured)
+    before = [r for r in reports[:first] if isinstance(r, SceneCosts)]
+    present = [d.effect for d in occ.plan(tiny.scene, 0.0).decisions if d.bound]
+    assert list(before[-1].differences) == present
+    assert len(before) == 1 + len(present)  # one report an effect
+
+
+def test_what_was_compared_of_a_scene_is_not_compared_again(
+    tiny: SimulationRequest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measurement = CostMeasurement()
+    first = [r for r in measured_of(tiny, measurement) if isinstance(r, SceneCosts)][-1]
+    monkeypatch.setattr(effect_differences, "observe", None)  # to use it would fail
+    monkeypatch.setattr(cost_measurement, "accuracy", lambda *_: iter(()))
+    again = replace(tiny, settings=replace(FIRST_SETTINGS, tolerance=math.inf))
+    later = [r for r in measured_of(again, measurement) if isinstance(r, SceneCosts)][-1]
+    for effect, difference in first.differences.items():
+        assert later.differences[effect] is difference
+
+
+def test_cancelled_work_ends_within_the_simulation_of_a_picture(tiny: SimulationRequest) -> None:
+    reports: list[object] = []
+
+    def report(something: object) -> None:
+        reports.append(something)
+        if len(reports) == 3:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        CostMeasurement()(tiny, report)
+    assert reports == [None] * 3  # before anything was measured as a whole
+
+
+def test_costs_of_another_scene_or_observable_are_not_used(tiny: SimulationRequest) -> None:
+    reports = measured_of(tiny, CostMeasurement())
+    costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
+    times = TimeShares.of(occ.render(tiny.scene))
+    assert costs.of(tiny, times).differences
+    other = replace(tiny, scene=tiny.scene.replace(iso=200.0))
+    assert costs.of(other, times) == MeasuredCosts(times)
+    profile = replace(tiny, settings=replace(FIRST_SETTINGS, observable="profile"))
+    assert not costs.of(profile, times).differences
+    assert costs.of(profile, times).others
+
+
+def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+    bench.controller.set_seen(True)
+    qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
+    before = len(bench.pane.forecasts)
+    bench.settings.set_tolerance(math.inf)
+    qtbot.waitUntil(lambda: len(bench.pane.forecasts) > before)
+    assert any(found.plan.tolerance == math.inf for found in bench.pane.forecasts)

@@ -1,17 +1,26 @@
-"""The table says what the plan does with each effect, and what that costs."""
+"""The table says what each effect changes and takes, and what the plan does with it."""
 
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QComboBox
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.effect_table import BOUND, DECISION, EFFECT, REASON, TIME, EffectTable
+from occ_gui.accuracy.effect_rows import ELSE, rows_of
+from occ_gui.accuracy.effect_table import EFFECT, ERROR, STAGE, TIME, EffectTable
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import Frame
+from occ_model.results import (
+    EffectCrop,
+    EffectDifference,
+    Forecast,
+    Frame,
+    MeasuredCosts,
+    TimeShares,
+)
 
 ROLE = Qt.ItemDataRole
 
@@ -20,14 +29,27 @@ ROLE = Qt.ItemDataRole
 def frame(snapshot_of: Callable[..., Snapshot]) -> Frame:
     """Simulate a scene with noise and LED edges and without anything else."""
     frame = snapshot_of(edge_time=5e-6).frame
-    return replace(frame, timings={"led-edges": 0.25e-3, "sensor-noise": 0.0302})
+    timings = {"exposure": 1e-3, "led-edges": 0.25e-3, "sensor-noise": 0.0302, "image": 2e-3}
+    return replace(frame, timings=timings)
+
+
+def costs_of(frame: Frame, **measured: EffectDifference) -> MeasuredCosts:
+    differences = {name.replace("_", "-"): found for name, found in measured.items()}
+    return MeasuredCosts(TimeShares.of(frame), differences=differences)
+
+
+def difference(effect: str, error: float) -> EffectDifference:
+    grey = np.full((16, 40), 90, dtype=np.uint8)
+    crop = EffectCrop(grey, grey + 5, grey, 4, is_averaged=False)
+    return EffectDifference(effect, error, np.full(8, error), crop, crop)
 
 
 @pytest.fixture
 def table(qtbot: QtBot, frame: Frame) -> EffectTable:
     table = EffectTable()
     qtbot.addWidget(table)
-    table.show_frame(frame, new=())
+    table.resize(640, 260)
+    table.show_rows(rows_of(frame, costs_of(frame), new=()))
     table.show()
     return table
 
@@ -37,63 +59,98 @@ def cell(table: EffectTable, effect: str, column: int, role: int = ROLE.DisplayR
     return table.effects.index(names.index(effect), column).data(role)
 
 
-def test_every_effect_of_the_plan_has_a_row_in_its_order(table: EffectTable, frame: Frame) -> None:
-    labels = [
-        table.effects.index(place, EFFECT).data() for place in range(table.effects.rowCount())
-    ]
-    assert labels == [decision.label for decision in frame.plan.decisions]
+def test_every_effect_has_a_row_in_the_order_that_light_travels(
+    table: EffectTable, frame: Frame
+) -> None:
+    rows = table.effects.rows
+    assert [row.effect for row in rows[:-1]] == [d.effect for d in frame.plan.decisions]
+    assert rows[-1].effect == ELSE
+    stages = [row.stage for row in rows if row.stage]
+    assert stages == ["Light", "Optics", "Sensor", "File"]
+    assert cell(table, "led-edges", STAGE) == "Light"
 
 
-def test_a_row_says_bound_decision_time_and_reason(table: EffectTable, frame: Frame) -> None:
+def test_the_times_of_the_rows_add_up_to_the_pictures_time(frame: Frame) -> None:
+    rows = rows_of(frame, costs_of(frame), new=())
+    total = sum(row.seconds for row in rows if row.seconds is not None)
+    assert total == pytest.approx(sum(frame.timings.values()), rel=1e-12)
+    assert rows[-1].seconds == pytest.approx(3e-3)
+
+
+def test_a_row_says_error_time_and_reason(table: EffectTable, frame: Frame) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
-    assert cell(table, "led-edges", BOUND) == f"{decision.bound:.2g}"
-    assert cell(table, "led-edges", DECISION) == "● in"
+    assert cell(table, "led-edges", ERROR) == f"≤ {decision.bound:.2g}"
     assert cell(table, "led-edges", TIME) == "0.25"
-    assert cell(table, "led-edges", REASON) == decision.why
-    assert decision.reason in str(cell(table, "led-edges", DECISION, ROLE.ToolTipRole))
+    assert cell(table, "led-edges", EFFECT) == "● LED rise and fall"
+    assert decision.reason in str(cell(table, "led-edges", EFFECT, ROLE.ToolTipRole))
     assert cell(table, "sensor-noise", TIME) == "30.2"
-    assert cell(table, "fixed-pattern", TIME) == "0"
+    assert cell(table, "fixed-pattern", TIME) == "with noise"
+
+
+def test_a_measured_error_takes_the_place_of_the_bound(table: EffectTable, frame: Frame) -> None:
+    (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
+    measured = costs_of(frame, led_edges=difference("led-edges", 0.71))
+    table.show_rows(rows_of(frame, measured, new=()))
+    assert cell(table, "led-edges", ERROR) == "0.71"
+    meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
+    assert "measured" in meaning
+    assert f"at most {decision.bound:.2g} levels" in meaning
 
 
 def test_an_absent_effect_is_grey_excluded_and_costs_nothing(table: EffectTable) -> None:
-    assert [cell(table, "jpeg", column) for column in (BOUND, DECISION, TIME)] == [
-        "none", "○ out", "",
-    ]  # fmt: skip
+    cells = [cell(table, "jpeg", column) for column in (EFFECT, ERROR, TIME)]
+    assert cells == ["○ JPEG", "none", ""]
     grey = cell(table, "jpeg", EFFECT, ROLE.ForegroundRole)
     assert isinstance(grey, QColor)
     assert cell(table, "led-edges", EFFECT, ROLE.ForegroundRole) is None
 
 
-def test_what_has_just_been_switched_is_tinted_and_called_new(
-    table: EffectTable, frame: Frame
-) -> None:
-    table.show_frame(frame, new=("led-edges",))
-    assert cell(table, "led-edges", DECISION) == "● in, new"
+def test_what_has_just_been_switched_is_tinted(table: EffectTable, frame: Frame) -> None:
+    table.show_rows(rows_of(frame, costs_of(frame), new=("led-edges",)))
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
     assert cell(table, "sensor-noise", EFFECT, ROLE.BackgroundRole) is None
-    table.show_frame(frame, new=())
-    assert cell(table, "led-edges", DECISION) == "● in"
+    table.show_rows(rows_of(frame, costs_of(frame), new=()))
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is None
+
+
+def test_what_would_be_switched_is_shown_before_it_is(
+    table: EffectTable, frame: Frame, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    without = replace(
+        frame.plan,
+        decisions=tuple(
+            replace(d, included=d.included and d.effect != "led-edges")
+            for d in frame.plan.decisions
+        ),
+    )
+    pending = Forecast(without, 0.01, 0.7, is_measured=False)
+    table.show_rows(rows_of(frame, costs_of(frame), (), pending))
+    assert cell(table, "led-edges", EFFECT) == "● → ○ LED rise and fall"
+    assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
+    assert cell(table, "sensor-noise", EFFECT) == "● Shot and read noise"
 
 
 def test_only_rows_that_differ_are_drawn_again(table: EffectTable, frame: Frame) -> None:
     drawn: list[int] = []
     table.effects.dataChanged.connect(lambda first, _: drawn.append(first.row()))
     switches = dict(table.switches)
-    table.show_frame(frame, new=())
+    table.show_rows(rows_of(frame, costs_of(frame), new=()))
     assert drawn == []
-    table.show_frame(replace(frame, timings={**frame.timings, "led-edges": 1e-3}), new=())
+    changed = replace(frame, timings={**frame.timings, "led-edges": 1e-3})
+    table.show_rows(rows_of(changed, costs_of(changed), new=()))
     assert drawn == [0]
     assert table.switches == switches
 
 
-def test_each_row_has_a_switch_that_is_named_and_explained(table: EffectTable) -> None:
-    assert set(table.switches) == {row.effect for row in table.effects.rows}
-    for row in table.effects.rows:
+def test_each_effect_has_a_switch_that_is_named_and_explained(table: EffectTable) -> None:
+    effects = [row for row in table.effects.rows if row.effect != ELSE]
+    assert set(table.switches) == {row.effect for row in effects}
+    for row in effects:
         switch = table.switches[row.effect]
         assert isinstance(switch, QComboBox)
-        assert row.texts[EFFECT] in switch.accessibleName()
-        assert "auto" in switch.toolTip()
+        assert row.label in switch.accessibleName()
+        assert [switch.itemText(i) for i in range(switch.count())] == ["plan", "on", "off"]
+        assert "plan" in switch.toolTip()
 
 
 def test_a_switch_tells_what_is_wanted_of_its_effect(table: EffectTable, qtbot: QtBot) -> None:
@@ -109,14 +166,30 @@ def test_switches_show_what_is_forced_and_tell_nothing(table: EffectTable) -> No
     table.switched.connect(lambda *what: received.append(what))
     table.show_force({"jpeg": True, "flicker": False})
     shown = {effect: switch.currentText() for effect, switch in table.switches.items()}
-    assert {e: t for e, t in shown.items() if t != "auto"} == {"jpeg": "on", "flicker": "off"}
+    assert {e: t for e, t in shown.items() if t != "plan"} == {"jpeg": "on", "flicker": "off"}
     table.show_force({})
-    assert {switch.currentText() for switch in table.switches.values()} == {"auto"}
+    assert {switch.currentText() for switch in table.switches.values()} == {"plan"}
     assert received == []
 
 
+def test_a_selected_row_is_told_once(table: EffectTable) -> None:
+    received: list[str] = []
+    table.chosen.connect(received.append)
+    table.choose("jpeg")
+    table.choose("jpeg")
+    assert received == ["jpeg"]
+
+
 def test_a_row_out_of_sight_is_brought_into_view(table: EffectTable) -> None:
+    table.setMinimumHeight(0)
     table.resize(400, 80)
     table.bring_into_view(["jpeg"])
+    place = [row.effect for row in table.effects.rows].index("jpeg")
+    shown = table.visualRect(table.effects.index(place, EFFECT))
+    assert table.viewport().rect().intersects(shown)
+
+
+def test_all_rows_are_in_view_at_the_least_size(table: EffectTable) -> None:
+    table.resize(table.width(), table.minimumSizeHint().height())
     last = table.effects.index(table.effects.rowCount() - 1, EFFECT)
-    assert table.viewport().rect().intersects(table.visualRect(last))
+    assert table.viewport().rect().contains(table.visualRect(last))

@@ -93,7 +93,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
         application.story.rows,
         application.profile,
         application.decode,
-        application.accuracy.effects,
+        *application.accuracy.of_scene,
         application.learning.explanation.pane.exposure,
     ]
     assert all(mark.isHidden() for mark in marks(application))

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
@@ -25,6 +26,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import AccuracyPoint, Alternative, Match, Region, Stripes, SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.effect_differences import CompleteSimulation
 
 SnapshotOf = Callable[..., Snapshot]
 Matches = Callable[[QWidget, str], None]
@@ -97,23 +99,27 @@ def test_the_accuracy_looks_as_stored(
     timings = {name: 1e-3 * place for place, name in enumerate(sorted(measured.frame.timings), 1)}
     snapshot = replace(measured, frame=replace(measured.frame, timings=timings))
     view = AccuracyView()
-    show(qtbot, view, 760, 300)
+    show(qtbot, view, 1300, 280)
     view.show_settings(SimulationSettings())
     view.set_seen(True)
     view.show_snapshot(snapshot)
+    complete = CompleteSimulation(snapshot.request.scene, "image")
+    differences = {name: complete.without(name) for name in complete.effects}
+    view.show_costs(SceneCosts(snapshot.request, (), differences, complete.errors))
     points = (
         AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
-        AccuracyPoint("integration", "closed form", 1e-4, 1e-14, current=True),
+        AccuracyPoint("integration", "closed form", 1e-4, 1e-14),
         AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
-        AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0),
+        AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0, effects=("vignetting",)),
         AccuracyPoint("effects", "this plan", 1e-2, 0.5, current=True),
         AccuracyPoint("path", "profile path", 1e-4, 0.4),
+        AccuracyPoint("draft", "draft 1/16", 2e-3, 0.8),
         AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
     )
-    view.plot.show_study_begun()
+    view.show_study_begun()
     for number, point in enumerate(points, 1):
-        view.plot.show_point(point, number, len(points))
-    view.plot.show_study_finished()
+        view.show_point(point, number, len(points))
+    view.show_study_finished()
     matches_its_picture(view, "accuracy")
 
 

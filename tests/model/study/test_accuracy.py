@@ -16,12 +16,12 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.accuracy import SAMPLES, accuracy, point_count
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
-SMALL = ("rows=80", "columns=400", "panel_width=0.1", "panel_height=0.02")
+SMALL = ("rows=80", "columns=400", "panel_width=0.1", "panel_height=0.08")
 
 
 def small(preset: str) -> Scene:
     return occ.load_preset(preset).replace(
-        rows=80, columns=400, panel_width=0.1, panel_height=0.02, distance=0.5
+        rows=80, columns=400, panel_width=0.1, panel_height=0.08, distance=0.5
     )
 
 

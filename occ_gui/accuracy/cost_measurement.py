@@ -1,0 +1,121 @@
+"""Measurement of what a scene's effects cost and change, and of the ways to simulate it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from occ_gui.background.cancellable import Report
+from occ_gui.simulation.snapshot import SimulationRequest
+from occ_model.effects.plan import plan_with
+from occ_model.results import AccuracyPoint, EffectDifference, MeasuredCosts, TimeShares
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.render import render_with
+from occ_model.simulation.stage_timer import StageTimer
+from occ_model.study.accuracy import accuracy, point_count
+from occ_model.study.effect_differences import CompleteSimulation
+
+
+@dataclass(frozen=True, slots=True)
+class SceneCosts:
+    """What has been measured of the effects of a scene.
+
+    Parameters
+    ----------
+    request
+        The scene and the settings.
+    others
+        The times of a picture with all effects and of one with none.
+    differences
+        What leaving out each effect changes, by its name, as far as measured.
+    errors
+        Errors measured as a whole, by the effects included.
+    """
+
+    request: SimulationRequest
+    others: tuple[TimeShares, ...] = ()
+    differences: Mapping[str, EffectDifference] = field(default_factory=dict)
+    errors: Mapping[frozenset[str], float] = field(default_factory=dict)
+
+    def of(self, request: SimulationRequest, picture: TimeShares) -> MeasuredCosts:
+        """Return what of it holds for a request, together with the times of its picture."""
+        here, there = self.request.settings, request.settings
+        compared = _compared(request) == _compared(self.request)
+        timed = self.request.scene == request.scene and here.noise == there.noise
+        return MeasuredCosts(
+            picture,
+            self.others if timed else (),
+            self.differences if compared else {},
+            self.errors if compared else {},
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """One point of a study, and the total number of points."""
+
+    point: AccuracyPoint
+    total: int
+
+
+class CostMeasurement:
+    """Measures on the study's thread; what was compared of the last scene is not compared again."""
+
+    def __init__(self) -> None:
+        self._complete: tuple[object, CompleteSimulation] | None = None
+
+    def __call__(self, request: SimulationRequest, report: Report) -> None:
+        """Measure the effects' costs, then the points of a study, and report each.
+
+        Raises
+        ------
+        ProjectionError
+            The scene has no picture.
+        """
+        timer = _CancellableTimer(report)
+        complete = self._complete_of(request, timer)
+        chosen = plan_with(request.scene, request.settings)
+        complete.error_of(chosen.included, timer)
+        costs = SceneCosts(request, errors=complete.errors)
+        report(costs)
+        exact = frozenset(complete.effects) <= frozenset(chosen.included)
+        tolerances = (float("inf"),) if exact else (0.0, float("inf"))
+        others = tuple(_times(request.scene, request.settings, each) for each in tolerances)
+        costs = replace(costs, others=others)
+        for effect in complete.effects:
+            found = {**costs.differences, effect: complete.without(effect, timer)}
+            costs = replace(costs, differences=found, errors=complete.errors)
+            report(costs)
+        total = point_count(request.scene, request.settings)
+        for point in accuracy(request.scene, request.settings, complete):
+            report(Measured(point, total))
+        report(replace(costs, errors=complete.errors))
+
+    def _complete_of(self, request: SimulationRequest, timer: StageTimer) -> CompleteSimulation:
+        key = _compared(request)
+        if self._complete is None or self._complete[0] != key:
+            self._complete = None  # one at a time: its pictures are large
+            settings = request.settings
+            made = CompleteSimulation(request.scene, settings.observable, settings.seed, timer)
+            self._complete = (key, made)
+        return self._complete[1]
+
+
+def _compared(request: SimulationRequest) -> tuple[object, ...]:
+    """Return what a comparison with the complete simulation depends on."""
+    return request.scene, request.settings.observable, request.settings.seed
+
+
+def _times(scene: Scene, settings: SimulationSettings, tolerance: float) -> TimeShares:
+    return TimeShares.of(render_with(scene, replace(settings, tolerance=tolerance, force={})))
+
+
+class _CancellableTimer(StageTimer):
+    """A timer that ends cancelled work when a stage has ended, not only when all have."""
+
+    def __init__(self, report: Report) -> None:
+        super().__init__()
+        self._report = report
+
+    def stage_ended(self, stage: str) -> None:
+        super().stage_ended(stage)
+        self._report(None)

@@ -1,0 +1,95 @@
+"""Sentences on what a picture costs, and on what another would."""
+
+import math
+from collections.abc import Sequence
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.accuracy.effect_rows import levels, milliseconds
+from occ_gui.accuracy.plan_changes import Switch
+from occ_model.results import Forecast, Frame, TimeShares
+
+
+def picture_sentence(times: TimeShares, expected: Forecast | None) -> str:
+    """Say what the picture took and how exact it is.
+
+    Parameters
+    ----------
+    times
+        Its times.
+    expected
+        The forecast for the same effects, None where there is none yet.
+    """
+    time = _tr("This picture: {time} ms").format(time=milliseconds(times.seconds))
+    return f"{time}, {_error(expected)}." if expected is not None else f"{time}."
+
+
+def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> str:
+    """Say what the next picture will take, how exact it will be, and what is switched.
+
+    Parameters
+    ----------
+    frame, times
+        The picture that is shown, and its times.
+    expected
+        The forecast.
+    """
+    before, after = set(frame.plan.included), set(expected.plan.included)
+    now = milliseconds(times.seconds)
+    if expected.seconds is None:
+        time = _tr("Next: now {now} ms").format(now=now)
+    else:
+        time = _tr("Next: about {time} ms, now {now}").format(
+            time=milliseconds(expected.seconds), now=now
+        )
+    labels = {decision.effect: decision.label for decision in frame.plan.decisions}
+    parts = [f"{time}; {_error(expected)}."]
+    for names, words in (
+        (after - before, _tr("Switches in: {effects}.")),
+        (before - after, _tr("Switches out: {effects}.")),
+    ):
+        if names:
+            listed = ", ".join(label for name, label in labels.items() if name in names)
+            parts.append(words.format(effects=listed))
+    return " ".join(parts)
+
+
+def _error(expected: Forecast) -> str:
+    if expected.error is None:
+        return _promise(expected)
+    if expected.error == 0.0:
+        return _tr("exact: nothing is left out")
+    if expected.is_measured:
+        return _tr("error {error} levels (measured)").format(error=levels(expected.error))
+    return _tr("error about {error} levels (predicted)").format(error=levels(expected.error))
+
+
+def _promise(expected: Forecast) -> str:
+    """Say what the plan promises of an error that is neither measured nor predicted yet."""
+    plan = expected.plan
+    off_by_hand = any(d.forced and d.bound and not d.included for d in plan.decisions)
+    if off_by_hand or plan.tolerance == math.inf:
+        return _tr("error not measured yet")
+    return _tr("error at most {bound} levels (calculated)").format(bound=levels(plan.left_out))
+
+
+def switch_sentence(switches: Sequence[Switch]) -> str:
+    """Name the effects that were switched, with the time that each costs or saves."""
+    switched_in = [_cost(s, "+") for s in switches if s.decision.included]
+    switched_out = [_cost(s, "−") for s in switches if not s.decision.included]  # noqa: RUF001
+    parts = []
+    if switched_in:
+        parts.append(_tr("Switched in: {effects}").format(effects="; ".join(switched_in)))
+    if switched_out:
+        parts.append(_tr("Switched out: {effects}").format(effects="; ".join(switched_out)))
+    return ". ".join(parts)
+
+
+def _cost(switch: Switch, sign: str) -> str:
+    return _tr("{label}, {sign}{time} ms").format(
+        label=switch.decision.label, sign=sign, time=milliseconds(switch.seconds)
+    )
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("CostSentences", text)

@@ -1,0 +1,112 @@
+"""Cells of the table of effects that are drawn: the pair of small pictures, the bar of the time."""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QRect, QRectF, Qt
+from PySide6.QtGui import QImage, QPainter, QPalette
+from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
+
+from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
+from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.plot import BAND, SIMULATION
+from occ_model.arrays import ByteArray
+
+_Index = QModelIndex | QPersistentModelIndex
+
+Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
+"""Returns the contents of all rows."""
+
+_GAP = 4
+"""Pixels between two things that are drawn side by side."""
+
+_BAR_SHARE = 0.5
+"""Share of the cell's width for the bar; the number takes the rest."""
+
+
+def image_of(pixels: ByteArray) -> QImage:
+    """Make a grey picture, which keeps a copy of the pixels."""
+    rows, columns = pixels.shape
+    return QImage(pixels.tobytes(), columns, rows, columns, QImage.Format.Format_Grayscale8).copy()
+
+
+class PictureCell(QStyledItemDelegate):
+    """Draws the small pictures of an effect, with it and without it.
+
+    Parameters
+    ----------
+    rows
+        Returns the contents of all rows.
+    parent
+        The parent.
+    """
+
+    def __init__(self, rows: Rows, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._rows = rows
+        self._images: dict[int, tuple[object, QImage, QImage]] = {}
+
+    @guarded
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
+        """Draw both pictures, or nothing until they are there."""
+        super().paint(painter, option, index)
+        row = self._rows()[index.row()]
+        if row.icon is None:
+            return
+        held = self._images.get(index.row())
+        if held is None or held[0] is not row.icon:
+            held = (row.icon, image_of(row.icon.with_effect), image_of(row.icon.without))
+            self._images[index.row()] = held
+        area = option.rect.adjusted(_GAP // 2, 1, -_GAP // 2, -1)
+        for place, image in enumerate(held[1:]):
+            width = (area.width() - _GAP) // 2
+            left = area.left() + place * (width + _GAP)
+            painter.drawImage(_fitted(QRect(left, area.top(), width, area.height()), image), image)
+
+
+def _fitted(area: QRect, image: QImage) -> QRect:
+    """Return the place of a picture in the middle of an area, never enlarged."""
+    scale = min(area.width() / image.width(), area.height() / image.height(), 1.0)
+    place = QRect(0, 0, round(scale * image.width()), round(scale * image.height()))
+    place.moveCenter(area.center())
+    return place
+
+
+class TimeCell(QStyledItemDelegate):
+    """Draws a time as a bar, hollow where the effect is left out, and the number beside it.
+
+    Parameters
+    ----------
+    rows
+        Returns the contents of all rows.
+    parent
+        The parent.
+    """
+
+    def __init__(self, rows: Rows, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._rows = rows
+
+    @guarded
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
+        """Draw the number, then the bar."""
+        super().paint(painter, option, index)
+        rows = self._rows()
+        row, largest = rows[index.row()], longest_of(rows)
+        if not row.seconds or not largest:
+            return
+        most = _BAR_SHARE * option.rect.width()
+        width = max(1, math.floor(most * row.seconds / largest))
+        height = min(10, option.rect.height() - 8)
+        top = option.rect.center().y() - height // 2
+        bar = QRectF(option.rect.left() + _GAP, top, width, height)
+        colour = seen_on(option.palette, BAND if row.effect == ELSE else SIMULATION)
+        if option.state & QStyle.StateFlag.State_Selected:
+            colour = option.palette.color(QPalette.ColorRole.HighlightedText)
+        painter.save()
+        painter.setPen(colour)
+        painter.setBrush(colour if row.included else Qt.BrushStyle.NoBrush)
+        painter.drawRect(bar.adjusted(0.5, 0.5, -0.5, -0.5))
+        painter.restore()

@@ -1,0 +1,116 @@
+"""Selected effect: its pictures enlarged, and the plan's reason in words."""
+
+from PySide6.QtCore import QRect, QSize, Qt
+from PySide6.QtGui import QImage, QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from occ_gui.accuracy.effect_cells import image_of
+from occ_gui.accuracy.effect_rows import ELSE, EffectRow
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.results import EffectCrop
+
+_GAP = 8
+_LARGEST_SCALE = 3
+
+
+class CropPictures(QWidget):
+    """The part of the panel with an effect, without it, and the difference, side by side."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._images: tuple[QImage, ...] = ()
+        self._captions: tuple[str, ...] = ()
+        self._are_pixels = False
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+
+    def show_crop(self, crop: EffectCrop | None) -> None:
+        """Show these pictures, or none."""
+        self._images = ()
+        if crop is not None:
+            self._are_pixels = not crop.is_averaged
+            self._images = tuple(
+                image_of(pixels) for pixels in (crop.with_effect, crop.without, crop.difference)
+            )
+            self._captions = (
+                self.tr("with it"),
+                self.tr("without it"),
+                self.tr("difference × {factor}").format(factor=crop.amplification),  # noqa: RUF001
+            )
+        self.setAccessibleName(", ".join(self._captions) if self._images else "")
+        self.update()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a size at which the captions can be read."""
+        return QSize(3 * 96 + 2 * _GAP, 40 + self.fontMetrics().height())
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of the pictures, enlarged."""
+        return QSize(3 * 2 * 112 + 2 * _GAP, 2 * 64 + self.fontMetrics().height() + _GAP)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the pictures as large as fits, with their captions below."""
+        if not self._images:
+            return
+        painter = QPainter(self)
+        line = self.fontMetrics().height()
+        width, height = (self.width() - 2 * _GAP) // 3, self.height() - line - 2
+        size = self._images[0].size()
+        scale = min(width / size.width(), height / size.height(), _LARGEST_SCALE)
+        if scale >= 1.0 and self._are_pixels:
+            scale = int(scale)  # each pixel as a square of whole pixels
+        shown = QSize(round(scale * size.width()), round(scale * size.height()))
+        smooth = scale < 1.0 or not self._are_pixels
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, smooth)
+        for place, (image, caption) in enumerate(zip(self._images, self._captions, strict=True)):
+            left = place * (shown.width() + _GAP)
+            painter.drawImage(QRect(left, 0, shown.width(), shown.height()), image)
+            below = QRect(left, shown.height() + 2, max(shown.width(), width), line)
+            painter.drawText(below, Qt.AlignmentFlag.AlignLeft, caption)
+        painter.end()
+
+
+class EffectDetail(QWidget):
+    """The effect whose row is selected."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.title, self.place, self.error, self.reason = (QLabel() for _ in range(4))
+        for label in (self.title, self.place, self.error, self.reason):
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setWordWrap(True)
+        font = self.title.font()
+        font.setBold(True)
+        self.title.setFont(font)
+        self.pictures = CropPictures()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addWidget(self.title)
+        layout.addWidget(self.pictures, 1)
+        for label in (self.place, self.error, self.reason):
+            layout.addWidget(label)
+        self.show_row(None, None)
+
+    def show_row(self, row: EffectRow | None, crop: EffectCrop | None) -> None:
+        """Show an effect, or ask for one to be selected."""
+        self.pictures.show_crop(crop)
+        if row is None:
+            self.title.setText(self.tr("Select an effect to see what it does."))
+            texts = ("", "", "")
+        else:
+            self.title.setText(row.label)
+            texts = (self._place_of(row, crop), row.error_meaning, row.reason)
+        for label, text in zip((self.place, self.error, self.reason), texts, strict=True):
+            label.setText(text)
+            label.setVisible(bool(text))
+
+    def _place_of(self, row: EffectRow, crop: EffectCrop | None) -> str:
+        if crop is None:
+            return "" if row.absent or row.effect == ELSE else self.tr("Its pictures are made…")
+        where = (
+            self.tr("The whole panel, averaged")
+            if crop.is_averaged
+            else self.tr("Real pixels, where it changes most")
+        )
+        return self.tr("{where}; this effect alone, contrast stretched.").format(where=where)

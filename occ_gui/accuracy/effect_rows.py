@@ -1,0 +1,177 @@
+"""Rows of the table of effects: what each shows, from the picture and what was measured."""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_model.results import Decision, EffectCrop, EffectDifference, Forecast, Frame, MeasuredCosts
+
+ELSE = "everything else"
+"""Key of the last row, which is no effect."""
+
+
+@dataclass(frozen=True, slots=True)
+class EffectRow:
+    """Contents of one row.
+
+    Parameters
+    ----------
+    effect
+        The effect's name; ``ELSE`` in the last row.
+    stage
+        The stage of the light's way, where the row is the first of it.
+    label
+        The effect's name on the screen.
+    error, error_meaning
+        What leaving it out would change, as text, and how that is known, as a sentence.
+    seconds
+        Its time, None where there is none of its own.
+    time
+        The same as text.
+    reason
+        The plan's reason, as a sentence.
+    included
+        Whether it is in the picture.
+    absent
+        Whether the scene does not have the effect and it is not simulated.
+    new
+        Whether the plan has just switched it.
+    pending
+        Whether it would be switched on (True) or off (False) by what the controls show.
+    icon
+        How it looks, None where that is not known yet.
+    """
+
+    effect: str
+    stage: str
+    label: str
+    error: str = ""
+    error_meaning: str = ""
+    seconds: float | None = None
+    time: str = ""
+    reason: str = ""
+    included: bool = True
+    absent: bool = False
+    new: bool = False
+    pending: bool | None = None
+    icon: EffectCrop | None = None
+
+
+def rows_of(
+    frame: Frame, costs: MeasuredCosts, new: Collection[str], forecast: Forecast | None = None
+) -> tuple[EffectRow, ...]:
+    """Return the rows: the effects in the order that light travels, then everything else.
+
+    Parameters
+    ----------
+    frame
+        The picture.
+    costs
+        Its times, and what was measured of its scene.
+    new
+        The effects that the plan has just switched.
+    forecast
+        What the controls would make of it.
+    """
+    words = stage_words()
+    rows, stage = [], ""
+    for decision in frame.plan.decisions:
+        title = words[decision.stage] if decision.stage != stage else ""
+        stage = decision.stage
+        pending = None
+        if forecast is not None:
+            after = decision.effect in forecast.plan
+            pending = after if after != decision.included else None
+        rows.append(_row(decision, title, costs, decision.effect in new, pending))
+    rest = costs.picture.everything_else
+    stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
+    rows.append(
+        EffectRow(
+            ELSE,
+            "",
+            _tr("Everything else"),
+            seconds=rest,
+            time=milliseconds(rest),
+            reason=_tr("What belongs to no effect, in ms:\n{stages}").format(stages=stages),
+        )
+    )
+    return tuple(rows)
+
+
+def longest_of(rows: Sequence[EffectRow]) -> float:
+    """Return the longest time of some rows."""
+    return max((row.seconds for row in rows if row.seconds is not None), default=0.0)
+
+
+def slowest_of(rows: Sequence[EffectRow]) -> str:
+    """Return the effect in the picture that takes most time; empty where there is none."""
+    timed = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
+    return max(timed, key=lambda row: row.seconds or 0.0).effect if timed else ""
+
+
+def stage_words() -> Mapping[str, str]:
+    """Return the stages of the light's way in words that fit a narrow column."""
+    return {
+        "light": _tr("Light"),
+        "optics": _tr("Optics"),
+        "sensor": _tr("Sensor"),
+        "processing": _tr("File"),
+    }
+
+
+def _row(
+    decision: Decision, stage: str, costs: MeasuredCosts, new: bool, pending: bool | None
+) -> EffectRow:
+    difference = costs.differences.get(decision.effect)
+    error, meaning = _error(decision, difference)
+    seconds = costs.seconds_of(decision.effect)
+    own = costs.picture.together.get(decision.effect)
+    time = "" if seconds is None or not decision.bound else milliseconds(seconds)
+    if own is not None:
+        seconds, time = None, _tr("with noise")
+    elif not decision.included and time:
+        time = f"({time})"
+    return EffectRow(
+        decision.effect,
+        stage,
+        decision.label,
+        error,
+        meaning,
+        seconds if time else None,
+        time,
+        f"{decision.label}: {decision.reason}",
+        decision.included,
+        absent=not decision.bound and not decision.included,
+        new=new,
+        pending=pending,
+        icon=None if difference is None else difference.icon,
+    )
+
+
+def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str, str]:
+    if not decision.bound:
+        return _tr("none"), _tr("The scene does not have this effect.")
+    bound = _tr("at most {bound} levels by calculation").format(bound=levels(decision.bound))
+    if difference is None:
+        return f"≤ {levels(decision.bound)}", _tr("Leaving it out changes {bound}.").format(
+            bound=bound
+        )
+    return levels(difference.error), _tr(
+        "Leaving it out changes {error} levels, measured on this scene; {bound}."
+    ).format(error=levels(difference.error), bound=bound)
+
+
+def levels(error: float) -> str:
+    """Write an error in levels."""
+    return f"{error:.0f}" if 100.0 <= error < 1e5 else f"{error:.2g}"
+
+
+def milliseconds(seconds: float) -> str:
+    """Write a time in milliseconds."""
+    time = 1e3 * seconds
+    return f"{time:.0f}" if time >= 100.0 else f"{time:.1f}" if time >= 1.0 else f"{time:.2g}"
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("EffectRows", text)

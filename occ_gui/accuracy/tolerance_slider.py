@@ -1,0 +1,107 @@
+"""Slider from fast to exact: the tolerance, from infinity through logarithmic steps to zero."""
+
+import math
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
+
+from occ_gui.scene.parameter_rows import explain
+from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_model.scene.simulation_settings import TOLERANCE
+
+STEPS = 200
+"""Positions of the slider between its ends, which are infinity and zero."""
+
+_INFINITE = ("∞", "inf", "infinity", "infinite")
+"""What people write for infinity."""
+
+
+class ToleranceEdit(QuantityEdit):
+    """A field for the tolerance, which may be infinite."""
+
+    def _show(self) -> None:
+        super()._show()
+        if self._value == math.inf:
+            self.lineEdit().setText(f"∞ {TOLERANCE.unit.symbol}")
+
+    def take_typed(self) -> None:
+        """Accept the typed text, as leaving the field does."""
+        text = self.lineEdit().text().removesuffix(TOLERANCE.unit.symbol).strip().lower()
+        if self._typed and text in _INFINITE:
+            self.set_value(math.inf)
+            self.edited.emit(math.inf)
+            return
+        super().take_typed()
+
+
+class ToleranceSlider(QWidget):
+    """A slider from fast to exact, with the tolerance that it means."""
+
+    edited = Signal(float)
+    """The tolerance that the user has chosen."""
+
+    refused = Signal(str)
+    """Why an entered value is refused."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider.setRange(0, STEPS + 1)
+        self.slider.setPageStep(STEPS // 20)
+        self.field = ToleranceEdit(TOLERANCE)
+        meaning = explain(TOLERANCE) + self.tr(
+            "\nFast: infinity, the paper's model without any effect. Exact: 0, all effects."
+        )
+        for control in (self.slider, self.field):
+            control.setAccessibleName(TOLERANCE.label)
+            control.setToolTip(meaning)
+            keep_wheel_for_scrolling(control)
+        self.slider.valueChanged.connect(self._slide)
+        self.field.edited.connect(self._take)
+        self.field.refused.connect(self.refused)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(8)
+        layout.addWidget(QLabel(self.tr("fast")))
+        layout.addWidget(self.slider, 1)
+        layout.addWidget(QLabel(self.tr("exact")))
+        layout.addWidget(self.field)
+        self.show_value(TOLERANCE.default)
+
+    def show_value(self, tolerance: float) -> None:
+        """Show a tolerance without emitting a signal."""
+        self.field.set_value(tolerance)
+        self._place(tolerance)
+
+    def _place(self, tolerance: float) -> None:
+        self.slider.blockSignals(True)
+        self.slider.setValue(position_of(tolerance))
+        self.slider.blockSignals(False)
+
+    def _slide(self, position: int) -> None:
+        tolerance = tolerance_at(position)
+        self.field.set_value(tolerance)
+        self.edited.emit(tolerance)
+
+    def _take(self, tolerance: float) -> None:
+        self._place(tolerance)
+        self.edited.emit(tolerance)
+
+
+def tolerance_at(position: int) -> float:
+    """Return the tolerance at a position of the slider, from 0 (infinity) to STEPS + 1 (zero)."""
+    if position == 0:
+        return math.inf
+    if position == STEPS + 1:
+        return 0.0
+    return TOLERANCE.at(1.0 - (position - 1) / (STEPS - 1))
+
+
+def position_of(tolerance: float) -> int:
+    """Return the position of the slider for a tolerance."""
+    if tolerance == math.inf:
+        return 0
+    if tolerance == 0.0:
+        return STEPS + 1
+    return 1 + round((1.0 - TOLERANCE.fraction(tolerance)) * (STEPS - 1))

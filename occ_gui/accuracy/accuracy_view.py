@@ -13,8 +13,8 @@ from occ_gui.accuracy.cost_sentences import forecast_sentence, picture_sentence,
 from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import rows_of, slowest_of
 from occ_gui.accuracy.effect_table import EffectTable
+from occ_gui.accuracy.panels import Panel, Panels
 from occ_gui.accuracy.plan_changes import PlanChanges, Switch
-from occ_gui.accuracy.side_panels import Panel, SidePanels
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -22,7 +22,7 @@ from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results import AccuracyPoint, Forecast, MeasuredCosts, TimeShares
 from occ_model.scene.simulation_settings import SimulationSettings
 
-_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 544, 352, 320
+_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312
 """Pixels that the parts need beside each other."""
 
 
@@ -89,12 +89,10 @@ class AccuracyView(QWidget):
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
         self.table.switched.connect(self.effect_switched)
         self.table.chosen.connect(self._select)
-        self.panels = SidePanels(
-            (
-                Panel(self.tr("Effects"), self.table, _TABLE_WIDTH, 1),
-                Panel(self.tr("Ways to compute"), self.plot, _PLOT_WIDTH, 3),
-                Panel(self.tr("Selected effect"), self.detail, _DETAIL_WIDTH, 2),
-            )
+        self.panels = Panels(
+            Panel(self.tr("Effects"), self.table, _TABLE_WIDTH, 1),
+            Panel(self.tr("Ways to compute"), self.plot, _PLOT_WIDTH, 3),
+            Panel(self.tr("Selected effect"), self.detail, _DETAIL_WIDTH, 2),
         )
         self._lay_out()
 

@@ -1,7 +1,9 @@
 """Selected effect: its pictures enlarged, and the plan's reason in words."""
 
+import math
+
 from PySide6.QtCore import QRect, QSize, Qt
-from PySide6.QtGui import QImage, QPainter, QPaintEvent
+from PySide6.QtGui import QImage, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import image_of
@@ -44,8 +46,16 @@ class CropPictures(QWidget):
         return QSize(3 * 96 + 2 * _GAP, 40 + self.fontMetrics().height())
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of the pictures, enlarged."""
-        return QSize(3 * 2 * 112 + 2 * _GAP, 2 * 64 + self.fontMetrics().height() + _GAP)
+        """Return the least size; the layout adds what it can."""
+        return self.minimumSizeHint()
+
+    def height_in(self, width: int) -> int:
+        """Return the height of the pictures with their captions in a width."""
+        if not self._images:
+            return 0
+        size = self._images[0].size()
+        scale = min((width - 2 * _GAP) / (3 * size.width()), _LARGEST_SCALE)
+        return math.ceil(scale * size.height()) + self.fontMetrics().height() + 4
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
@@ -90,7 +100,16 @@ class EffectDetail(QWidget):
         layout.addWidget(self.pictures, 1)
         for label in (self.place, self.error, self.reason):
             layout.addWidget(label)
+        layout.addStretch()
         self.show_row(None, None)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Give the pictures the height that they need in the new width."""
+        super().resizeEvent(event)
+        self._limit_pictures()
+
+    def _limit_pictures(self) -> None:
+        self.pictures.setMaximumHeight(self.pictures.height_in(self.width() - _GAP))
 
     def show_row(self, row: EffectRow | None, crop: EffectCrop | None) -> None:
         """Show an effect, or ask for one to be selected."""
@@ -104,13 +123,14 @@ class EffectDetail(QWidget):
         for label, text in zip((self.place, self.error, self.reason), texts, strict=True):
             label.setText(text)
             label.setVisible(bool(text))
+        self._limit_pictures()
 
     def _place_of(self, row: EffectRow, crop: EffectCrop | None) -> str:
         if crop is None:
             return "" if row.absent or row.effect == ELSE else self.tr("Its pictures are made…")
         where = (
-            self.tr("The whole panel, averaged")
+            self.tr("Whole panel, averaged")
             if crop.is_averaged
-            else self.tr("Real pixels, where it changes most")
+            else self.tr("Real pixels where it changes most")
         )
-        return self.tr("{where}; this effect alone, contrast stretched.").format(where=where)
+        return self.tr("This effect alone. {where}; contrast stretched.").format(where=where)

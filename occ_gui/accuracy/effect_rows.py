@@ -126,11 +126,10 @@ def _row(
     difference = costs.differences.get(decision.effect)
     error, meaning = _error(decision, difference)
     seconds = costs.seconds_of(decision.effect)
-    own = costs.picture.together.get(decision.effect)
     time = "" if seconds is None or not decision.bound else milliseconds(seconds)
-    if own is not None:
+    if time and costs.shares_step_with(decision.effect) is not None:
         seconds, time = None, _tr("with noise")
-    elif not decision.included and time:
+    if time and not decision.included:
         time = f"({time})"
     return EffectRow(
         decision.effect,
@@ -150,16 +149,16 @@ def _row(
 
 
 def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str, str]:
+    """Return what leaving an effect out changes, and how that is known."""
     if not decision.bound:
         return _tr("none"), _tr("The scene does not have this effect.")
-    bound = _tr("at most {bound} levels by calculation").format(bound=levels(decision.bound))
+    bound = levels(decision.bound)
     if difference is None:
-        return f"≤ {levels(decision.bound)}", _tr("Leaving it out changes {bound}.").format(
-            bound=bound
-        )
-    return levels(difference.error), _tr(
-        "Leaving it out changes {error} levels, measured on this scene; {bound}."
-    ).format(error=levels(difference.error), bound=bound)
+        meaning = _tr("Leaving it out changes at most {bound} levels (calculated).")
+        return _tr("≤ {bound} levels").format(bound=bound), meaning.format(bound=bound)
+    error = levels(difference.error)
+    meaning = _tr("Leaving it out changes {error} levels (measured), at most {bound} (calculated).")
+    return _tr("{error} levels").format(error=error), meaning.format(error=error, bound=bound)
 
 
 def levels(error: float) -> str:

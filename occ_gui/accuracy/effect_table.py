@@ -28,14 +28,14 @@ STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
 _TINT = QColor(REGION)
 _TINT.setAlpha(70)
 
-LOWEST_ROW, HIGHEST_ROW = 16, 32
+LOWEST_ROW, HIGHEST_ROW = 16, 28
 """Pixels of a row in a low pane and in a high one."""
 
 _ROWS = 11
 """Rows that the table has room for before it has any."""
 
-_PICTURE_WIDTH = 96
-_TIME_WIDTH = 112
+_PICTURE_WIDTH = 92
+_TIME_WIDTH = 104
 _STATES: tuple[bool | None, ...] = (None, True, False)
 """Choices of a switch: the plan decides, on, off."""
 
@@ -134,7 +134,7 @@ def _alignment(column: int) -> Qt.AlignmentFlag:
 
 
 def _colour(row: EffectRow, column: int) -> QColor | None:
-    if row.absent or column == STAGE:
+    if row.absent and column != STAGE:
         return QPalette().color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
     return None
 
@@ -242,12 +242,11 @@ class EffectTable(QTableView):
         """Make every column as wide as its widest text, and the name take what remains."""
         header, metrics = self.horizontalHeader(), self.fontMetrics()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
-        title = str(self.effects.headerData(ERROR, Qt.Orientation.Horizontal))
         switch = next(iter(self.switches.values()))
         for column, width in (
-            (STAGE, metrics.horizontalAdvance("Sensor") + 12),
+            (STAGE, metrics.horizontalAdvance("Sensor") + 8),
             (PICTURE, _PICTURE_WIDTH),
-            (ERROR, metrics.horizontalAdvance(title) + 12),
+            (ERROR, metrics.horizontalAdvance("Error without") + 12),
             (TIME, _TIME_WIDTH),
             (SWITCH, switch.minimumSizeHint().width() + 4),
         ):
@@ -270,3 +269,9 @@ class EffectTable(QTableView):
         lines = 1 + (len(self.effects.rows) or _ROWS)
         height = lines * LOWEST_ROW + 2 * self.frameWidth()
         return QSize(super().minimumSizeHint().width(), height)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size at which the rows are as high as they can be."""
+        rows = len(self.effects.rows) or _ROWS
+        height = LOWEST_ROW + rows * HIGHEST_ROW + 2 * self.frameWidth()
+        return QSize(super().sizeHint().width(), height)

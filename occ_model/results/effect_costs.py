@@ -131,6 +131,14 @@ class MeasuredCosts:
                 return shares.effects[shares.together.get(effect, effect)]
         return None
 
+    def shares_step_with(self, effect: str) -> str | None:
+        """Return the effect of the last picture in whose step this one is computed, or would be."""
+        for shares in (self.picture, *self.others):
+            other = shares.together.get(effect)
+            if other in self.picture.effects:
+                return other
+        return None
+
 
 @dataclass(frozen=True, slots=True)
 class Forecast:

@@ -79,7 +79,7 @@ def test_the_times_of_the_rows_add_up_to_the_pictures_time(frame: Frame) -> None
 
 def test_a_row_says_error_time_and_reason(table: EffectTable, frame: Frame) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
-    assert cell(table, "led-edges", ERROR) == f"≤ {decision.bound:.2g}"
+    assert cell(table, "led-edges", ERROR) == f"≤ {decision.bound:.2g} levels"
     assert cell(table, "led-edges", TIME) == "0.25"
     assert cell(table, "led-edges", EFFECT) == "● LED rise and fall"
     assert decision.reason in str(cell(table, "led-edges", EFFECT, ROLE.ToolTipRole))
@@ -91,10 +91,10 @@ def test_a_measured_error_takes_the_place_of_the_bound(table: EffectTable, frame
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
     measured = costs_of(frame, led_edges=difference("led-edges", 0.71))
     table.show_rows(rows_of(frame, measured, new=()))
-    assert cell(table, "led-edges", ERROR) == "0.71"
+    assert cell(table, "led-edges", ERROR) == "0.71 levels"
     meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
     assert "measured" in meaning
-    assert f"at most {decision.bound:.2g} levels" in meaning
+    assert f"at most {decision.bound:.2g} (calculated)" in meaning
 
 
 def test_an_absent_effect_is_grey_excluded_and_costs_nothing(table: EffectTable) -> None:

@@ -1,0 +1,159 @@
+"""Panels of the pane: side by side or one over the other as the space allows, or behind tabs."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QRect, QSize
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QTabBar, QWidget
+
+_GAP = 8
+
+_TALL = 440
+"""Height in pixels from which panels stand one over the other."""
+
+_COLUMNS = 1100
+"""Width in pixels from which a high pane has two columns."""
+
+_TOP_SHARE = 0.56
+"""Largest share of the height for the upper panel."""
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """A panel.
+
+    Parameters
+    ----------
+    title
+        Its title, for a tab.
+    widget
+        The panel.
+    width
+        The width in pixels that it needs beside others.
+    weight
+        Its share of the width that is left over.
+    """
+
+    title: str
+    widget: QWidget
+    width: int
+    weight: int
+
+
+class Panels(QWidget):
+    """Three panels: the main one, and two that share the remaining space or take turns in it.
+
+    Parameters
+    ----------
+    main, second, third
+        The panels, the most important first.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, main: Panel, second: Panel, third: Panel, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._panels = (main, second, third)
+        self._offered: tuple[Panel, ...] = ()
+        self._chosen = main
+        for panel in self._panels:
+            panel.widget.setParent(self)
+        self.tabs = QTabBar()
+        self.tabs.setDrawBase(False)
+        self.tabs.setExpanding(False)
+        self.tabs.setUsesScrollButtons(False)
+        self.tabs.currentChanged.connect(self._choose)
+        self._offer(self._panels)
+
+    def show_panel(self, widget: QWidget) -> None:
+        """Bring a panel into view."""
+        for place, panel in enumerate(self._offered):
+            if panel.widget is widget:
+                self.tabs.setCurrentIndex(place)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of the largest panel: the others can hide behind it."""
+        sizes = [panel.widget.minimumSizeHint() for panel in self._panels]
+        return QSize(max(s.width() for s in sizes), max(s.height() for s in sizes))
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the same size."""
+        return self.minimumSizeHint()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Arrange the panels in the new size."""
+        super().resizeEvent(event)
+        self._arrange()
+
+    def _choose(self, tab: int) -> None:
+        if tab >= 0:
+            self._chosen = self._offered[tab]
+            self._arrange()
+
+    def _arrange(self) -> None:
+        main, second, third = self._panels
+        area = self.rect()
+        if area.height() < _TALL:
+            fitting = next((n for n in (3, 2) if self._fit(*self._panels[:n])), 1)
+            self._offer(() if fitting == 3 else self._panels[fitting - 1 :])
+            places = self._side_by_side(area, *self._panels[: fitting - 1], self._last(third))
+        elif area.width() >= _COLUMNS:
+            self._offer(())
+            left, right = self._side_by_side(area, main, second).values()
+            top, bottom = self._over_each_other(left)
+            places = {main: top, second: right, third: bottom}
+        else:
+            fit = self._fit(second, third)
+            self._offer(() if fit else (second, third))
+            top, bottom = self._over_each_other(area)
+            lower = (second, third) if fit else (self._last(third),)
+            places = {main: top, **self._side_by_side(bottom, *lower)}
+        for panel in self._panels:
+            panel.widget.setVisible(panel in places)
+            if panel in places:
+                panel.widget.setGeometry(places[panel])
+
+    def _last(self, otherwise: Panel) -> Panel:
+        """Return the panel that is chosen by tabs, where some are."""
+        return self._chosen if self._offered else otherwise
+
+    def _fit(self, *panels: Panel) -> bool:
+        return sum(panel.width for panel in panels) + (len(panels) - 1) * _GAP <= self.width()
+
+    def _offer(self, panels: tuple[Panel, ...]) -> None:
+        """Offer panels by tabs."""
+        if panels == self._offered:
+            return
+        self._offered = panels
+        self.tabs.blockSignals(True)
+        while self.tabs.count():
+            self.tabs.removeTab(0)
+        for panel in panels:
+            self.tabs.addTab(panel.title)
+        if panels:
+            self._chosen = self._chosen if self._chosen in panels else panels[0]
+            self.tabs.setCurrentIndex(panels.index(self._chosen))
+        self.tabs.blockSignals(False)
+        self.tabs.setVisible(bool(panels))
+
+    def _side_by_side(self, area: QRect, *panels: Panel) -> dict[Panel, QRect]:
+        spare = area.width() - sum(p.width for p in panels) - (len(panels) - 1) * _GAP
+        weights = sum(panel.weight for panel in panels)
+        places, left = {}, area.left()
+        for panel in panels:
+            width = panel.width + spare * panel.weight // weights
+            if panel is panels[-1]:
+                width = area.right() + 1 - left
+            places[panel] = QRect(left, area.top(), width, area.height())
+            left += width + _GAP
+        return places
+
+    def _over_each_other(self, area: QRect) -> tuple[QRect, QRect]:
+        """Divide an area for the main panel and what stands below it."""
+        wanted = self._panels[0].widget.sizeHint().height()
+        height = min(wanted, int(_TOP_SHARE * area.height()))
+        top = QRect(area.left(), area.top(), area.width(), height)
+        below = area.adjusted(0, height + _GAP, 0, 0)
+        return top, below

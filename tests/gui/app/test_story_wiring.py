@@ -1,0 +1,126 @@
+"""The story stands on the first screen, and says and shows the same as the other panes."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from gui.user import User
+from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.scene.control_panel import MAIN
+from occ_gui.widgets.state_look import State
+
+
+def place_in(window: QWidget, part: QWidget) -> QRect:
+    """Return where a widget lies in the window, as far as it is seen."""
+    seen = part.visibleRegion().boundingRect()
+    return QRect(part.mapTo(window, seen.topLeft()), seen.size())
+
+
+def test_what_the_program_is_for_stands_on_the_first_screen(
+    application: Application, qtbot: QtBot
+) -> None:
+    window, story = application.window, application.story
+    window.resize(1280, 800)
+    qtbot.waitUntil(lambda: application.is_idle)
+    sliders = [row.slider for row in application.controls.main_rows().values()]
+    assert len(sliders) == len(MAIN) == 6
+    rows = story.rows
+    for part in (*sliders, story.verdict, rows.light, rows.stripes, rows.profile, rows.code):
+        seen = place_in(window, part)
+        assert seen.size() == part.size(), part
+        assert window.rect().contains(seen)
+    assert rows.profile.band is not None
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{}, {"switching_frequency": 500.0}, {"exposure_time": 136e-6, "switching_frequency": 16e3}],
+)
+def test_the_bar_and_the_decoding_pane_say_the_same(
+    application: Application, user: User, changes: dict[str, Any]
+) -> None:
+    application.store.change(**changes)
+    user.wait_until_idle()
+    pane, bar = application.decode, application.story.verdict
+    for place in range(pane.decoders.count()):
+        pane.decoders.setCurrentIndex(place)
+        is_read = pane.verdict.text().startswith("✓")
+        assert (bar.state is State.GOOD) == is_read
+        if is_read:
+            assert pane.verdict.text() == f"✓ {bar.title.toolTip()}"
+        else:
+            assert pane.verdict.text() == "✗ No code read"
+            assert bar.title.toolTip().startswith("No code: ")
+
+
+def test_the_thumbnail_opens_the_whole_picture_and_a_button_leads_back(
+    application: Application, qtbot: QtBot
+) -> None:
+    story = application.story
+    assert not application.image.isVisible()
+    qtbot.mouseClick(story.rows.stripes.thumbnail, Qt.MouseButton.LeftButton)
+    assert application.image.isVisible()
+    assert not story.rows.isVisible()
+    assert story.shows_whole_picture
+    assert story.verdict.isVisible()
+    qtbot.mouseClick(story.whole, Qt.MouseButton.LeftButton)
+    assert story.rows.isVisible()
+    assert not application.image.isVisible()
+
+
+def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) -> None:
+    story, image, profile = application.story, application.image, application.profile
+    story.picture_chosen.emit("receiver")
+    assert (story.whose.key(), image.whose, profile.is_enhanced) == ("receiver", "receiver", True)
+    reading = profile._reading
+    assert reading is not None
+    assert story.rows.profile.levels is reading.signal
+    image.choose_picture("camera")
+    assert story.whose.key() == "camera"
+    assert story.rows.profile.levels is reading.profile
+
+
+def test_an_open_photo_is_drawn_in_the_story(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    rows = application.story.rows
+    assert rows.profile.photo is None
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    assert application.story.shows_whole_picture
+    photo, shown = rows.profile.photo, application.profile._photo_levels
+    assert photo is not None
+    assert shown is not None
+    np.testing.assert_array_equal(photo[1], shown)
+    assert "photo" in rows.legend.shown
+    application.photos.close()
+    user.wait_until_idle()
+    assert rows.profile.photo is None
+    assert "photo" not in rows.legend.shown
+
+
+def test_a_scene_without_a_picture_is_said_above_the_last_one(
+    application: Application, user: User
+) -> None:
+    bar = application.story.verdict
+    application.store.change(distance=0.1, yaw=1.2)
+    user.wait_until_idle()
+    assert (bar.state, bar.title.text()) == (State.BAD, "No picture of this scene")
+    application.store.undo_stack.undo()
+    user.wait_until_idle()
+    assert bar.state is State.GOOD
+
+
+def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) -> None:
+    rows = application.story.rows
+    row = rows.profile
+    column = round((rows.axis.first + rows.axis.last) / 2)
+    qtbot.mouseMove(row, QPoint(round(row.x_of(column)), row.height() // 2))
+    pointed = rows.crosshair.pointed
+    assert pointed == pytest.approx(column, abs=1)
+    assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")

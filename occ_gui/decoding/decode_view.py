@@ -8,12 +8,12 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
-from occ_gui.decoding.verdict import is_right, verdict_on
+from occ_gui.decoding.verdict import is_right, result_of, verdict_on
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.state_look import State
 from occ_model.results import DecodeResult, Location
 
-_MARKS = {State.GOOD: "✓ ", State.NEUTRAL: ""}
+_MARKS = {State.GOOD: "✓ ", State.NEUTRAL: "", State.WAITING: "… "}
 
 _STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "confidence")
 
@@ -129,10 +129,9 @@ class DecodeView(QWidget):
 
     def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
         """Give the result of every decoder; of one that has not read, that it will."""
-        there = {result.decoder: result for result in reading.results}
+        there = [result.decoder for result in reading.results]
         names = dict.fromkeys((*self._names, *there))
-        awaited = self.tr("This decoder takes longer: it reads the picture now.")
-        return tuple(there.get(name) or DecodeResult(name, failure=awaited) for name in names)
+        return tuple(result_of(reading, name) for name in names)
 
     def _mark_tabs(self, reading: Reading) -> None:
         there = {result.decoder for result in reading.results}

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QCoreApplication
 
+from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.state_look import State
 from occ_model.results import DecodeResult
 
@@ -20,7 +21,7 @@ class Verdict:
     ----------
     state
         Good where all bits are right, doubtful where some are, bad where none is or no code was
-        read, neutral where none is sent.
+        read, neutral where none is sent, waiting while a slow decoder reads.
     title
         The verdict in a few words.
     reason
@@ -35,7 +36,7 @@ class Verdict:
     def explanation(self) -> str:
         """The rest of the reason, which the heading begins; empty where there is none."""
         parts = _CLAUSE_END.split(self.reason, maxsplit=1)
-        if self.state is State.NEUTRAL or len(parts) < 2:
+        if self.state is not State.BAD or len(parts) < 2:
             return self.reason
         rest = parts[1].strip()
         return rest[:1].upper() + rest[1:]
@@ -43,10 +44,20 @@ class Verdict:
     @property
     def heading(self) -> str:
         """The verdict in one line, with the beginning of the reason where there is one."""
-        if not self.reason or self.state is State.NEUTRAL:
+        if not self.reason or self.state is not State.BAD:
             return self.title
         cause = _CLAUSE_END.split(self.reason, maxsplit=1)[0]
         return _tr("No code: {cause}").format(cause=cause[:1].lower() + cause[1:])
+
+
+def result_of(reading: Reading, decoder: str) -> DecodeResult:
+    """Return what a decoder read; of one that has not read yet, that it will."""
+    found = (result for result in reading.results if result.decoder == decoder)
+    return next(found, None) or DecodeResult(decoder, failure=_awaited())
+
+
+def _awaited() -> str:
+    return _tr("This decoder takes longer: it reads the picture now.")
 
 
 def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
@@ -64,6 +75,9 @@ def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
     """Compare what a decoder read with the bits sent; these are empty for a raw pattern."""
     if not sent:
         return Verdict(State.NEUTRAL, _tr("No code is sent"), decoded.failure or "")
+    if decoded.failure == _awaited():
+        title = _tr("Reading by the decoder {name}").format(name=decoded.decoder)
+        return Verdict(State.WAITING, title, decoded.failure)
     if decoded.code is None:
         return Verdict(State.BAD, _tr("No code read"), decoded.failure or "")
     if is_right(decoded, sent):

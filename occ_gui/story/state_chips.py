@@ -53,6 +53,7 @@ class Chip:
 def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
     """Return what holds for the results, beside the verdict on one decoder's."""
     return (
+        *_followed(reading),
         _ratio(reading),
         *_band_model(reading),
         *_other_decoders(reading, decoder),
@@ -64,6 +65,14 @@ def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
 def computing() -> Chip:
     """Return the label of results that are not there yet."""
     return Chip("computing", _tr("computing"), _tr("The results are computed."), State.WAITING)
+
+
+def _followed(reading: Reading) -> list[Chip]:
+    """Say that what is shown was read before the picture, which has the last word."""
+    if reading.source == "picture":
+        return []
+    meaning = _tr("Read from the column profile or a draft; the exact picture is computed.")
+    return [Chip("computing", _tr("picture follows"), meaning, State.WAITING)]
 
 
 def _ratio(reading: Reading) -> Chip:

@@ -4,6 +4,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from occ_gui.decoding.verdict import result_of
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
@@ -140,8 +141,7 @@ class StoryRows(QWidget):
         """The result of the chosen decoder."""
         if self._reading is None:
             return None
-        results = self._reading.results
-        return next((r for r in results if r.decoder == self._decoder), results[0])
+        return result_of(self._reading, self._decoder or self._reading.decoded.decoder)
 
     def values(self) -> ColumnValues | None:
         """Return the values of the column at the crosshair, else of the chosen one."""

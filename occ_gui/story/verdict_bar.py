@@ -4,13 +4,12 @@ from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.decoding.verdict import Verdict, verdict_on
+from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.state_chips import ChipRow, chips_of, computing
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.state_look import State, StateIcon, colours_of
-from occ_model.results import DecodeResult
 from occ_model.scene.units import SECOND
 from occ_model.teaching.light_over_columns import chips_in_exposure
 
@@ -111,10 +110,6 @@ class VerdictBar(QWidget):
             self._failure = ""
             self._write()
 
-    def _result(self, reading: Reading) -> DecodeResult:
-        results = reading.results
-        return next((r for r in results if r.decoder == self._decoder), reading.decoded)
-
     def _write(self) -> None:
         reading = self._reading
         if self._failure:
@@ -126,7 +121,7 @@ class VerdictBar(QWidget):
             self._show(State.WAITING, self.tr("Computing the first picture…"), "")
             self.chips.show_chips(())
             return
-        result = self._result(reading)
+        result = result_of(reading, self._decoder or reading.decoded.decoder)
         verdict = verdict_on(result, reading.sent)
         chips = chips_of(reading, result.decoder)
         if self._is_outdated:

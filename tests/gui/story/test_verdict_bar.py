@@ -145,6 +145,20 @@ def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene:
     assert not any("matched" in c.meaning for c in bar.chips.chips if c.key == "others")
 
 
+def test_a_slow_decoder_is_waited_for(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    bar.show_reading(snapshot_of())
+    bar.choose_decoder("slow")
+    assert (bar.state, bar.title.text()) == (State.WAITING, "Reading by the decoder slow")
+    assert "takes longer" in bar.accessibleDescription()
+
+
+def test_what_is_read_before_the_picture_says_so(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+    bar.show_reading(replace(snapshot_of(), source="profile"))
+    assert (bar.state, texts(bar)["computing"]) == (State.GOOD, "picture follows")
+    bar.show_reading(snapshot_of())
+    assert "computing" not in texts(bar)
+
+
 @pytest.mark.parametrize("width", [900, 400, 230, 120])
 def test_chips_that_do_not_fit_are_counted(bar: VerdictBar, small_scene: Scene, width: int) -> None:
     bar.show()

@@ -1,5 +1,7 @@
 """Projection of the panel onto the image, and painting of the image."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
@@ -33,9 +35,16 @@ def panel_corners(scene: Scene) -> FloatArray:
     ProjectionError
         Part of the panel is beside or behind the camera.
     """
-    camera, pose = scene.camera, scene.pose
-    x = scene.transmitter.panel_width / 2
-    y = scene.transmitter.panel_height / 2
+    size = scene.transmitter.panel_width, scene.transmitter.panel_height
+    return _corner_rays(scene.pose, *size) * scene.camera.focal_length_pixels + _centre(
+        scene.camera
+    )
+
+
+@lru_cache(maxsize=16)
+def _corner_rays(pose: Pose, width: float, height: float) -> FloatArray:
+    """Return the rays (x, y) to the panel's corners, in focal lengths, shape (4, 2)."""
+    x, y = width / 2, height / 2
     corners = np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])
     placed = corners @ rotation_of(pose).T + [pose.offset_x, pose.offset_y, pose.distance]
     nearest = float(placed[:, 2].min())
@@ -46,7 +55,7 @@ def panel_corners(scene: Scene) -> FloatArray:
             f"is {place} the camera; move it away or turn it back.",
             parameters=("distance", "yaw", "pitch"),
         )
-    return image_points(placed[:, :2] / placed[:, 2:], camera)
+    return np.asarray(placed[:, :2] / placed[:, 2:])
 
 
 def image_points(rays: FloatArray, camera: Camera) -> FloatArray:

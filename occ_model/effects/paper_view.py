@@ -141,7 +141,7 @@ def paper_view_of(
     light = ColumnLight.of(scene)
     values = panel_values(scene, light)
     stage_ended("exposure")
-    seen = saturate(values)
+    lowest, highest = (min(max(float(end), 0.0), WHITE) for end in (values.min(), values.max()))
     seen_region = region_of(corners, scene.camera.rows, scene.camera.columns)
     region = seen_region or Region(0, scene.camera.rows, 0, scene.camera.columns)
     levels, shares = _histogram(values[region.first_column : region.last_column])
@@ -154,7 +154,7 @@ def paper_view_of(
         is_seen=seen_region is not None,
         region=region,
         corner_rays=_corner_rays(region, scene.camera),
-        swing=max(float(seen.max() - seen.min()), FLAT),
+        swing=max(highest - lowest, FLAT),
         levels=levels,
         shares=shares,
     )

@@ -72,4 +72,7 @@ class SimulationSettings:
         check_choice("noise", self.noise, NOISE_SOURCES)
         tolerance = TOLERANCE.check(self.tolerance)
         check_choice("observable", self.observable, OBSERVABLES)
-        return replace(self, tolerance=tolerance, force=check_switches(self.force, effects))
+        force = check_switches(self.force, effects)
+        if tolerance is self.tolerance and force == self.force:
+            return self
+        return replace(self, tolerance=tolerance, force=force)

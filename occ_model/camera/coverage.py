@@ -258,5 +258,28 @@ def _crossings(
     return row[order], column[order], np.where(y1 > y0, 1.0, -1.0)[order]
 
 
+def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
+    """Find the rows of every column between an outline's first edge and its last.
+
+    Parameters
+    ----------
+    outline : ndarray of float64, shape (corners, 2)
+        (column, row) of each corner, in order.
+    rows, columns
+        Size of the picture.
+
+    Returns
+    -------
+    first, last : ndarray of int64, shape (columns,)
+        The first row inside and the one after the last; equal where the column has none.
+    """
+    column, row, _ = _crossings(outline[:, ::-1], range(columns), 1)
+    top, bottom = np.full(columns, np.inf), np.full(columns, -np.inf)
+    np.minimum.at(top, column, row)
+    np.maximum.at(bottom, column, row)
+    first, last = (np.clip(np.ceil(end), 0, rows).astype(np.int64) for end in (top, bottom))
+    return first, np.maximum(first, last)
+
+
 def _rows_from(y: FloatArray, seen: range) -> IndexArray:
     return np.ceil(np.clip(y, seen.start, seen.stop)).astype(np.int64)

@@ -46,8 +46,8 @@ class Frame:
     make_camera_image
         Returns the camera's picture.
     estimate_errors
-        For the profile and the signal, by name: returns how far they may lie from those of the
-        whole picture; empty where they are those.
+        Returns how far the profile and the signal may lie from those of the whole picture, by name;
+        None where they are those.
     """
 
     scene: Scene
@@ -59,7 +59,7 @@ class Frame:
     corners: FloatArray
     timings: Mapping[str, float]
     make_camera_image: Callable[[], ByteArray] = field(repr=False)
-    estimate_errors: Mapping[str, Callable[[], float]] = field(repr=False, default_factory=dict)
+    estimate_errors: Callable[[], Mapping[str, float]] | None = field(repr=False, default=None)
 
     @property
     def rows_step(self) -> int:
@@ -79,8 +79,7 @@ class Frame:
         draft's own sampling error and that of the whole picture, whose noise is another. 0 where
         the picture is no draft, or all its rows are alike.
         """
-        none = {"profile": 0.0, "signal": 0.0}
-        return none | {name: estimate() for name, estimate in self.estimate_errors.items()}
+        return self.estimate_errors() if self.estimate_errors else {"profile": 0.0, "signal": 0.0}
 
     def picture(self, whose: str) -> ByteArray:
         """Return the picture of the ``"camera"`` or the ``"receiver"``.

@@ -7,14 +7,16 @@ shows in them. The panel's rim, which such differences do not show, is added.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.projection import row_spans
 
 _BLOCK = 8
 """Rows of a part: those of a block of a JPEG file, in which its errors are not independent."""
@@ -56,19 +58,12 @@ class DraftedPanel:
     largest_rounding: float
 
 
-def draft_error(
-    panel: DraftedPanel,
-    image: ByteArray,
-    means: FloatArray,
-    levels: FloatArray | ByteArray,
-    stretch: float,
-) -> float:
-    """Return how far column means of a draft may lie from those of the whole picture.
+@dataclass(frozen=True, eq=False, slots=True)
+class DraftedMeans:
+    """Column means of a draft.
 
     Parameters
     ----------
-    panel
-        Where the draft shows the panel.
     image : ndarray of uint8, shape (rows of the draft, columns)
         The draft: the camera's for the profile, the receiver's for the signal.
     means : ndarray of float64, shape (columns,)
@@ -78,24 +73,45 @@ def draft_error(
         them.
     stretch
         How many levels of the image one level of the camera's is, in the mean.
+    """
+
+    image: ByteArray
+    means: FloatArray
+    levels: FloatArray | ByteArray
+    stretch: float
+
+
+def draft_errors(panel: DraftedPanel, means: Mapping[str, DraftedMeans]) -> dict[str, float]:
+    """Return how far column means of a draft may lie from those of the whole picture, by name.
 
     Returns
     -------
-    float
+    dict of str to float
         Root mean square over the columns of the panel's bounding rectangle, in grey levels.
     """
+    whole = [ends[panel.columns] for ends in column_spans(panel.outline, *panel.size)]
+    first, last = (_rows_before(ends, panel.rows) for ends in whole)
+    seen = whole[1] > whole[0]
+    return {name: _error(panel, own, seen, first, last) for name, own in means.items()}
+
+
+def _error(
+    panel: DraftedPanel,
+    drafted: DraftedMeans,
+    seen: NDArray[np.bool_],
+    first: IndexArray,
+    last: IndexArray,
+) -> float:
     step = panel.rows.step
-    if step == 1:
-        return 0.0
-    height, width = panel.size
-    whole = row_spans(panel.outline[:, ::-1], width, height)
-    first, last = (_rows_before(ends[panel.columns], panel.rows) for ends in whole)
-    swing = float(np.ptp(np.concatenate([levels, means])))
-    seen = whole[1][panel.columns] > whole[0][panel.columns]
-    crop, means = np.ascontiguousarray(image[:, panel.columns]), means[panel.columns]
+    means = drafted.means[panel.columns]
+    swing = float(np.ptp(np.concatenate([drafted.levels, means])))
+    top, bottom = int(first.min()) // _BLOCK * _BLOCK, int(last.max())
+    crop = np.ascontiguousarray(drafted.image[top:bottom, panel.columns])
+    first, last = np.maximum(first - top, 0), np.maximum(last - top, 0)
     variance, rim = _of_parts(crop, means, first, last, math.ceil(_REACH * panel.blur / step))
     short = seen & np.isnan(variance)
-    rounding, largest = panel.rounding * stretch, min(panel.largest_rounding * stretch, swing)
+    rounding = panel.rounding * drafted.stretch
+    largest = min(panel.largest_rounding * drafted.stretch, swing)
     # Of a file's block that shows the panel in part nothing is known from others.
     variance[short] = _of_few_rows(crop, first, last, short, swing) + largest**2
     # Steps that no two parts of the draft happen to be on either side of.
@@ -125,6 +141,8 @@ def _of_parts(
         Not a number and 0 where a column has fewer than two whole parts within the panel.
     """
     count = len(image) // _BLOCK
+    if not count:
+        return np.full(len(means), np.nan), np.zeros(len(means))
     sums = [
         cv2.reduce(image[at : at + _BLOCK], 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)[0]
         for at in range(0, count * _BLOCK, _BLOCK)
@@ -143,7 +161,7 @@ def _of_parts(
 
 
 def _of_few_rows(
-    image: ByteArray, first: IndexArray, last: IndexArray, short: np.ndarray, swing: float
+    image: ByteArray, first: IndexArray, last: IndexArray, short: NDArray[np.bool_], swing: float
 ) -> FloatArray:
     """Bound the variance of the means of columns with few rows by that of the rows themselves."""
     places = np.flatnonzero(short)

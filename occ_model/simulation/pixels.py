@@ -25,6 +25,9 @@ from occ_model.simulation.noise_source import NOISE_MAKERS, Drawn, NoiseMaker
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads
 
+_BLOCK = 8
+"""Columns and rows of a block of a JPEG file."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposedRows:
@@ -90,6 +93,9 @@ class PixelExposure:
     bands
         The rows that are exposed, in order, each a whole number of blocks of a JPEG file but the
         last; None for the whole picture.
+    panel_only
+        Whether the file is made of the blocks that show the panel only. What becomes of a block
+        does not depend on others.
 
     Raises
     ------
@@ -104,7 +110,9 @@ class PixelExposure:
         columns: Columns,
         timer: StageTimer,
         bands: Sequence[range] | None = None,
+        panel_only: bool = False,
     ) -> None:
+        self._panel_only = panel_only
         self._scene = scene = view.scene
         self._region = view.region
         self._timer = timer
@@ -196,8 +204,9 @@ class PixelExposure:
             camera, receiver = camera_image[band.place], image[band.place]
             cv2.convertScaleAbs(exposed.values, dst=camera)
             timer.stage_ended("image")
-            for file in self._files:
-                camera[:] = file.apply(self._scene, camera)
+            stored = self._stored_columns(exposed.mean)
+            for file in self._files if stored else ():
+                camera[:, stored] = file.apply(self._scene, camera[:, stored])
                 timer.stage_ended(file.name)
             before.add(exposed.mean, camera if self._files else exposed.values)
             _enhance(camera, enhancement, exposed.mean, out=receiver)
@@ -215,6 +224,16 @@ class PixelExposure:
         profile = self._columns.profile
         enhanced = enhancement(profile).astype(np.float64)
         return Pictures(camera_image, image, before.means(profile), after.means(enhanced))
+
+    def _stored_columns(self, rows: Rows) -> slice | None:
+        """Return the columns that the file is made of, None for none of these rows."""
+        if not self._panel_only:
+            return slice(0, self._shape[1])
+        shown = [*rows.inside, *(rim.columns for rim in rows.rims)]
+        if not shown:
+            return None
+        first, last = min(part.start for part in shown), max(part.stop for part in shown)
+        return slice(first // _BLOCK * _BLOCK, min(-(-last // _BLOCK) * _BLOCK, self._shape[1]))
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
         """Return the observable: pixel values before enhancement and rounding.

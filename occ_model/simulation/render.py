@@ -22,9 +22,9 @@ from occ_model.scene.simulation_settings import (
     Observable,
     SimulationSettings,
 )
-from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.draft_error import draft_error
-from occ_model.simulation.pixels import PixelExposure
+from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.draft_error import DraftedMeans, draft_errors
+from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
 
@@ -58,8 +58,8 @@ def render(
     rows_step
         From 2 on a draft: every ``rows_step``-th row of the picture and no other, each as it is in
         the picture but for its random numbers. A file is made of the draft's rows, as if they were
-        a picture. Its column means lie near those of the picture: see
-        :attr:`occ_model.Frame.draft_error`.
+        a picture, and only where they show the panel. Its column means lie near those of the
+        picture: see :attr:`occ_model.Frame.draft_error`.
 
     Returns
     -------
@@ -133,25 +133,22 @@ def render_plan(
     timer.stage_ended("enhancement")
     around, corners = to_bytes(columns.around), view.corners
     rows = every_row(scene.camera.rows, rows_step)
-    errors: dict[str, Callable[[], float]] = {}  # none where all rows are alike
+    errors: Callable[[], Mapping[str, float]] | None = None  # none where all rows are alike
     if chosen.kinds <= {"column"}:
         profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)
         timer.stage_ended("image")
         camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
-        exposure = PixelExposure(view, chosen, columns, timer, in_blocks(rows))
+        exposure = PixelExposure(
+            view, chosen, columns, timer, in_blocks(rows), panel_only=rows_step > 1
+        )
         made = exposure.pictures(enhancement, seed, noise)
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
-        panel = exposure.drafted_panel(rows)
-        levels = np.concatenate([columns.profile, columns.around, profile])
-        seen = enhancement(levels)
-        stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT), 1.0)
-        errors = {
-            "profile": partial(draft_error, panel, made.camera_image, profile, levels, 1.0),
-            "signal": partial(draft_error, panel, image, signal, seen, stretch),
-        }
+        if rows_step > 1:
+            means = _drafted(made, columns, enhancement)
+            errors = partial(draft_errors, exposure.drafted_panel(rows), means)
     return Frame(
         scene=scene,
         plan=chosen,
@@ -164,6 +161,17 @@ def render_plan(
         make_camera_image=camera_image,
         estimate_errors=errors,
     )
+
+
+def _drafted(made: Pictures, columns: Columns, enhancement: Enhancement) -> dict[str, DraftedMeans]:
+    """Return the column means of a draft, with the values that its pixels can have."""
+    levels = np.concatenate([columns.profile, columns.around, made.profile])
+    seen = enhancement(levels)
+    stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT), 1.0)
+    return {
+        "profile": DraftedMeans(made.camera_image, made.profile, levels, 1.0),
+        "signal": DraftedMeans(made.image, made.signal, seen, stretch),
+    }
 
 
 def every_row(rows: int, step: int) -> range:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.effects.jpeg import Jpeg
 from occ_model.scene.scene import Scene
 
 NOISELESS = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
@@ -35,6 +36,28 @@ def test_the_rows_of_a_draft_are_rows_of_the_picture(
     assert off.max() <= 1
     assert np.count_nonzero(off) <= 2e-4 * off.size
     assert np.count_nonzero(draft.image != whole.image[draft.rows]) <= np.count_nonzero(off)
+
+
+@pytest.mark.parametrize("turn", [{}, {"roll": 0.3, "yaw": 0.2}, {"offset_y": 5.0}])
+def test_the_file_of_a_draft_is_made_of_its_rows_where_the_panel_is(
+    scene: Scene, turn: dict[str, float]
+) -> None:
+    turned = scene.replace(jpeg_quality=60, columns=291, **turn)
+    kept, bare = (
+        occ.render(turned, tolerance=0.0, force={"jpeg": on}, rows_step=3).camera_image
+        for on in (True, False)
+    )
+    whole = Jpeg().apply(turned, bare)
+    left, right = (int(end) for end in np.clip(occ.panel_corners(turned)[:, 0], 0, 291)[[0, 2]])
+    if "offset_y" in turn:
+        np.testing.assert_array_equal(kept, bare)
+    else:
+        assert (kept != bare).any()
+        shown = slice(min(left, right), max(left, right))
+        rows = np.clip(occ.panel_corners(turned)[:, 1].astype(int) // 3, 0, 128)
+        seen = slice(rows.min() + 1, rows.max())
+        np.testing.assert_array_equal(kept[seen, shown], whole[seen, shown])
+    assert ((kept == whole) | (kept == bare)).all()
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 10, 385])

@@ -1,7 +1,7 @@
 """Photos of known scenes, matched: how far off what is found is."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -50,10 +50,11 @@ def round_trip(seed: int) -> Found:
     )
 
 
-def round_trips(seeds: Iterable[int]) -> list[Found]:
+def round_trips(seeds: Sequence[int]) -> Iterator[Found]:
     """Match many photos, on two cores where the tests do not use them all already."""
     if "PYTEST_XDIST_WORKER" in os.environ:
-        return [round_trip(seed) for seed in seeds]
+        yield from map(round_trip, seeds)
+        return
     # Processes that begin anew: a fork of one that has run Qt may hang.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        return list(pool.map(round_trip, seeds, chunksize=5))
+        yield from pool.map(round_trip, seeds, chunksize=5)

@@ -1,7 +1,7 @@
 """What a match says of pictures without an LED, of other codes, of unknown chips."""
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -81,13 +81,14 @@ def said_of_unknown_chips(seed: int) -> Said:
     return _said(seed, what, photo, _told(scene), _sent(scene), sent="read")
 
 
-def said_of(say: Callable[[int], Said], seeds: Iterable[int]) -> list[Said]:
+def said_of(say: Callable[[int], Said], seeds: Sequence[int]) -> Iterator[Said]:
     """Match many pictures, on two cores where the tests do not use them all already."""
     if "PYTEST_XDIST_WORKER" in os.environ:
-        return [say(seed) for seed in seeds]
+        yield from map(say, seeds)
+        return
     # Processes that begin anew: a fork of one that has run Qt may hang.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        return list(pool.map(say, seeds, chunksize=5))
+        yield from pool.map(say, seeds, chunksize=5)
 
 
 def _told(scene: Scene) -> Scene:

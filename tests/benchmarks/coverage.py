@@ -9,6 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -52,4 +53,5 @@ def table(found: list[Trial]) -> list[str]:
 if __name__ == "__main__":
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 600
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
-    print("\n".join(table(trials(range(first, first + count)))))
+    found = trials(range(first, first + count))
+    print("\n".join(table(list(tqdm(found, "photographs", count)))))

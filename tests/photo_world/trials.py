@@ -1,6 +1,6 @@
 """Matches of photographs whose truth is known: how far off they are, by what they state."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -92,9 +92,9 @@ def trial(world: World) -> Trial:
     )
 
 
-def trials(seeds: Iterable[int]) -> list[Trial]:
-    """Match the photographs of some seeds."""
-    return [trial(random_world(seed)) for seed in seeds]
+def trials(seeds: Iterable[int]) -> Iterator[Trial]:
+    """Match the photographs of some seeds, one after the other."""
+    return (trial(random_world(seed)) for seed in seeds)
 
 
 def bound(world: World) -> tuple[float, float]:

@@ -21,7 +21,7 @@ def sample() -> list[Found]:
 )
 def found(request: pytest.FixtureRequest, sample: list[Found]) -> list[Found]:
     """Match the sample, or all photos."""
-    return sample if request.param == "sample" else sample + round_trips(range(SAMPLE, WHOLE))
+    return sample if request.param == "sample" else [*sample, *round_trips(range(SAMPLE, WHOLE))]
 
 
 def test_the_readout_time_comes_back_within_two_thousandths(found: list[Found]) -> None:

@@ -133,6 +133,15 @@ def test_blur_keeps_the_light_and_has_the_width_that_it_states() -> None:
         assert kernel @ place**2 == pytest.approx(blur**2, rel=0.02)
 
 
+@pytest.mark.parametrize("tails", [-1.2, -0.5, 0.5, 1.0])
+def test_the_blurs_tails_are_its_excess_kurtosis(tails: float) -> None:
+    place = np.arange(-8, 9)
+    for blur in (0.9, 1.3):
+        kernel = blur_kernel(blur, tails)
+        assert kernel @ place**2 == pytest.approx(blur**2, rel=0.02)
+        assert kernel @ place**4 / blur**4 - 3.0 == pytest.approx(tails, abs=0.1)
+
+
 def test_the_tone_curve_holds_the_standard_one_and_its_inverse() -> None:
     table = ToneCurve(2.4, offset=0.055).table()
     light = np.linspace(0.01, 0.99, 50)

@@ -37,7 +37,9 @@ class BlurredLight:
         self._changes = np.tile(change[places], 3).astype(np.float64)
         self._level_before = float(chips[int(turns[0] - 1) % self._period])
 
-    def lit_fraction(self, timing: Timing, blur: float, longer: float) -> FloatArray:
+    def lit_fraction(
+        self, timing: Timing, blur: float, longer: float, tails: float = 0.0
+    ) -> FloatArray:
         """Give the share of each column's exposure in which the LED is on, shape (columns,).
 
         Parameters
@@ -48,6 +50,8 @@ class BlurredLight:
             Standard deviation of the blur in columns.
         longer
             Chips by which each time on is longer than the chips say.
+        tails
+            Excess kurtosis of the blur.
         """
         longer = float(np.clip(longer, -_LONGEST, _LONGEST))
         edges = self._edges - 0.5 * longer * self._changes
@@ -65,11 +69,16 @@ class BlurredLight:
             return np.asarray(turns * a_period + within)
 
         lit = (until(place + timing.exposure) - until(place)) / timing.exposure
-        return np.asarray(np.convolve(lit, blur_kernel(blur), mode="valid"))
+        return np.asarray(np.convolve(lit, blur_kernel(blur, tails), mode="valid"))
 
 
-def blur_kernel(blur: float) -> FloatArray:
-    """Give a Gaussian's weights around a column, for its standard deviation in columns."""
-    place = np.arange(-_REACH, _REACH + 1)
-    kernel = np.exp(-0.5 * (place / max(blur, 0.05)) ** 2)
+def blur_kernel(blur: float, tails: float = 0.0) -> FloatArray:
+    """Give the weights of blur around a column.
+
+    A normal distribution of the standard deviation ``blur``, in columns, times 1 + k/24 He4, which
+    gives it the excess kurtosis k = ``tails`` (Gram and Charlier's series; Kendall and Stuart, The
+    Advanced Theory of Statistics, 6.17). A box has k = -1.2; sharpening makes weights negative.
+    """
+    square = (np.arange(-_REACH, _REACH + 1) / max(blur, 0.05)) ** 2
+    kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
     return np.asarray(kernel / kernel.sum())

@@ -34,21 +34,13 @@ _APART_CHIPS = 0.04
 _TRUSTED = 6.0
 """Differences of the misfit are divided by it: the residual is no mere noise."""
 
-_UNKNOWN_KERNEL = 0.1
-"""Standard deviation in columns of an exposure: pixels gather light over their own width."""
-
 _UNKNOWN_BLUR = 0.25
-"""Standard deviation in columns of blur that the model's does not describe."""
-
-_UNKNOWN_TAILS = 1.5
-"""Standard deviation of the blur's fourth cumulant, in columns to the fourth: that of a box as wide
-as a normal distribution of 1.06 columns."""
-
-_LONGEST_OF_BLUR = 1.4
-"""Largest standard deviation in columns of an exposure by what is not known of the blur."""
+"""Standard deviation in columns of blur that the model's does not describe: a pixel gathers light
+over its own width, a box whose standard deviation is 0.29 columns where it fills it."""
 
 _UNKNOWN_RAMP = 0.005
-"""Likewise as its share: switching, and processing that follows edges, change a ramp's shape."""
+"""Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
+change a ramp's shape."""
 
 _LEAST_EDGES = 0.3
 """Share of the edges' columns that must be seen without clipping."""
@@ -266,9 +258,7 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
     values = mode.values
     covariance = np.zeros((4, 4))
     covariance[:3, :3] = mode.covariance[:3, :3]
-    unknown = math.hypot(
-        _UNKNOWN_KERNEL * values[0], _UNKNOWN_RAMP * values[1], _blur_deviation(values)
-    )
+    unknown = math.hypot(_UNKNOWN_RAMP * values[1], _blur_deviation(values))
     covariance[1, 1] += unknown**2
     if with_gamma:
         gamma *= math.exp(float(values[3]))
@@ -279,18 +269,14 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
 
 
 def _blur_deviation(values: FloatArray) -> float:
-    """Give the chips by which blur of another shape than the model's changes an exposure.
+    """Give the chips by which blur beside the model's changes an exposure.
 
-    An edge is the exposure's box, of variance t^2/12 and fourth cumulant -t^4/120, convolved with
-    the blur; cumulants add. To second order a blur of sigma lengthens t by 6 sigma^2 / t. A fitted
-    blur is told from the exposure by the fourth order: what is not known of the blur's fourth
-    cumulant k changes t by 30 k / t^3.
+    An edge is the exposure's box, of variance t^2/12, convolved with the blur; variances add. So a
+    blur of sigma that is taken for a part of the exposure makes t^2 larger by 12 sigma^2.
     """
     step = float(values[0])
     columns = float(values[1]) / step
-    second = 6.0 * _UNKNOWN_BLUR**2 / columns
-    fourth = 30.0 * _UNKNOWN_TAILS / columns**3
-    return step * min(math.hypot(second, fourth), _LONGEST_OF_BLUR)
+    return step * (math.sqrt(columns**2 + 12.0 * _UNKNOWN_BLUR**2) - columns)
 
 
 def _doubts(seen: float) -> list[str]:

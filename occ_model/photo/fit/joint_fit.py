@@ -30,9 +30,11 @@ USUAL = {
     "contrast": (0.0, 0.35),
     "blur": (0.5, 0.5),
     "longer": (0.0, 0.02),
+    "tails": (0.0, 0.6),
 }
 """Mean and standard deviation of what is usual: the logarithm of gamma over the scene's gamma, the
-tone curve's bends, the blur in columns, and the chips by which the LED is on longer."""
+tone curve's bends, the blur in columns, the chips by which the LED is on longer, and the blur's
+excess kurtosis, which is -1.2 for a box."""
 
 _ANY_GAMMA = 0.5
 """Standard deviation of gamma's logarithm where nothing is known of it."""
@@ -50,8 +52,8 @@ _EDGE = 0.05
 """Share of the swing from which a column is on an edge."""
 
 _SHORTEST = 1e-3
-_LOW = np.array([0.5, _SHORTEST, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3])
-_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3])
+_LOW = np.array([0.5, _SHORTEST, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3, -2.0])
+_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3, 2.0])
 """Bounds of the parameters; that of the step is a ratio."""
 
 
@@ -61,9 +63,9 @@ class JointFit:
 
     Parameters
     ----------
-    values : ndarray of float64, shape (9,)
-        Step, exposure and middle as of a timing, and the six unknowns in the order of ``USUAL``.
-    covariance : ndarray of float64, shape (9, 9)
+    values : ndarray of float64, shape (10,)
+        Step, exposure and middle as of a timing, and the seven unknowns in the order of ``USUAL``.
+    covariance : ndarray of float64, shape (10, 10)
         Theirs; 0 for what is not fitted.
     misfit
         Twice the negative logarithm of the posterior density, less a constant.
@@ -134,7 +136,7 @@ class JointModel:
         if wide:
             self._deviation[0] = _ANY_GAMMA
         self._free = np.array(
-            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
+            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True, True]
         )
         self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
         # A fit's slopes change the timing, or the tone curve: what stays need not be found again.
@@ -182,7 +184,7 @@ class JointModel:
         )
         values = values_of(found)
         scale = np.where(index == 1, scale * values[1], scale)
-        covariance = np.zeros((9, 9))
+        covariance = np.zeros((10, 10))
         covariance[np.ix_(index, index)] = self._covariance(slopes, residual) * np.outer(
             scale, scale
         )
@@ -229,16 +231,17 @@ class JointModel:
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
     def _seen(self, values: FloatArray) -> "Seen":
-        step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = values.tolist()
+        step, exposure, middle, *bends, blur, longer, tails = values.tolist()
+        gamma, offset, shoulder, contrast = bends
         timing = Timing(step, exposure, middle, self._gamma)
         sharp = None
         if self._values_blurred:
-            sharp = self._lit(timing, 0.0, longer)
+            sharp = self._lit(timing, 0.0, longer, 0.0)
         return Seen(
-            self._lit(timing, blur, longer),
+            self._lit(timing, blur, longer, tails),
             self._table(self._gamma * math.exp(gamma), offset, shoulder, contrast),
             sharp,
-            blur_kernel(blur),
+            blur_kernel(blur, tails),
         )
 
     def _residual(self, values: FloatArray) -> FloatArray:

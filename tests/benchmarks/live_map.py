@@ -103,7 +103,7 @@ def main() -> None:
 
     _, application = start(occ.load_preset(options.preset), ["live_map"])
     application.window.show()
-    application.window.docks[options.dock].raise_()
+    application.window.bring_to_front(options.dock)
     wait_until_shown(application, measured=True)
     rounds = [_round(application, number) for number in range(options.rounds)]
     application.window.close()

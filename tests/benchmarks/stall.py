@@ -80,7 +80,8 @@ def _show_panes(application: "Application", with_map: bool, with_study: bool) ->
         Qt.DockWidgetArea.BottomDockWidgetArea, docks["map"], Qt.Orientation.Horizontal
     )
     docks["map"].setVisible(with_map)
-    docks["accuracy" if with_study else "profile"].raise_()
+    docks["accuracy"].setVisible(with_study)
+    docks["profile"].setVisible(not with_study)
 
 
 def _watch(application: "Application", seconds: float) -> _Found:

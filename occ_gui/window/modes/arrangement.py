@@ -15,14 +15,13 @@ _ELSEWHERE = {
     "equations": _AREA.RightDockWidgetArea,
     "lessons": _AREA.RightDockWidgetArea,
 }
-"""Where a pane stands that the mode neither shows nor puts behind its main pane; else below."""
+"""Where a pane stands that the mode does not show; all others stand below."""
 
 
 def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
     """Show the panes of a mode at their places, and hide all others.
 
-    Another pane, when it is asked for, shares the place of the mode's main pane, or stands at the
-    right or below where that is no dock.
+    Another pane, when it is asked for, stands at the right or below.
     """
     for dock in docks.values():
         window.removeDockWidget(dock)
@@ -32,7 +31,7 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -
         (_AREA.BottomDockWidgetArea, mode.bottom),
     ):
         _place(window, docks, area, groups)
-    _put_behind(window, docks, mode)
+    _place_others(window, docks, mode)
     for orientation, sizes in (
         (Qt.Orientation.Horizontal, mode.widths),
         (Qt.Orientation.Vertical, mode.heights),
@@ -56,19 +55,8 @@ def _place(
         front.raise_()
 
 
-def _put_behind(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
-    main = docks.get(mode.main)
-    fronts: dict[Qt.DockWidgetArea, QDockWidget] = {}
+def _place_others(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
     for name, dock in docks.items():
-        if name in mode.panes:
-            continue
-        area = _ELSEWHERE.get(name, _AREA.BottomDockWidgetArea)
-        front = fronts.get(area) if main is None or name == "controls" else main
-        if front is None:
-            window.addDockWidget(area, dock)
-            fronts[area] = dock
-        else:
-            window.tabifyDockWidget(front, dock)
-        dock.hide()
-    if main is not None:
-        main.raise_()
+        if name not in mode.panes:
+            window.addDockWidget(_ELSEWHERE.get(name, _AREA.BottomDockWidgetArea), dock)
+            dock.hide()

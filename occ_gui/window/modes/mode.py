@@ -22,7 +22,7 @@ class Mode:
     left, right, bottom
         The panes of the three areas.
     main
-        The pane that the mode is about: other panes open behind it.
+        The pane that the mode is about, or PICTURE.
     widths, heights
         First sizes in pixels by pane, of those whose size matters.
     """

@@ -80,9 +80,10 @@ class ModeSwitch(QObject):
         try:
             self._show_page(MODES[self.mode].centre)
             self._limit_sides(MODES[self.mode])
-            layout = self.layouts.get(self.mode)
-            if layout is None or not window.restoreState(layout, self.version):
-                arrange(window, self._docks, MODES[self.mode])
+            # First even where a layout is known: Qt leaves the tabs of the mode before it behind.
+            arrange(window, self._docks, MODES[self.mode])
+            if self.mode in self.layouts:
+                window.restoreState(self.layouts[self.mode], self.version)
         finally:
             window.setUpdatesEnabled(True)
 

@@ -19,7 +19,7 @@ from occ_gui.app.application import Application
 def in_front(application: Application, monkeypatch: pytest.MonkeyPatch) -> Application:
     """Bring the pane to the front, and let no study begin."""
     monkeypatch.setattr(controller, "IDLE_MS", 3_600_000)
-    application.window.docks["accuracy"].raise_()
+    application.window.bring_to_front("accuracy")
     return application
 
 
@@ -65,7 +65,7 @@ def test_the_status_line_says_it_also_while_the_pane_is_behind(
     assert application.accuracy.table.effects.rows == ()  # nothing is drawn that nobody sees
     tips = [label.toolTip() for label in application.window.statusBar().findChildren(QLabel)]
     assert any(tip.startswith("Switched in: LED rise and fall, +") for tip in tips)
-    application.window.docks["accuracy"].raise_()
+    application.window.bring_to_front("accuracy")
     assert row(application, "led-edges").new
 
 
@@ -177,7 +177,7 @@ def test_the_study_runs_in_front_and_ends_when_the_scene_changes(
 ) -> None:
     monkeypatch.setattr(controller, "IDLE_MS", 1)
     title = application.accuracy.plot.title
-    application.window.docks["accuracy"].raise_()
+    application.window.bring_to_front("accuracy")
     qtbot.waitUntil(lambda: " of " in title.toolTip())
     application.store.change(iso=200.0)
     assert title.toolTip().endswith("stopped")
@@ -190,9 +190,9 @@ def test_behind_another_pane_no_study_is_made(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(controller, "IDLE_MS", 1)
-    application.window.docks["accuracy"].raise_()
+    application.window.bring_to_front("accuracy")
     qtbot.waitUntil(lambda: application.study.runner.is_running)
-    application.window.docks["profile"].raise_()
+    application.window.bring_to_front("profile")
     qtbot.waitUntil(lambda: application.study.is_idle)
     application.store.change(iso=200.0)
     qtbot.waitUntil(lambda: application.is_idle)

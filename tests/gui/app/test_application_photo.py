@@ -53,10 +53,10 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     application.open_photo(taken)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
-    docks["decode"].raise_()
+    application.window.modes.switch("explore")
     user.choose("&Line by line")
     QApplication.processEvents()
-    assert docks["photo"].visibleRegion().isEmpty()
+    assert application.window.modes.mode == "explore"
 
 
 def test_reading_a_photo_shows_progress_and_a_cancel_button(

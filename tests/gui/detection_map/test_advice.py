@@ -76,7 +76,7 @@ def advised(
 ) -> Application:
     """Ask for advice, and wait for it."""
     monkeypatch.setattr(worker, "limits", found)
-    application.window.docks["map"].raise_()
+    application.window.bring_to_front("map")
     application.detection_map.map.set_seen(False)  # it is not what is looked at here
     application.detection.advise.click()
     qtbot.waitUntil(lambda: application.detection_map.advisor.is_idle)

@@ -226,7 +226,7 @@ def test_closing_the_window_ends_its_processes(
     monkeypatch.setattr(wiring, "new_workers", lambda: workers)
     application = Application(small_scene)
     application.window.show()
-    application.window.docks["map"].raise_()
+    application.window.bring_to_front("map")
     qtbot.waitUntil(lambda: bool(application.detection_map.map.map), timeout=20_000)
     processes = workers.processes
     assert processes
@@ -240,7 +240,7 @@ def test_closing_the_window_ends_its_processes(
 @pytest.mark.parametrize("size", [(1000, 700), (1280, 800), (1920, 1080)])
 def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[int, int]) -> None:
     application.window.resize(*size)
-    application.window.docks["map"].raise_()
+    application.window.bring_to_front("map")
     view = application.detection
     view.show_map(whole((10, 10)))
     view.show_left_out(("Vignetting", "JPEG"))

@@ -166,7 +166,7 @@ def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
     qtbot: QtBot, application: Application, user: User, size: QSize
 ) -> None:
     application.window.resize(size)
-    application.window.docks["accuracy"].raise_()
+    application.window.bring_to_front("accuracy")
     application.store.change(**MISREAD, edge_time=5e-6)
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "accuracy")
@@ -231,7 +231,7 @@ def test_every_axis_label_fits_its_axis(application: Application, user: User, si
 def test_every_effect_is_in_view_at_the_windows_first_size(
     application: Application,
 ) -> None:
-    application.window.docks["accuracy"].raise_()
+    application.window.bring_to_front("accuracy")
     QApplication.processEvents()
     table = application.accuracy.table
     assert table.model().rowCount() * table.rowHeight(0) <= table.viewport().height()

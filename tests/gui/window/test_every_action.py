@@ -240,7 +240,7 @@ def test_each_entry_of_the_menus_does_something(
             continue  # what does nothing only where it holds already has another try
         if place >= len(found):
             application.store.change(iso=100.0 + place)
-            application.window.docks["decode"].raise_()
+            application.window.bring_to_front("decode")
             user.wait_until_idle()
         application.image.simulation.box.setRange(xRange=(3, 9), yRange=(3, 9))
         application.window.statusBar().clearMessage()

@@ -20,13 +20,12 @@ from PySide6.QtWidgets import (
     QTabBar,
     QWidget,
 )
+from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.picture.photo_overlay import MODES
-
-ON_DEMAND = ("lessons",)
-"""Docks that are not shown until they are asked for."""
+from occ_gui.picture.photo_overlay import MODES as OVERLAYS
+from occ_gui.window.modes.mode import MODES
 
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
@@ -85,7 +84,7 @@ def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> N
     assert set(docks) == set(PANES)
     for name, dock in docks.items():
         toggle = dock.toggleViewAction()
-        if name in ON_DEMAND:
+        if name not in MODES["explore"].panes:
             assert not dock.isVisible()
             toggle.trigger()
         assert dock.isVisible()
@@ -95,18 +94,6 @@ def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> N
         toggle.trigger()
         assert dock.isVisible()
         assert dock.widget().isVisible()
-
-
-def test_the_profile_is_in_front_of_the_panes_it_shares_with(
-    application: Application,
-) -> None:
-    docks = application.window.docks
-    behind = {
-        dock.objectName() for dock in application.window.tabifiedDockWidgets(docks["profile"])
-    }
-    assert behind >= {"accuracy", "compare"}
-    assert not docks["profile"].visibleRegion().isEmpty()
-    assert all(docks[name].visibleRegion().isEmpty() for name in behind)
 
 
 def test_docks_have_names_that_a_saved_arrangement_can_refer_to(application: Application) -> None:
@@ -158,29 +145,26 @@ def test_every_picture_and_plot_has_a_name(application: Application) -> None:
         assert view.accessibleName(), view
 
 
-def test_the_decoding_is_in_front_of_the_photos_pane(
-    application: Application,
+def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(
+    application: Application, qtbot: QtBot
 ) -> None:
-    docks = application.window.docks
-    behind = {dock.objectName() for dock in application.window.tabifiedDockWidgets(docks["decode"])}
-    assert behind == {"photo", "equations"}
-    assert not docks["decode"].visibleRegion().isEmpty()
-    assert all(docks[name].visibleRegion().isEmpty() for name in behind)
-
-
-def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(application: Application) -> None:
     window = application.window
-    bars = [bar for bar in window.findChildren(QTabBar) if bar.parent() is window]
-    tabs = [[bar.tabText(place) for place in range(bar.count())] for bar in bars]
-    assert sorted(tabs) == [
-        ["Column profile", "Accuracy and time", "Detection map", "Compare"],
-        ["Decoding", "Photo", "Equations"],
-    ]
+
+    def tabs() -> list[list[str]]:
+        found = [bar for bar in window.findChildren(QTabBar) if bar.parent() is window]
+        return [
+            [bar.tabText(place) for place in range(bar.count())] for bar in found if bar.isVisible()
+        ]
+
+    for mode in ("photo", "explore", "limits", "photo"):
+        window.modes.switch(mode)
+        wanted = [["Photo", "Scene"]] if mode == "photo" else []
+        qtbot.waitUntil(lambda wanted=wanted: tabs() == wanted)
 
 
 def test_one_way_of_showing_the_photo_is_chosen_at_a_time(application: Application) -> None:
     modes = application.window.menus.overlays.actions()
-    assert [mode.data() for mode in modes] == list(MODES)
+    assert [mode.data() for mode in modes] == list(OVERLAYS)
     for action in (*modes, modes[0]):
         action.trigger()
         assert [mode.data() for mode in modes if mode.isChecked()] == [action.data()]

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from occ_model.commands import (
     accuracy,
+    animate,
     bench,
     decode,
     figures,
@@ -19,7 +20,7 @@ from occ_model.commands.files import check_files
 from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
-_COMMANDS = (render, plan, accuracy, sweep, limits, bench, decode, match, figures, listing)
+_COMMANDS = (render, animate, plan, accuracy, sweep, limits, bench, decode, match, figures, listing)
 
 
 def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:

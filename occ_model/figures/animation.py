@@ -1,0 +1,226 @@
+"""Animations: a parameter runs through its values, and picture, profile and code follow."""
+
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from io import BytesIO
+from pathlib import Path
+
+import cv2
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.lines import Line2D
+from PIL import Image
+
+from occ_model.arrays import ByteArray
+from occ_model.camera.photometry import level_values
+from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, shown
+from occ_model.figures.drawing import BAND, SIMULATION, house_style
+from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.receiver.decode import decode
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.frame import Frame
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import parameter_named
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.band_model import band_profile
+from occ_model.simulation.render import render_with
+
+ENDINGS = (".gif", ".mp4", ".png")
+"""The endings of an animation's file: GIF, MP4 (MPEG-4), and animated PNG."""
+
+MOST_FRAMES = 300
+_COLOURS = 128
+
+_SIZE, _DOTS = (9.6, 5.4), 100
+"""Inches of a frame, and pixels an inch."""
+
+_ROWS, _SHOWN_COLUMNS = 120, 900
+_DEFAULT_RATE = 15.0
+_FASTEST = 50.0
+"""Frames a second; players of GIF files show none faster."""
+
+_CODEC = "mp4v"
+
+_HEADROOM, _HIGHEST = 1.2, 260.0
+"""The level axis reaches above the brightest level, by this factor, but no higher than this."""
+
+_LONGEST = 110
+"""Letters of a title."""
+
+
+def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
+    path: Path,
+    scene: Scene,
+    name: str,
+    values: Sequence[float],
+    *,
+    settings: SimulationSettings | None = None,
+    rate: float = _DEFAULT_RATE,
+    decoder: str = PAPER_DECODER,
+    progress: Callable[[int], object] = lambda _frames: None,
+) -> None:
+    """Write an animation of a scene, a parameter of which runs through some values.
+
+    Each frame shows the panel's picture, the profile with the band model's where there is one, and
+    what the decoder reads.
+
+    Parameters
+    ----------
+    path
+        The file: .gif, .mp4 or .png. The scene is kept inside a GIF or PNG file.
+    scene
+        The scene.
+    name, values
+        The parameter, a quantity, and its values in SI units, one a frame.
+    settings
+        The settings of the simulation; by default the standard ones.
+    rate
+        Frames a second.
+    decoder
+        The decoder's name.
+    progress
+        Called with the number of frames done after each one; what it raises ends the work.
+
+    Raises
+    ------
+    ParameterError
+        The parameter is unknown or no quantity, a value is out of range, there are no values or
+        more than :data:`MOST_FRAMES`, or the rate is not from above 0 to 50 a second.
+    OutputError
+        The ending is none of :data:`ENDINGS`, or the file cannot be written.
+    """
+    check_scene(scene)
+    ending = path.suffix.lower()
+    if ending not in ENDINGS:
+        raise OutputError(f"{path.name} has no ending of an animation; use {', '.join(ENDINGS)}.")
+    parameter = parameter_named(name)
+    if not isinstance(parameter, Quantity):
+        raise ParameterError(f"{name} cannot run through values; allowed: a parameter with a unit.")
+    if not 1 <= len(values) <= MOST_FRAMES:
+        raise ParameterError(f"frames is {len(values)}; allowed: 1 to {MOST_FRAMES}.")
+    if isinstance(rate, bool) or not 0.0 < rate <= _FASTEST:
+        raise ParameterError(f"rate is {shown(rate)} a second; allowed: above 0 to {_FASTEST:g}.")
+    check_replaceable(path)
+    scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
+    frames = _frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)
+    note = Provenance(f"Animation over {name}", {"at hand": scene}).text()
+    write_whole(path, _ENCODERS[ending](frames, rate, note))
+
+
+def _frames(
+    scenes: Sequence[Scene],
+    parameter: Quantity,
+    settings: SimulationSettings,
+    decoder: str,
+    progress: Callable[[int], object],
+) -> Iterator[ByteArray]:
+    """Give the frames, shape (rows, columns, 3), one after the other."""
+    with house_style():
+        brightest = max(float(level_values(scene)[1]) for scene in scenes)
+        drawing = _Drawing(parameter, min(_HEADROOM * brightest, _HIGHEST))
+        for number, scene in enumerate(scenes, 1):
+            yield drawing.draw(render_with(scene, settings), decoder)
+            progress(number)
+
+
+class _Drawing:
+    """A figure whose curves and picture change from frame to frame."""
+
+    def __init__(self, parameter: Quantity, highest: float) -> None:
+        self._parameter = parameter
+        self._figure = Figure(figsize=_SIZE, dpi=_DOTS)
+        self._canvas = FigureCanvasAgg(self._figure)
+        upper, lower = self._figure.subplots(2, 1, height_ratios=(1, 2), sharex=True)
+        self._picture: AxesImage = upper.imshow(
+            np.zeros((1, 1), np.uint8), cmap="gray", vmin=0, vmax=255, aspect="auto"
+        )
+        upper.set_yticks([])
+        self._title = upper.set_title("", loc="left", fontsize=11)
+        self._lower: Axes = lower
+        (self._simulation,) = lower.plot([], [], linewidth=1.4, label="simulation", **SIMULATION)
+        (self._band,) = lower.plot([], [], linewidth=1.0, label="band model", **BAND)
+        lower.set_ylim(0.0, highest)
+        lower.set_xlabel("column")
+        lower.set_ylabel("grey level")
+        lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
+
+    def draw(self, frame: Frame, decoder: str) -> ByteArray:
+        """Draw a frame of the animation."""
+        result = decode(frame.image, frame.scene, decoder=decoder)
+        first = max(0, int(frame.corners[:, 0].min()))
+        last = min(frame.scene.camera.columns, first + _SHOWN_COLUMNS)
+        top, bottom = frame.corners[:, 1].min(), frame.corners[:, 1].max()
+        rows = slice(max(0, int(top)), max(0, int(bottom)) + 1)
+        shown_part = frame.camera_image[rows, first:last]
+        if not shown_part.size:  # the panel is outside the picture
+            shown_part = frame.camera_image[:, first:last]
+        self._picture.set_data(
+            cv2.resize(shown_part, (last - first, _ROWS), interpolation=cv2.INTER_AREA)
+        )
+        self._picture.set_extent((first - 0.5, last - 0.5, 1.0, 0.0))
+        columns = np.arange(first, last)
+        self._simulation.set_data(columns, frame.profile[first:last])
+        _show_band(self._band, frame.scene, first, last)
+        self._lower.set_xlim(first, last)
+        value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
+        read = result.failure or f"code {result.code} read"
+        self._title.set_text(one_line(f"{self._parameter.label} {value}:  {read}", _LONGEST))
+        self._canvas.draw()  # type: ignore[no-untyped-call]
+        pixels = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+        return pixels[:, :, :3].copy()
+
+
+def _show_band(line: Line2D, scene: Scene, first: int, last: int) -> None:
+    try:
+        line.set_data(np.arange(first, last), band_profile(scene)[first:last])
+    except BandModelUndefined:
+        line.set_data([], [])
+
+
+def _gif(frames: Iterator[ByteArray], rate: float, note: str) -> bytes:
+    return _with_pillow(frames, "GIF", rate, comment=note.encode())
+
+
+def _png(frames: Iterator[ByteArray], rate: float, note: str) -> bytes:
+    from PIL.PngImagePlugin import PngInfo
+
+    texts = PngInfo()
+    texts.add_itxt("Description", note)
+    return _with_pillow(frames, "PNG", rate, pnginfo=texts)
+
+
+def _with_pillow(frames: Iterator[ByteArray], form: str, rate: float, **options: object) -> bytes:
+    # Pillow goes through the pictures of a PNG file twice: kept with a palette, they take a third.
+    first, *others = [Image.fromarray(f).quantize(_COLOURS) for f in frames]
+    buffer = BytesIO()
+    first.save(
+        buffer, form, save_all=True, append_images=others, duration=round(1e3 / rate), loop=0,
+        **options,
+    )  # fmt: skip
+    return buffer.getvalue()
+
+
+def _mp4(frames: Iterator[ByteArray], rate: float, _note: str) -> bytes:
+    # OpenCV writes to a path only; the file is moved into place once it is whole.
+    with tempfile.TemporaryDirectory(prefix="occ-animation-") as folder:
+        aside = Path(folder, "animation.mp4")
+        writer: cv2.VideoWriter | None = None
+        for frame in frames:
+            rows, columns = (side // 2 * 2 for side in frame.shape[:2])  # as the codec demands
+            if writer is None:
+                code = cv2.VideoWriter.fourcc(*_CODEC)
+                writer = cv2.VideoWriter(str(aside), code, rate, (columns, rows))
+                if not writer.isOpened():
+                    raise OutputError("This version of OpenCV cannot write MP4; use .gif or .png.")
+            writer.write(cv2.cvtColor(frame[:rows, :columns], cv2.COLOR_RGB2BGR))
+        if writer is not None:
+            writer.release()
+        return aside.read_bytes()
+
+
+_ENCODERS = {".gif": _gif, ".png": _png, ".mp4": _mp4}

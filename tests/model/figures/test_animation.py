@@ -1,0 +1,89 @@
+"""An animation has a frame for each value, opens in other programs, and is written whole."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.figures.animation import ENDINGS, write_animation
+from occ_model.scene.provenance import scene_inside
+from occ_model.scene.scene import Scene
+
+VALUES = [4e3, 8e3, 12e3]
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return occ.load_preset("phone-136us").replace(rows=300, columns=1500)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: str) -> None:
+    path, done = tmp_path / f"a{ending}", list[int]()
+    write_animation(path, scene, "switching_frequency", VALUES, progress=done.append)
+    assert done == [1, 2, 3]
+    if ending == ".mp4":
+        film = cv2.VideoCapture(str(path))
+        frames = [film.read() for _ in range(4)]
+        film.release()
+        assert [read for read, _ in frames] == [True, True, True, False]
+        assert np.ptp(frames[0][1]) > 200
+    else:
+        with Image.open(path) as pictures:
+            assert getattr(pictures, "n_frames", 1) == 3
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_scene_is_kept_inside_an_animated_png(tmp_path: Path, scene: Scene) -> None:
+    path = tmp_path / "a.png"
+    write_animation(path, scene, "switching_frequency", VALUES[:2])
+    assert scene_inside(path) == scene
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"name": "code"}, "code cannot run through values"),
+        ({"name": "speed"}, "speed"),
+        ({"values": []}, "frames is 0; allowed: 1 to 300"),
+        ({"values": [1e3] * 301}, "frames is 301"),
+        ({"values": [-1.0]}, "switching_frequency is -1 Hz"),
+        ({"rate": 0.0}, "rate is 0.0 a second"),
+        ({"path": Path("a.avi")}, "use .gif, .mp4, .png"),
+        ({"path": Path("/none/a.gif")}, "/none"),
+    ],
+)
+def test_what_cannot_be_animated_is_refused(
+    tmp_path: Path, scene: Scene, changes: dict[str, object], words: str
+) -> None:
+    wanted = {"name": "switching_frequency", "values": VALUES, "path": tmp_path / "a.gif"} | changes
+    name, values, path = wanted.pop("name"), wanted.pop("values"), wanted.pop("path")
+    with pytest.raises(occ.OccError, match=words):
+        write_animation(path, scene, name, values, **wanted)  # type: ignore[arg-type]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_animation_that_is_ended_leaves_no_file(tmp_path: Path, scene: Scene) -> None:
+    def end(_done: int) -> None:
+        raise KeyboardInterrupt
+
+    for ending in ENDINGS:
+        with pytest.raises(KeyboardInterrupt):
+            write_animation(tmp_path / f"a{ending}", scene, "iso", [100.0, 200.0], progress=end)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_runs_there_and_back(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.gif"
+    small = ["--set", "rows=200", "--set", "columns=1200"]
+    axis = ["--vary", "switching_frequency=4kHz:8kHz:x3", "--back"]
+    assert main(["animate", *small, *axis, "-o", str(path)]) == 0
+    assert "4 frames" in capsys.readouterr().out
+    assert main(["animate", *small, "--vary", "averaging=light", "-o", str(path)]) == 2
+    assert "averaging cannot run through values" in capsys.readouterr().err

@@ -11,6 +11,7 @@ from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.wiring import DetectionMapWiring
+from occ_gui.export.animation import AnimationExport
 from occ_gui.export.export_controller import ExportController
 from occ_gui.export.figures import Figures
 from occ_gui.files.autosave import Autosave
@@ -95,6 +96,9 @@ class Desktop(QObject):
             window, self.figures, parts.present, preferences, pane, parts.decode.decoder
         )
         self.export.connect_actions(window.menus.figures)
+        self.animation = AnimationExport(
+            window, parts.store, parts.settings, preferences, window.filming
+        )
         self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name)
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
@@ -117,7 +121,7 @@ class Desktop(QObject):
             parts.image.picture_chosen.connect(taker)
         parts.image.picture_chosen.connect(self.figures.choose_picture)
         parts.photo_wiring.photos.opened.connect(self._on_photo)
-        for source in (self.export, self.brightness, self.autosave, self.help):
+        for source in (self.export, self.animation, self.brightness, self.autosave, self.help):
             source.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
         self.pointer.moved.connect(window.pointed.set_full_text)
@@ -126,6 +130,7 @@ class Desktop(QObject):
         self.theme.coloured.connect(window.dress)
         actions = window.actions_by_name
         self.brightness.switched.connect(self._on_hold)
+        parts.controls.player.film_asked.connect(self.animation.ask)
         window.menus.themes.triggered.connect(self._choose_theme)
         for name, slot in {
             "save_scene": self.document.save,
@@ -146,7 +151,7 @@ class Desktop(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all requested figures have been written."""
-        return self.export.is_idle
+        return self.export.is_idle and self.animation.is_idle
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
         """Restore the last session before the window is shown, and store this one.
@@ -222,4 +227,5 @@ class Desktop(QObject):
     def stop(self) -> None:
         """Stop all work in the background."""
         self.export.stop()
+        self.animation.stop()
         self.error_reports.remove()

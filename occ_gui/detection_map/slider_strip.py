@@ -1,12 +1,13 @@
-"""Strips under the sliders: the share of bits that a decoder would read along each slider."""
+"""Strips as tracks of the sliders: the share of bits that a decoder would read along each."""
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
-from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QWidget
+from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 
 from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
 from occ_gui.scene.parameter_rows import QuantityRow
+from occ_gui.scene.slider_travel import slider_travel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
@@ -22,7 +23,7 @@ class SliderStrip(QWidget):
     Parameters
     ----------
     slider
-        The slider that it lies under.
+        The slider that it lies behind.
     label
         The name of the slider's parameter.
     parent
@@ -89,19 +90,9 @@ class SliderStrip(QWidget):
 
     def span(self) -> tuple[float, float]:
         """Return the x of the handle's centre at both ends of the slider, in the strip's pixels."""
-        ends = []
-        for position in (self._slider.minimum(), self._slider.maximum()):
-            option = QStyleOptionSlider()
-            self._slider.initStyleOption(option)
-            option.sliderPosition = position
-            handle = self._slider.style().subControlRect(
-                QStyle.ComplexControl.CC_Slider,
-                option,
-                QStyle.SubControl.SC_SliderHandle,
-                self._slider,
-            )
-            ends.append(QRectF(handle).center().x() + self._slider.x() - self.x())
-        return ends[0], ends[1]
+        first, last = slider_travel(self._slider)
+        away = self._slider.x() - self.x()
+        return first + away, last + away
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
@@ -125,7 +116,7 @@ class SliderStrip(QWidget):
 
 
 class SliderStrips(QObject):
-    """The strips under the main sliders.
+    """The strips behind the main sliders.
 
     Parameters
     ----------
@@ -140,10 +131,11 @@ class SliderStrips(QObject):
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._rows = rows
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
             strip = SliderStrip(row.slider, PARAMETERS[name].label)
-            row.add_below(strip)
+            row.add_track(strip)
             self.strips[name] = strip
         next(iter(self.strips.values())).installEventFilter(self)
 
@@ -155,8 +147,9 @@ class SliderStrips(QObject):
 
     def set_shown(self, shown: bool) -> None:
         """Show or hide the strips."""
-        for strip in self.strips.values():
+        for name, strip in self.strips.items():
             strip.setVisible(shown)
+            self._rows[name].show_track(shown)
 
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of bits read correctly at positions along a slider, None if not known."""

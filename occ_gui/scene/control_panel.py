@@ -18,6 +18,7 @@ from occ_gui.scene.code_entry import CodeEntry
 from occ_gui.scene.forced_effects import ForcedEffects
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow
+from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
@@ -69,11 +70,13 @@ class ControlPanel(QWidget):
         others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
         model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
         self.panels = {
-            self.tr("Main"): ParameterPanel(MAIN),
+            self.tr("Main"): ParameterPanel(MAIN, with_scales=True),
             self.tr("Panel and camera"): ParameterPanel(n for n in others if n not in model),
             self.tr("Effects"): ParameterPanel(effects),
             self.tr("Model"): ParameterPanel(model),
         }
+        main = self.panels[self.tr("Main")]
+        self.player = Player(self.main_rows(), main.play_buttons, self)
         self._lay_out()
 
     def connect_editor(self, editor: SceneEditor) -> None:
@@ -138,6 +141,7 @@ class ControlPanel(QWidget):
 
     def show_scene(self, scene: Scene) -> None:
         """Show the values of a scene without emitting a signal."""
+        self.player.heed(scene)
         self.code.show_scene(scene)
         for panel in self.panels.values():
             panel.show_scene(scene)

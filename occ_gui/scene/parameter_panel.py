@@ -3,12 +3,15 @@
 from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from occ_gui.scene.parameter_rows import ParameterRow, explain, row_for
-from occ_model.scene.parameter_kinds import Parameter
+from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
+from occ_gui.scene.play_button import PlayButton
+from occ_gui.scene.slider_scale import SliderScale
+from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.teaching.marked_values import marked_values
 
 
 class ParameterPanel(QWidget):
@@ -18,12 +21,18 @@ class ParameterPanel(QWidget):
     ----------
     names
         The parameters, in the order shown.
+    with_scales
+        Whether each slider has a scale and a button that runs it.
     parent
         The parent widget.
     """
 
-    def __init__(self, names: Iterable[str], parent: QWidget | None = None) -> None:
+    def __init__(
+        self, names: Iterable[str], parent: QWidget | None = None, *, with_scales: bool = False
+    ) -> None:
         super().__init__(parent)
+        self._scales: dict[str, SliderScale] = {}
+        self.play_buttons: dict[str, PlayButton] = {}
         self.rows: dict[str, ParameterRow] = {}
         self.labels: dict[str, QLabel] = {}
         layout = QVBoxLayout(self)
@@ -32,10 +41,23 @@ class ParameterPanel(QWidget):
             row = row_for(PARAMETERS[name])
             self.rows[name] = row
             self.labels[name] = _label(PARAMETERS[name])
-            layout.addWidget(self.labels[name])
+            line = QHBoxLayout()
+            line.addWidget(self.labels[name], 1)
+            layout.addLayout(line)
             layout.addWidget(row)
             layout.addSpacing(6)
+            if with_scales and isinstance(row, QuantityRow):
+                self._add_scale(name, row, line)
         layout.addStretch(1)
+
+    def _add_scale(self, name: str, row: QuantityRow, line: QHBoxLayout) -> None:
+        """Give a slider a scale with marks, and a button that runs it."""
+        declared = PARAMETERS[name]
+        if isinstance(declared, Quantity):
+            self._scales[name] = SliderScale(row.slider, declared)
+            row.add_below(self._scales[name])
+            self.play_buttons[name] = PlayButton(name, declared.label)
+            line.addWidget(self.play_buttons[name])
 
     def show_scene(self, scene: Scene) -> None:
         """Show a scene: each row whose value differs from the scene's shows the new one."""
@@ -43,6 +65,8 @@ class ParameterPanel(QWidget):
             value = scene.value(name)
             if value != row.value:
                 row.show_value(value)
+        for name, scale in self._scales.items():
+            scale.show_marks(marked_values(scene, name))
 
 
 def _label(declared: Parameter) -> QLabel:

@@ -84,6 +84,7 @@ class QuantityRow(ParameterRow):
     def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
         super().__init__(quantity, parent)
         self._quantity = quantity
+        self._is_running = False
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setPageStep(_SLIDER_STEPS // 20)
@@ -116,6 +117,40 @@ class QuantityRow(ParameterRow):
         """Put a widget under the slider, as wide as the slider."""
         self._layout.addWidget(widget, 1, 0)
 
+    def add_track(self, widget: QWidget) -> None:
+        """Put a widget behind the slider, in place of its groove while the widget is shown."""
+        self._layout.addWidget(widget, 0, 0, Qt.AlignmentFlag.AlignVCenter)
+        widget.lower()
+
+    def show_track(self, shown: bool) -> None:
+        """Draw the slider with its groove, or without it where the track is shown."""
+        self.slider.setProperty("tracked", shown)
+        self.slider.style().unpolish(self.slider)
+        self.slider.style().polish(self.slider)
+
+    @property
+    def fraction(self) -> float:
+        """The position of the slider, from 0 to 1."""
+        return self.slider.value() / _SLIDER_STEPS
+
+    def begin_run(self) -> None:
+        """Begin a run of the slider, whose changes are undone as one."""
+        self._gestures.end()
+        self._is_running = True
+
+    def run_to(self, fraction: float) -> None:
+        """Move the slider as the mouse would."""
+        self.slider.setValue(round(fraction * _SLIDER_STEPS))
+
+    def value_at(self, fraction: float) -> float:
+        """Return the value at a position of the slider, from 0 to 1."""
+        return self._quantity.at(round(fraction * _SLIDER_STEPS) / _SLIDER_STEPS)
+
+    def end_run(self) -> None:
+        """End the run of the slider."""
+        self._is_running = False
+        self._gestures.end()
+
     def _place_slider(self, value: float) -> None:
         self.slider.blockSignals(True)
         self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
@@ -125,7 +160,8 @@ class QuantityRow(ParameterRow):
         self.value = value = self._quantity.at(position / _SLIDER_STEPS)
         self.end_refusal()
         self.field.set_value(value)
-        gesture = self._gestures.of_change(held=self.slider.isSliderDown())
+        held = self.slider.isSliderDown() or self._is_running
+        gesture = self._gestures.of_change(held=held)
         self.edited.emit(self.name, value, gesture)
 
     def _take(self, value: float) -> None:

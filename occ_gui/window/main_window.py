@@ -88,7 +88,8 @@ class MainWindow(QMainWindow):
         self._message_until = ""
         self._status_line = StatusLine()
         self.setStatusBar(self._status_line)
-        self.reading, self.pointed = self._status_line.reading, self._status_line.pointed
+        line = self._status_line
+        self.reading, self.filming, self.pointed = line.reading, line.filming, line.pointed
         self.show_timing = self._status_line.show_timing
         self.show_plan_change = self._status_line.show_plan_change
         self.resize(_FIRST_SIZE)

@@ -30,9 +30,10 @@ class StatusLine(QStatusBar):
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName(self.tr("Message"))
         self.reading = WorkBar(self.tr("How much of the photo has been read"))
+        self.filming = WorkBar(self.tr("How much of the animation has been written"))
         self.pointed, self._timing = _Readout(), _Readout()
         self.addWidget(self._sentence, 1)
-        for widget in (self.reading, self.pointed, self._timing):
+        for widget in (self.reading, self.filming, self.pointed, self._timing):
             self.addPermanentWidget(widget)
         for readout in (self.pointed, self._timing):
             readout.hide()

@@ -89,6 +89,9 @@ QSlider::handle:horizontal {
     width: 14px; margin: -6px 0px; border: 1px solid palette(base); border-radius: 8px;
     background: palette(highlight);
 }
+QSlider[tracked="true"]::groove:horizontal, QSlider[tracked="true"]::sub-page:horizontal {
+    background: transparent;
+}
 QSlider::handle:horizontal:focus { border: 3px solid palette(window-text); }
 QSlider::sub-page:horizontal:disabled, QSlider::handle:horizontal:disabled {
     background: palette(mid);

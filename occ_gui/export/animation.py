@@ -1,0 +1,126 @@
+"""Export of an animation in which a slider runs from end to end."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.files.preferences import Preferences
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.widgets.work_bar import WorkBar
+from occ_model.errors import one_line
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+FRAMES = 60
+
+
+@dataclass(frozen=True, slots=True)
+class _Film:
+    path: Path
+    scene: Scene
+    settings: SimulationSettings
+    name: str
+    values: tuple[float, ...]
+
+
+class AnimationExport(QObject):
+    """Writes animations on a thread, with a bar that shows how far it is and cancels it.
+
+    Parameters
+    ----------
+    window
+        The parent of the dialog.
+    scenes, settings
+        The scene and the settings of its simulation.
+    preferences
+        Stores the folder of the last export.
+    bar
+        Shows the progress.
+    """
+
+    status_message = Signal(str)
+    """The outcome."""
+
+    def __init__(
+        self,
+        window: QWidget | None,
+        scenes: SceneStore,
+        settings: SettingsStore,
+        preferences: Preferences,
+        bar: WorkBar,
+    ) -> None:
+        super().__init__(window)
+        self._window, self._scenes, self._settings = window, scenes, settings
+        self._preferences, self._bar = preferences, bar
+        self.runner: Cancellable[_Film, Path] = Cancellable(_write, "animation")
+        self.runner.reported.connect(bar.show_progress)
+        self.runner.finished.connect(self._report)
+        self.runner.failed.connect(self._fail)
+        bar.cancelled.connect(self.cancel)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no animation is being written."""
+        return not self.runner.is_running
+
+    def ask(self, name: str) -> None:
+        """Let the user choose a file, and write the run of a parameter's slider into it."""
+        kinds = (
+            self.tr("GIF animation (*.gif)"),
+            self.tr("MP4 film (*.mp4)"),
+            self.tr("Animated PNG (*.png)"),
+        )
+        start = Path(self._preferences.folder, f"{name}.gif")
+        chosen, kind = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save as animation"), str(start), ";;".join(kinds)
+        )
+        if chosen:
+            path = Path(chosen)
+            ending = ".mp4" if kind == kinds[1] else ".png" if kind == kinds[2] else ".gif"
+            self.write(path if path.suffix else path.with_suffix(ending), name)
+
+    def write(self, path: Path, name: str) -> None:
+        """Write the run of a parameter's slider from its first value to its last."""
+        declared = PARAMETERS[name]
+        if not isinstance(declared, Quantity):
+            return
+        values = tuple(declared.at(place / (FRAMES - 1)) for place in range(FRAMES))
+        self._bar.begin()
+        self.runner.start(_Film(path, self._scenes.scene, self._settings.settings, name, values))
+
+    def cancel(self) -> None:
+        """Give up; nothing is written."""
+        if self.runner.is_running:
+            self.runner.cancel()
+            self._bar.end()
+            self.status_message.emit(self.tr("The animation was given up."))
+
+    def stop(self) -> None:
+        """Give up and stop the thread."""
+        self.runner.stop()
+
+    def _report(self, path: Path) -> None:
+        self._bar.end()
+        self._preferences.visit(path)
+        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+
+    def _fail(self, sentence: str) -> None:
+        self._bar.end()
+        self.status_message.emit(sentence)
+
+
+def _write(film: _Film, report: Report) -> Path:
+    # matplotlib takes half a second to import.
+    from occ_model.figures.animation import write_animation
+
+    write_animation(
+        film.path, film.scene, film.name, film.values, settings=film.settings,
+        progress=lambda done: report(done / len(film.values)),
+    )  # fmt: skip
+    return film.path

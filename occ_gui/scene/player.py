@@ -1,0 +1,143 @@
+"""Player: runs a slider from end to end and back, while the picture follows."""
+
+from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
+from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtWidgets import QMenu
+
+from occ_gui.scene.parameter_rows import QuantityRow
+from occ_gui.scene.play_button import PlayButton
+from occ_model.scene.scene import Scene
+
+_TURN_MS = 40
+
+SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}
+"""Seconds from one end to the other."""
+
+_SAME = 1e-9
+"""Relative difference of a value that the player itself has set."""
+
+
+class Player(QObject):
+    """Runs one slider at a time, until its value is changed by anything else.
+
+    Parameters
+    ----------
+    rows, buttons
+        The rows of the sliders and the buttons that run them, by the names of their parameters.
+    parent
+        The parent.
+    """
+
+    film_asked = Signal(str)
+    """The parameter whose run is to be written as an animation."""
+
+    def __init__(
+        self,
+        rows: dict[str, QuantityRow],
+        buttons: dict[str, PlayButton],
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._rows, self._buttons = rows, buttons
+        self.playing = ""
+        """The parameter that runs; empty for none."""
+        self.speed, self.is_looping = "normal", True
+        self._direction = 1.0
+        self._fraction = 0.0
+        self._set: float | None = None
+        self._clock = QElapsedTimer()
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
+        self._turns.timeout.connect(self._advance)
+        for button in buttons.values():
+            button.switched.connect(self._switch)
+            button.menu_asked.connect(self._open_menu)
+
+    def play(self, name: str) -> None:
+        """Run a slider from where it stands; the one that runs is stopped."""
+        self.stop()
+        row = self._rows[name]
+        self.playing, self._fraction, self._direction = name, row.fraction, 1.0
+        self._set = None
+        row.begin_run()
+        self._buttons[name].show_playing(True)
+        self._clock.start()
+        self._turns.start()
+
+    def stop(self) -> None:
+        """Let the slider stand where it is."""
+        self._turns.stop()
+        if self.playing:
+            self._rows[self.playing].end_run()
+            self._buttons[self.playing].show_playing(False)
+            self.playing = ""
+
+    def heed(self, scene: Scene) -> None:
+        """Stop if a scene has another value than the player has set."""
+        if not self.playing or self._set is None:
+            return
+        value = float(scene.value(self.playing))
+        if abs(value - self._set) > _SAME * abs(self._set):
+            self.stop()
+
+    def _advance(self) -> None:
+        passed = 1e-3 * self._clock.restart() / SPEEDS[self.speed]
+        self._fraction += self._direction * passed
+        if not 0.0 <= self._fraction <= 1.0:
+            if self._fraction < 0.0 and not self.is_looping:
+                self.stop()
+                return
+            self._fraction = min(max(self._fraction, 0.0), 1.0)
+            self._direction = -self._direction
+        row = self._rows[self.playing]
+        self._set = row.value_at(self._fraction)  # before the scene changes
+        row.run_to(self._fraction)
+
+    def _switch(self, name: str, on: bool) -> None:
+        if on:
+            self.play(name)
+        else:
+            self.stop()
+
+    def _open_menu(self, name: str) -> None:
+        button = self._buttons[name]
+        menu = self.menu_of(name)
+        menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
+
+    def menu_of(self, name: str) -> QMenu:
+        """Make the menu of a slider's button: speed, loop, and a film of it."""
+        menu = QMenu(self._buttons[name])
+        words = {
+            "slow": self.tr("&Slow"), "normal": self.tr("&Normal"), "fast": self.tr("&Fast"),
+        }  # fmt: skip
+        speeds = QActionGroup(menu)
+        for speed in SPEEDS:
+            action = menu.addAction(words[speed])
+            action.setCheckable(True)
+            action.setChecked(speed == self.speed)
+            action.setData(speed)
+            speeds.addAction(action)
+        speeds.triggered.connect(self._choose_speed)
+        menu.addSeparator()
+        loop = menu.addAction(self.tr("&Loop"))
+        loop.setCheckable(True)
+        loop.setChecked(self.is_looping)
+        loop.toggled.connect(self._set_loop)
+        film = menu.addAction(self.tr("Save as &animation…"))
+        film.setData(name)
+        film.triggered.connect(self._ask_film)
+        menu.aboutToHide.connect(menu.deleteLater)
+        return menu
+
+    def _choose_speed(self) -> None:
+        group = self.sender()
+        if isinstance(group, QActionGroup):
+            self.speed = str(group.checkedAction().data())
+
+    def _set_loop(self, on: bool) -> None:
+        self.is_looping = on
+
+    def _ask_film(self) -> None:
+        action = self.sender()
+        if isinstance(action, QAction):
+            self.film_asked.emit(action.data())

@@ -1,0 +1,118 @@
+"""Scale under a slider: its end values, and marks where the picture changes in kind."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtWidgets import QSizePolicy, QSlider, QToolTip, QWidget
+
+from occ_gui.scene.slider_travel import slider_travel
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.teaching.marked_values import MarkedValue
+
+_SMALLER = 0.85
+_TICK, _GAP = 4.0, 4.0
+_DIGITS = 4
+_NEAR = 6.0
+"""Pixels from a mark within which its tooltip is shown."""
+
+
+class SliderScale(QWidget):
+    """The end values of a slider, and its marks with their names where there is space.
+
+    Parameters
+    ----------
+    slider
+        The slider, above the scale and as wide.
+    quantity
+        The declaration of its parameter.
+    parent
+        The parent widget.
+    """
+
+    def __init__(self, slider: QSlider, quantity: Quantity, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._slider, self._quantity = slider, quantity
+        self.marks: tuple[MarkedValue, ...] = ()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        low, high = (quantity.format(value, _DIGITS) for value in quantity.slider)
+        self.setAccessibleName(self.tr("From {low} to {high}").format(low=low, high=high))
+
+    def show_marks(self, marks: Sequence[MarkedValue]) -> None:
+        """Show marks at some values; those beyond the slider's ends are left out."""
+        low, high = self._quantity.slider
+        found = tuple(mark for mark in marks if low <= mark.value <= high)
+        if found != self.marks:
+            self.marks = found
+            self.setAccessibleDescription(" ".join(self._meaning(mark) for mark in found))
+            self.update()
+
+    def _meaning(self, mark: MarkedValue) -> str:
+        return f"{self._quantity.format(mark.value, 3)}: {mark.meaning}"
+
+    def _font(self) -> QFont:
+        font = self.font()
+        font.setPointSizeF(font.pointSizeF() * _SMALLER)
+        return font
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of a line of small text."""
+        return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK))
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a small width: names of marks are left out where there is no space."""
+        return QSize(20, self.sizeHint().height())
+
+    def _x(self, value: float) -> float:
+        first, last = slider_travel(self._slider)
+        x = first + self._quantity.fraction(value) * (last - first)
+        return x + self._slider.x() - self.x()
+
+    def event(self, event: QEvent) -> bool:
+        """Tell what a mark means when the mouse rests near it."""
+        if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
+            near = [m for m in self.marks if abs(self._x(m.value) - event.pos().x()) <= _NEAR]
+            if near:
+                QToolTip.showText(event.globalPos(), self._meaning(near[0]), self)
+            else:
+                QToolTip.hideText()
+            return True
+        return super().event(event)
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the end values and the marks."""
+        painter = QPainter(self)
+        font = self._font()
+        metrics = QFontMetricsF(font)
+        painter.setFont(font)
+        ink = self.palette().color(QPalette.ColorRole.WindowText)
+        taken = self._draw_ends(painter, metrics)
+        painter.setPen(QPen(ink, 1.5))
+        for mark in self.marks:
+            x = self._x(mark.value)
+            painter.drawLine(QPointF(x, 0.0), QPointF(x, _TICK))
+        for mark in self.marks:
+            text = mark.label.replace("t_LED", "1 chip")
+            width = metrics.horizontalAdvance(text)
+            left = min(max(self._x(mark.value) - width / 2, 0.0), self.width() - width)
+            box = QRectF(left, _TICK - 1.0, width, metrics.height())
+            if not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in taken):
+                painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+                taken.append(box)
+        painter.end()
+
+    def _draw_ends(self, painter: QPainter, metrics: QFontMetricsF) -> list[QRectF]:
+        """Draw the values at both ends, and return where they stand."""
+        painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
+        low, high = (self._quantity.format(value, _DIGITS) for value in self._quantity.slider)
+        height = metrics.height()
+        width = metrics.horizontalAdvance(high)
+        boxes = [
+            QRectF(0.0, _TICK - 1.0, metrics.horizontalAdvance(low), height),
+            QRectF(self.width() - width, _TICK - 1.0, width, height),
+        ]
+        for box, text in zip(boxes, (low, high), strict=True):
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+        return boxes

@@ -1,0 +1,58 @@
+"""Give the values of a parameter at which the picture changes in kind, to mark on its slider."""
+
+from dataclasses import dataclass
+
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.study.theory import band_model_frequency, null_frequency
+
+
+@dataclass(frozen=True, slots=True)
+class MarkedValue:
+    """A value of a parameter that is worth a mark.
+
+    Parameters
+    ----------
+    value
+        The value, in SI units.
+    label
+        A short name; an index follows an underscore.
+    meaning
+        What happens there, in a sentence.
+    """
+
+    value: float
+    label: str
+    meaning: str
+
+
+def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
+    """Give the values to mark on the slider of a parameter, all else as in a scene.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    parameter
+        Name of the parameter.
+
+    Returns
+    -------
+    tuple of MarkedValue
+        Of the switching frequency and the exposure time: where both are equal, t = t_LED, and the
+        first null of an alternating pattern, t = 2 t_LED; of others none.
+    """
+    check_scene(scene)
+    camera = scene.camera
+    ends = {
+        "switching_frequency": (band_model_frequency(scene), null_frequency(scene)),
+        "exposure_time": tuple(k * scene.transmitter.switching_period for k in (1.0, 2.0)),
+    }.get(parameter)
+    if ends is None or camera.exposure_time <= 0.0:
+        return ()
+    equal, null = ends
+    return (
+        MarkedValue(
+            equal, "t = t_LED", "Exposure and switching period are equal: the band model ends."
+        ),
+        MarkedValue(null, "null", "The exposure is two chips long: the first null of 0101."),
+    )

@@ -1,0 +1,19 @@
+"""The marks of a slider stand where the picture changes in kind."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.teaching.marked_values import marked_values
+
+
+def test_the_band_model_ends_and_stripes_vanish_at_the_marks() -> None:
+    scene = occ.load_preset("phone-136us").replace(pattern="10")
+    for name in ("switching_frequency", "exposure_time"):
+        equal, null = marked_values(scene, name)
+        longer = scene.replace(**{name: equal.value * 1.001})
+        occ.band_lengths(scene.replace(**{name: equal.value * 0.999}))
+        with pytest.raises(occ.BandModelUndefined):
+            occ.band_lengths(longer)
+        assert np.ptp(occ.column_profile(scene.replace(**{name: null.value}))) < 0.1
+    assert marked_values(scene, "distance") == ()

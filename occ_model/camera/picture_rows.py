@@ -16,7 +16,7 @@ from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.coverage import Coverage
 from occ_model.camera.optics import STAGE, Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
-from occ_model.camera.row_interpolation import node_rows, row_weights, smooth_columns
+from occ_model.camera.row_interpolation import node_rows, row_weights, smooth_columns, weighted
 from occ_model.scene.scene import Scene
 
 BLOCK_ROWS = 64
@@ -112,7 +112,7 @@ class Rows:
         return replace(self, nodes=change(self.nodes), rims=rims)
 
     def _rows_of(self, nodes: Pixels) -> Pixels:
-        return nodes if self.weights is None else self.weights @ nodes
+        return nodes if self.weights is None else weighted(self.weights, nodes)
 
 
 class PictureRows:

@@ -34,6 +34,15 @@ def row_weights(rows: int) -> Pixels:
     return np.asarray(found, dtype=np.float32)
 
 
+def weighted(weights: Pixels, values: Pixels) -> Pixels:
+    """Return the matrix product of weights (rows, nodes) and values (nodes, columns).
+
+    Not by BLAS: it shares even so small a product among threads that wait for each other, beside
+    those that compute the bands, and takes many times as long.
+    """
+    return np.asarray(np.einsum("ij,jk->ik", weights, values))
+
+
 def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
     """Return in which columns the rows follow from values at the nodes, shape (columns,).
 
@@ -44,7 +53,7 @@ def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.b
     tolerance
         Largest error, in grey levels.
     """
-    last = np.abs(_coefficients()[-2:].astype(np.float32) @ values)
+    last = np.abs(weighted(_coefficients()[-2:].astype(np.float32), values))
     return np.asarray(last.sum(axis=0) <= tolerance)
 
 

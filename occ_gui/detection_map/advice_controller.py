@@ -17,6 +17,7 @@ from occ_model.results.advice import Advice
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.working_range import expected_images
 
 RATE = 99.0
 """Success rate, in percent, from which a decoder counts as reading."""
@@ -27,8 +28,8 @@ IMAGES = 20
 LIMITED = ("switching_frequency", "exposure_time")
 """The parameters whose limits are searched."""
 
-_USUAL = 550
-"""Images that a search usually reads, from which its progress is estimated."""
+_USUAL = len(LIMITED) * expected_images(IMAGES)
+"""Images that a decoder's search usually reads, from which its progress is estimated."""
 
 _LOOK_MS = 100
 

@@ -36,6 +36,10 @@ def add_to(commands: Commands) -> None:
         help="at each value tried; more of them make the answer surer; default: %(default)s",
     )  # fmt: skip
     parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    parser.add_argument(
+        "--jobs", type=whole_number, default=2, metavar="N",
+        help="processes, two at most; the answer is the same with one; default: %(default)s",
+    )  # fmt: skip
     parser.set_defaults(command=_run)
 
 
@@ -53,6 +57,7 @@ def _run(options: argparse.Namespace) -> int:
             rate=options.rate,
             images=options.images,
             seed=options.seed,
+            jobs=options.jobs,
             progress=show,
         )
     for line in sentences(advice_of(found)):

@@ -15,11 +15,11 @@ from occ_model.camera.photometry import level_values
 from occ_model.cli import main
 from occ_model.results import RangeEnd, RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study import limits as module
 from occ_model.study import theory
+from occ_model.study import working_range as module
 from occ_model.study.advice import advice_of
-from occ_model.study.limits import NEAR, STEP
 from occ_model.study.observation import panel_span
+from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
 
 SCENE = Scene()
 
@@ -36,6 +36,15 @@ def reads_where(good: Callable[[float], bool], name: str = "switching_frequency"
             yield (bits if good(float(scene.value(name))) else bits // 2,)
 
     return right_bits_of_images
+
+
+class no_processes:  # noqa: N801 - in place of a class
+    """A system that cannot start processes."""
+
+    lost_by: tuple[type[Exception], ...] = ()
+
+    def __init__(self, count: int, preload: str) -> None:
+        raise OSError("no semaphores")
 
 
 def ends(range_end: RangeEnd | None) -> tuple[float, float]:
@@ -171,6 +180,70 @@ def test_an_end_that_more_images_refute_is_moved(monkeypatch: pytest.MonkeyPatch
     found = occ.limits(SCENE, images=20)
     works, fails = ends(found.frequency.highest)
     assert works <= 11e3 < fails
+
+
+def test_no_value_is_tried_beyond_the_first_that_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: set[float] = set()
+
+    def good(frequency: float) -> bool:
+        tried.add(frequency)
+        return 4e3 <= frequency <= 20e3
+
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(good))
+    occ.limits(SCENE, images=20)
+    assert min(tried) > 4e3 / STEP**1.01
+    assert max(tried) < 20e3 * STEP**1.01
+
+
+def test_no_image_of_a_value_is_simulated_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    read: Counter[float] = Counter()
+
+    def counted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
+        frequency = scene.transmitter.switching_frequency
+        for image in range(settings.images):  # a rate that falls slowly: all are in doubt
+            read[frequency] += 1
+            yield (0 if image < (frequency - 10e3) / 2e3 else 10,)
+
+    monkeypatch.setattr(module, "right_bits_of_images", counted)
+    occ.limits(SCENE, rate=60.0, images=20)
+    read.pop(SCENE.transmitter.switching_frequency)  # of all exposures, too
+    assert max(read.values()) == 20
+
+
+def test_few_images_are_believed_where_the_rate_falls_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read: Counter[float] = Counter()
+
+    def counted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
+        frequency = scene.transmitter.switching_frequency
+        for _ in range(settings.images):
+            read[frequency] += 1
+            yield (10 if 4e3 <= frequency <= 20e3 else 0,)
+
+    monkeypatch.setattr(module, "right_bits_of_images", counted)
+    occ.limits(SCENE, images=20)
+    read.pop(SCENE.transmitter.switching_frequency)
+    whole = [frequency for frequency, images in read.items() if images == 20]
+    # At each end: the coarse value, both sides of the end, and one a little inside.
+    assert len(whole) <= 8
+    assert {images for images in read.values() if images != 20} <= {1, FEW_IMAGES}
+
+
+@pytest.mark.parametrize("is_lost", [False, True])
+def test_two_processes_find_the_limits_that_one_finds(
+    monkeypatch: pytest.MonkeyPatch, is_lost: bool
+) -> None:
+    scene = occ.load_preset("phone-136us")
+    alone = occ.limits(scene, rate=90.0, images=3, seed=7)
+    if is_lost:
+        monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", no_processes)
+    said: list[tuple[float, str]] = []
+    both = occ.limits(
+        scene, rate=90.0, images=3, seed=7, jobs=2, progress=lambda *share: said.append(share)
+    )
+    assert both == alone
+    assert said[-1] == (1.0, "")
 
 
 def test_progress_rises_from_0_to_1_and_says_what_is_searched(

@@ -55,6 +55,10 @@ _PAINT_TIME = 0.004
 """Seconds between the delivery of a picture and its decoding, for the window to paint it."""
 
 
+def _go_on() -> None:
+    """Give way to nothing."""
+
+
 class ReadingView(Protocol):
     """A pane that shows what is read of a scene, with or without its picture."""
 
@@ -204,22 +208,30 @@ class SimulationController(QObject):
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
-        self._draft(request)
-        frame = render_with(request.scene, request.settings)
+        # Without a draft something must be shown of every scene that is begun.
+        heartbeat = self.runner.give_way if self._draft(request) else _go_on
+        frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
         self._rendered.emit(Picture.of(frame, request.whose, request))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)
         return snapshot_of(request, frame)
 
-    def _draft(self, request: SimulationRequest) -> None:
-        """Show a draft of a picture that takes long, and wait until the hand rests."""
+    def _draft(self, request: SimulationRequest) -> bool:
+        """Show a draft of a picture that takes long, and wait until the hand rests.
+
+        Returns
+        -------
+        bool
+            Whether there is one.
+        """
         draft = draft_of(request)
         if draft is None:
-            return
+            return False
         self._rendered.emit(Picture.of(draft, request.whose, request))
         if needs_pixels(request):
             self._drafted.emit(reading_of_draft(request, draft))
         self.runner.give_way(self.ages.rest(_REST))
+        return True
 
     def _show_early(self, reading: Reading | None) -> None:
         if reading is not None and self._is_news(reading):

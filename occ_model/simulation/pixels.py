@@ -16,6 +16,7 @@ from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, Pixe
 from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
+from occ_model.parallel.job import Heartbeat
 from occ_model.results import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
 from occ_model.simulation.column_means import ColumnMeans
@@ -147,12 +148,18 @@ class PixelExposure:
         for band in self._drawn(seed, source):
             yield self._exposed(band, spreads)
 
-    def _drawn(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[_Band]:
+    def _drawn(
+        self,
+        seed: int,
+        source: NoiseSource | NoiseMaker,
+        heartbeat: Heartbeat = lambda: None,
+    ) -> Iterator[_Band]:
         """Draw the noise of band after band."""
         make = NOISE_MAKERS[source] if isinstance(source, str) else source
         noise = make(self._noises, self._scene, seed) if self._noises else None
         place = 0
         for rows in self._bands:
+            heartbeat()
             timer = StageTimer()
             drawn = None
             if noise is not None:
@@ -191,9 +198,16 @@ class PixelExposure:
         return mean.changed(lambda values: np.minimum(values, np.float32(WHITE)))
 
     def pictures(
-        self, enhancement: Enhancement, seed: int, source: NoiseSource | NoiseMaker
+        self,
+        enhancement: Enhancement,
+        seed: int,
+        source: NoiseSource | NoiseMaker,
+        heartbeat: Heartbeat = lambda: None,
     ) -> Pictures:
-        """Make the camera's picture and the receiver's, of the exposed rows."""
+        """Make the camera's picture and the receiver's, of the exposed rows.
+
+        The heartbeat is called before each band; what it raises ends the work.
+        """
         camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
         spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
@@ -216,7 +230,9 @@ class PixelExposure:
 
         before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
         timers = []
-        for of_camera, of_receiver, timer in each_in_threads(make, self._drawn(seed, source)):
+        for of_camera, of_receiver, timer in each_in_threads(
+            make, self._drawn(seed, source, heartbeat)
+        ):
             before.include(of_camera)
             after.include(of_receiver)
             timers.append(timer)

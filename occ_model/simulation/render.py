@@ -13,6 +13,7 @@ from occ_model.camera.projection import check_size, paint
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
+from occ_model.parallel.job import Heartbeat
 from occ_model.results import Frame, Plan
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
@@ -80,8 +81,16 @@ def render(
     return render_with(scene, settings, rows_step)
 
 
-def render_with(scene: Scene, settings: SimulationSettings, rows_step: int = 1) -> Frame:
-    """Simulate the picture that the scene's camera takes with some settings: see :func:`render`."""
+def render_with(
+    scene: Scene,
+    settings: SimulationSettings,
+    rows_step: int = 1,
+    heartbeat: Heartbeat = lambda: None,
+) -> Frame:
+    """Simulate the picture that the scene's camera takes with some settings: see :func:`render`.
+
+    The heartbeat is called before each band of rows that differ; what it raises ends the work.
+    """
     check_scene(scene)
     check_count("rows_step", rows_step, 1, scene.camera.rows)
     settings = settings.checked(NAMES)
@@ -91,7 +100,13 @@ def render_with(scene: Scene, settings: SimulationSettings, rows_step: int = 1) 
     chosen = plan_of(view, settings)
     timer.stage_ended("plan")
     return render_plan(
-        view, chosen, seed=settings.seed, noise=settings.noise, rows_step=rows_step, timer=timer
+        view,
+        chosen,
+        seed=settings.seed,
+        noise=settings.noise,
+        rows_step=rows_step,
+        timer=timer,
+        heartbeat=heartbeat,
     )
 
 
@@ -103,6 +118,7 @@ def render_plan(
     noise: NoiseSource = "exact",
     rows_step: int = 1,
     timer: StageTimer | None = None,
+    heartbeat: Heartbeat = lambda: None,
 ) -> Frame:
     """Simulate a picture whose effects are chosen.
 
@@ -116,6 +132,8 @@ def render_plan(
         As for :func:`render`.
     timer
         Times each stage.
+    heartbeat
+        Called before each band of rows that differ; what it raises ends the work.
 
     Raises
     ------
@@ -143,7 +161,7 @@ def render_plan(
         exposure = PixelExposure(
             view, chosen, columns, timer, in_blocks(rows), panel_only=rows_step > 1
         )
-        made = exposure.pictures(enhancement, seed, noise)
+        made = exposure.pictures(enhancement, seed, noise, heartbeat)
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:

@@ -29,9 +29,9 @@ def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
     """Let no simulation end before this event is set."""
     may_end = Event()
 
-    def wait_and_render(*arguments: Any) -> Any:
+    def wait_and_render(*arguments: Any, **named: Any) -> Any:
         may_end.wait()
-        return render_with(*arguments)
+        return render_with(*arguments, **named)
 
     monkeypatch.setattr("occ_gui.simulation.controller.render_with", wait_and_render)
     yield may_end

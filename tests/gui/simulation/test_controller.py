@@ -1,73 +1,24 @@
 """The panes end with the results of the latest scene; one without a picture keeps the last."""
 
-import math
-from collections.abc import Callable, Iterator
-from dataclasses import astuple, replace
+from collections.abc import Callable
+from dataclasses import replace
 from itertools import count
-from threading import Event
 from typing import Any
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from gui.simulation.bench import Bench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation import controller, jobs
-from occ_gui.simulation.controller import SimulationController, simulate
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP, Reading, Snapshot
+from occ_gui.simulation.controller import simulate
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
-from occ_model.simulation.render import render_with
 
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
-
-
-class RecordingView:
-    """A view that keeps all that it is shown."""
-
-    def __init__(self) -> None:
-        self.shown: list[Snapshot] = []
-        self.read: list[Reading] = []
-
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        self.shown.append(snapshot)
-
-    def show_reading(self, reading: Reading) -> None:
-        self.read.append(reading)
-
-
-class Bench:
-    """A store and a controller on two mock views."""
-
-    def __init__(self, scene: Scene, qtbot: QtBot) -> None:
-        self.settings = SettingsStore()
-        self.store = SceneStore(scene, self.settings)
-        self.views = (RecordingView(), RecordingView())
-        self.controller = SimulationController(self.store, self.settings)
-        self.controller.show_in(self.views, self.views)
-        self.failures: list[str] = []
-        self.controller.failed.connect(self.failures.append)
-        self._qtbot = qtbot
-
-    def wait_until_idle(self) -> None:
-        self._qtbot.waitUntil(lambda: self.controller.is_idle)
-
-    @property
-    def scenes(self) -> list[Scene]:
-        return [snapshot.frame.scene for snapshot in self.views[0].shown]
-
-
-@pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
-    bench = Bench(small_scene, qtbot)
-    bench.wait_until_idle()
-    yield bench
-    bench.controller.stop()
 
 
 def test_the_first_scene_is_shown_without_being_asked_for(bench: Bench) -> None:
@@ -111,130 +62,6 @@ def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: Q
         bench.store.change(iso=200.0)
     assert [shown.args[0]] == [bench.views[0].shown[-1]] == [bench.views[1].shown[-1]]
     assert counts == [2]
-
-
-@pytest.fixture
-def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
-    """Let no picture be simulated before this event is set."""
-    may_end = Event()
-
-    def wait_and_render(*arguments: Any) -> Any:
-        may_end.wait()
-        return render_with(*arguments)
-
-    monkeypatch.setattr(controller, "render_with", wait_and_render)
-    yield may_end
-    may_end.set()
-
-
-def test_a_scene_is_read_before_its_picture_is_there(
-    bench: Bench, held: Event, qtbot: QtBot
-) -> None:
-    bench.store.change(iso=200.0)
-    reader = bench.views[1]
-    qtbot.waitUntil(lambda: reader.read[-1].scene == bench.store.scene)
-    early = reader.read[-1]
-    assert (early.source, len(bench.scenes)) == ("profile", 1)
-    held.set()
-    bench.wait_until_idle()
-    assert reader.read[-1] is bench.views[0].shown[-1]
-    assert reader.read[-1].source == "picture"
-    assert [result.code for result in early.results] == [
-        result.code for result in reader.read[-1].results
-    ]
-
-
-def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
-    bench: Bench, held: Event, qtbot: QtBot
-) -> None:
-    bench.store.change(iso=150.0)
-    bench.store.change(iso=200.0)
-    reader = bench.views[0]
-    qtbot.waitUntil(lambda: bench.controller.early.is_idle)
-    held.set()
-    bench.wait_until_idle()
-    assert [scene.camera.iso for scene in bench.scenes[1:]] == [150.0, 200.0]
-    of_pictures = [reading for reading in reader.read[1:] if reading.source == "picture"]
-    assert [reading.scene.camera.iso for reading in of_pictures] == [200.0]
-    assert reader.read[-1] is of_pictures[-1]
-
-
-@pytest.fixture
-def pictures(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
-    """Draft pictures of any size, and keep all that are delivered."""
-    monkeypatch.setattr(jobs, "SMALL", 0)
-    pictures: list[Picture] = []
-    bench.controller.picture_ready.connect(pictures.append)
-    return pictures
-
-
-def test_a_draft_of_the_scene_comes_before_its_exact_picture(
-    bench: Bench, pictures: list[Picture]
-) -> None:
-    bench.store.change(iso=200.0)
-    bench.wait_until_idle()
-    draft, exact = pictures
-    assert (draft.is_draft, exact.is_draft) == (True, False)
-    assert draft.frame.scene == exact.frame.scene == bench.store.scene
-    assert draft.frame.plan == exact.frame.plan
-    assert bench.views[0].shown[-1].frame is exact.frame
-
-
-def test_drafts_have_the_rows_that_the_screen_shows(bench: Bench, pictures: list[Picture]) -> None:
-    bench.controller.draft_for(lambda: 7.9)
-    bench.store.change(iso=200.0)
-    bench.controller.draft_for(lambda: 0.5)  # fewer rows than four are no sooner there
-    bench.wait_until_idle()
-    bench.store.change(iso=300.0)
-    bench.wait_until_idle()
-    steps = [picture.frame.rows_step for picture in pictures if picture.is_draft]
-    assert steps == [7, LEAST_DRAFT_STEP]
-
-
-def test_a_picture_without_pixels_that_differ_needs_no_draft(
-    bench: Bench, pictures: list[Picture]
-) -> None:
-    bench.settings.set_tolerance(math.inf)
-    bench.wait_until_idle()
-    assert [picture.is_draft for picture in pictures] == [False]
-
-
-def test_where_only_pixels_are_read_the_draft_is_first(
-    bench: Bench, pictures: list[Picture]
-) -> None:
-    bench.store.change(jpeg_quality=80)
-    bench.wait_until_idle()
-    early, exact = bench.views[1].read[-2:]
-    assert (early.source, exact.source) == ("draft", "picture")
-    assert early.scene == exact.scene == bench.store.scene
-    for of_draft, of_picture in zip(early.results, exact.results, strict=True):
-        assert of_draft.code == of_picture.code
-        assert of_draft.region is not None
-        assert of_picture.region is not None
-        ends = np.subtract(astuple(of_draft.region), astuple(of_picture.region))
-        assert np.abs(ends).max() <= 2 * LEAST_DRAFT_STEP
-
-
-def test_while_the_scene_changes_only_drafts_are_made(
-    bench: Bench, pictures: list[Picture]
-) -> None:
-    """Each draft brings about the next change; the second change is replaced by the third."""
-    isos = iter([110.0, 120.0, 130.0])
-
-    def change_again(_picture: Picture) -> None:
-        iso = next(isos, None)
-        if iso is not None:
-            bench.store.change(iso=iso)
-
-    bench.controller._rendered.connect(change_again, Qt.ConnectionType.BlockingQueuedConnection)
-    bench.store.change(iso=90.0)
-    bench.store.change(iso=100.0)
-    bench.wait_until_idle()
-    assert [picture.is_draft for picture in pictures] == [True] * 4 + [
-        False
-    ]  # the second was not begun
-    assert pictures[-1].frame.scene == bench.store.scene
-    assert bench.scenes[1:] == [bench.store.scene]
 
 
 def test_a_scene_without_a_picture_says_why_and_views_stay(

@@ -8,6 +8,8 @@ import pytest
 import occ_model as occ
 from occ_model.effects.jpeg import Jpeg
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.render import render_with
 
 NOISELESS = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
 
@@ -84,3 +86,19 @@ def test_a_draft_is_read_as_its_picture_is(preset: str) -> None:
     for step in (1, 3):
         frame = occ.render(scene, noise="reused", rows_step=step)
         assert occ.decode(frame.image, scene).code == scene.transmitter.code
+
+
+def test_what_the_heartbeat_raises_ends_a_picture() -> None:
+    scene = occ.load_preset("phone-68us").replace(rows=640, columns=500)
+    beats: list[int] = []
+    render_with(scene, SimulationSettings(), heartbeat=lambda: beats.append(1))
+    assert len(beats) == 10  # one a band of 64 rows
+
+    def stop() -> None:
+        beats.append(1)
+        if len(beats) > 12:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        render_with(scene, SimulationSettings(), heartbeat=stop)
+    assert len(beats) == 13

@@ -254,6 +254,8 @@ class PixelExposure:
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
         """Return the observable: pixel values before enhancement and rounding.
 
+        The bands are those that show the panel, or all.
+
         Returns
         -------
         ndarray of float32
@@ -267,7 +269,9 @@ class PixelExposure:
                 read = file.apply(self._scene, to_bytes(values))
                 values = read.astype(np.float32)
             image[exposed.place] = values
-        seen = self._region.crop(image)
+        region, above = self._region, self._bands[0].start
+        rows = slice(region.first_row - above, region.last_row - above)
+        seen = image[rows, region.first_column : region.last_column]
         if observable == "image":
             return seen
         return np.asarray(seen.mean(axis=0, dtype=np.float64), dtype=np.float32)

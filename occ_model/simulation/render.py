@@ -231,5 +231,8 @@ def observe(
         image = render_plan(view, chosen, seed=seed, noise=noise, timer=timer).image
         return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
-    exposure = PixelExposure(view, chosen, columns, timer)
+    seen = range(view.region.first_row, view.region.last_row)
+    blocks = in_blocks(range(scene.camera.rows))
+    bands = [rows for rows in blocks if rows[0] < seen.stop and rows[-1] >= seen.start]
+    exposure = PixelExposure(view, chosen, columns, timer, bands)
     return exposure.observed(chosen.observable, seed, noise)

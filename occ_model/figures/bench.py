@@ -12,8 +12,8 @@ from occ_model.study.bench.bench import HEADER, BenchPoint, BenchRequest, bench_
 
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
-_LEAST_RATE = 1e-6
-"""Bit error rate at which a point without errors is drawn, with its interval above."""
+_ARROW = 0.4
+"""Length of the arrow down from an upper end, as a share of it."""
 
 
 def write_bench(folder: Path, request: BenchRequest, points: Sequence[BenchPoint]) -> None:
@@ -55,13 +55,14 @@ def _draw(request: BenchRequest, points: Sequence[BenchPoint]) -> Figure:
     for ax, axis in ((left, "exposure"), (right, "noise")):
         _draw_axis(ax, axis, [point for point in points if point.axis == axis])
         ax.set_yscale("log")
-        ax.set_ylim(_LEAST_RATE, 1.5)
         ax.grid(linewidth=0.3)
     left.set_xlabel("exposure (symbols)")
     left.set_ylabel("bit error rate")
     left.set_title(f"{request.at_decibels:g} dB", fontsize=9)
     right.set_xlabel("signal-to-noise ratio (dB)")
     right.set_title(f"exposure of {request.at_exposure:g} symbols", fontsize=9)
+    lowest = min((point.errors.rate or point.errors.high for point in points), default=1.0)
+    left.set_ylim(0.3 * lowest, 1.5)
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False, fontsize=7)
     return figure
@@ -73,19 +74,14 @@ def _draw_axis(ax: Axes, axis: str, points: Sequence[BenchPoint]) -> None:
         curves.setdefault((point.scheme, point.errors.decoder), []).append(point)
     for number, ((scheme, decoder), some) in enumerate(curves.items()):
         at = [point.exposure if axis == "exposure" else point.decibels for point in some]
-        rates = [max(point.errors.rate, _LEAST_RATE) for point in some]
-        below = [
-            rate - max(point.errors.low, _LEAST_RATE)
-            for rate, point in zip(rates, some, strict=True)
-        ]
-        above = [point.errors.high - rate for rate, point in zip(rates, some, strict=True)]
+        errors = [point.errors for point in some]
+        without = [not one.errors for one in errors]
+        # Without an error only the upper end is known: an arrow points down from it.
+        rates = [one.rate or one.high for one in errors]
+        low = [rate * _ARROW if one.low == 0.0 else rate - one.low
+               for rate, one in zip(rates, errors, strict=True)]  # fmt: skip
+        high = [one.high - rate for rate, one in zip(rates, errors, strict=True)]
         ax.errorbar(
-            at,
-            rates,
-            [[max(b, 0.0) for b in below], [max(a, 0.0) for a in above]],
-            label=f"{scheme}, {decoder}",
-            marker=_MARKERS[number % len(_MARKERS)],
-            markersize=4,
-            linewidth=1.0,
-            capsize=2,
-        )
+            at, rates, [low, high], uplims=without, label=f"{scheme}, {decoder}",
+            marker=_MARKERS[number % len(_MARKERS)], markersize=4, linewidth=1.0, capsize=2,
+        )  # fmt: skip

@@ -70,7 +70,7 @@ class BenchRequest:
     at_decibels: float = 30.0
     rows_a_symbol: float = 5.0
     payload_bits: int = 256
-    bits: int = 2_560
+    bits: int = 10_240
     seed: int = 1
 
     @property

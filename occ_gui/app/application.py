@@ -72,7 +72,7 @@ class Application(QObject):
         self.controls = ControlPanel([], effects)
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView(decoders())
         self.accuracy, self.photo = AccuracyView(), PhotoView()
-        self.story = StoryView(self.image)
+        self.story = StoryView(self.image, decoders())
         self.detection = MapView(QUICK_DECODERS)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(

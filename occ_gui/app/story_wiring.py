@@ -37,6 +37,7 @@ def tell_story(parts: Parts) -> None:
     parts.outdated.mark_readings(story.rows)
     parts.outdated.mark_picture(story.rows.stripes)  # it comes later than the reading
     parts.decode.decoder_chosen.connect(story.choose_decoder)
+    story.decoder_chosen.connect(parts.decode.choose_decoder)
     image.picture_chosen.connect(story.choose_picture)
     story.picture_chosen.connect(image.choose_picture)
     _link_profiles(story, parts.profile)

@@ -148,6 +148,12 @@ class DecodeView(QWidget):
         """Return the name of the decoder whose result is shown; empty before the first result."""
         return "" if self._reading is None else self._chosen(self._reading).decoder
 
+    def choose_decoder(self, name: str) -> None:
+        """Show what this decoder read, as a click on its tab does."""
+        if self._reading is not None:
+            names = [result.decoder for result in self._results(self._reading)]
+            self.decoders.setCurrentIndex(names.index(name))
+
     def _choose(self) -> None:
         self._show_chosen()
         if self._reading is not None:

@@ -29,7 +29,7 @@ _ROUNDED = 20.0
 
 _GRID = 38
 _SHADE = 45
-_WIDTH = 2.0
+_WIDTH, _THIN = 2.0, 1.2
 _CROWDED = 2
 """Columns a pixel from which a curve is drawn as its extremes, one pixel wide."""
 
@@ -125,9 +125,9 @@ class ProfileRow(StoryRow):
         columns = np.arange(len(levels), dtype=np.float64)
         if self.band is not None:
             self._draw_curve(painter, area, columns, self.band, BAND, DASH)
-        if self.photo is not None:
-            self._draw_curve(painter, area, *self.photo, PHOTO)
         self._draw_curve(painter, area, columns, levels, SIMULATION)
+        if self.photo is not None:  # thinner, so that both are seen where they agree
+            self._draw_curve(painter, area, *self.photo, PHOTO, width=_THIN)
 
     def _draw_curve(
         self,
@@ -137,6 +137,7 @@ class ProfileRow(StoryRow):
         levels: FloatArray,
         colour: QColor,
         dash: tuple[float, float] | None = None,
+        width: float = _WIDTH,
     ) -> None:
         cells = round(area.width())
         crowded = self.axis.span > _CROWDED * cells
@@ -146,7 +147,7 @@ class ProfileRow(StoryRow):
         xs = self.xs_of(columns)
         inner = area.adjusted(0, 8, 0, -8)
         ys = inner.bottom() - levels / self._top * inner.height()
-        pen = QPen(seen_on(self.palette(), colour), 1.0 if crowded else _WIDTH)
+        pen = QPen(seen_on(self.palette(), colour), 1.0 if crowded else width)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, not crowded)
         if dash is not None:
             pen.setCapStyle(Qt.PenCapStyle.FlatCap)

@@ -1,12 +1,14 @@
 """Pane of the story: the verdict, and below it the four rows or the whole picture."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
+    QPushButton,
     QSizePolicy,
     QStackedWidget,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -28,6 +30,8 @@ class StoryView(QWidget):
     ----------
     picture
         The pane of the whole picture.
+    decoders
+        Names of the decoders.
     parent
         The parent widget.
     """
@@ -35,7 +39,12 @@ class StoryView(QWidget):
     picture_chosen = Signal(str)
     """Whose picture and profile the user chose, the ``"camera"``'s or the ``"receiver"``'s."""
 
-    def __init__(self, picture: QWidget, parent: QWidget | None = None) -> None:
+    decoder_chosen = Signal(str)
+    """The decoder that the user chose."""
+
+    def __init__(
+        self, picture: QWidget, decoders: Sequence[str] = (), parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
         self._picture = picture
         self.verdict, self.rows = VerdictBar(), StoryRows()
@@ -46,7 +55,7 @@ class StoryView(QWidget):
         self.readout.setAccessibleName(self.tr("Values at the crosshair"))
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.rows.values_changed.connect(self.readout.set_full_text)
-        self._make_controls()
+        self._make_controls(decoders)
         self._pages = QStackedWidget()
         for page in (self.rows, picture):
             self._pages.addWidget(page)
@@ -54,6 +63,7 @@ class StoryView(QWidget):
         line.setContentsMargins(0, 0, 0, 0)
         line.addSpacing(4)
         line.addWidget(self.readout, 1)
+        line.addWidget(self.decoder)
         line.addWidget(self.whole, 0, Qt.AlignmentFlag.AlignRight)
         for control in (self.whose, *self.ranges.values()):
             self.rows.controls.addWidget(control)
@@ -64,7 +74,15 @@ class StoryView(QWidget):
         layout.addLayout(line)
         layout.addWidget(self._pages, 1)
 
-    def _make_controls(self) -> None:
+    def _make_controls(self, decoders: Sequence[str]) -> None:
+        self.decoder = KeyedComboBox(
+            self.tr("Decoder"),
+            self.tr("Whose verdict, threshold, chips and bits are shown."),
+            {name: self.tr("Decoder: {name}").format(name=name) for name in decoders},
+        )
+        self.decoder.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.decoder.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.decoder.chosen.connect(self.decoder_chosen)
         self.whose = KeyedComboBox(
             self.tr("Whose picture and profile are shown"),
             self.tr(
@@ -85,15 +103,13 @@ class StoryView(QWidget):
         )
         self.ranges = {}
         for name, (text, tip) in zip(RANGES, texts, strict=True):
-            button = QToolButton()
-            button.setText(text)
+            button = QPushButton(text)
             button.setCheckable(True)
             button.setToolTip(tip)
             button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
             self.ranges[name] = button
         self.ranges[RANGES[0]].setChecked(True)
-        self.whole = QToolButton()
-        self.whole.setText(self.tr("Whole picture"))
+        self.whole = QPushButton(self.tr("Whole picture"))
         self.whole.setCheckable(True)
         self.whole.setToolTip(self.tr("Show the whole picture in place of the four rows."))
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
@@ -125,7 +141,8 @@ class StoryView(QWidget):
         self.rows.show_photo_profile(photo)
 
     def choose_decoder(self, name: str) -> None:
-        """Show what this decoder read, and the verdict on it."""
+        """Show what this decoder read, and the verdict on it, without a signal."""
+        self.decoder.show_key(name)
         self.verdict.choose_decoder(name)
         self.rows.choose_decoder(name)
 

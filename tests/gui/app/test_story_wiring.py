@@ -49,6 +49,7 @@ def test_the_bar_and_the_decoding_pane_say_the_same(
     pane, bar = application.decode, application.story.verdict
     for place in range(pane.decoders.count()):
         pane.decoders.setCurrentIndex(place)
+        user.wait_until_idle()
         is_read = pane.verdict.text().startswith("✓")
         assert (bar.state is State.GOOD) == is_read
         if is_read:
@@ -56,6 +57,23 @@ def test_the_bar_and_the_decoding_pane_say_the_same(
         else:
             assert pane.verdict.text() == "✗ No code read"
             assert bar.title.toolTip().startswith("No code: ")
+
+
+def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(
+    application: Application, user: User
+) -> None:
+    story, pane = application.story, application.decode
+    for name in ("matched", "threshold", "sequence"):
+        story.decoder.show_key(name)
+        story.decoder.chosen.emit(name)
+        user.wait_until_idle()
+        assert pane.decoder() == name
+        decoded = story.rows.decoded
+        assert decoded is not None
+        assert decoded.decoder == name
+        assert decoded.code == 718
+    pane.decoders.setCurrentIndex(0)
+    assert story.decoder.key() == "threshold"
 
 
 def test_the_thumbnail_opens_the_whole_picture_and_a_button_leads_back(

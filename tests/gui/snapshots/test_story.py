@@ -27,7 +27,7 @@ def test_the_story_looks_as_stored(
     changes: dict[str, Any],
 ) -> None:
     QApplication.setPalette(palette_of(theme))
-    view = StoryView(QWidget())
+    view = StoryView(QWidget(), ("threshold", "matched"))
     show(qtbot, view, 820, 560)
     snapshot = snapshot_of(**changes)
     view.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))

@@ -287,7 +287,6 @@ class Application(QObject):
         path = None if photo is None else photo.path
         if path not in (None, self._photo_path) and self._front_next:
             self.window.bring_to_front("photo")
-            self.story.show_whole_picture(True)
         self._photo_path, self._front_next = path, True
         if self._match_next:
             self.photo_wiring.match()

@@ -43,7 +43,8 @@ def tell_story(parts: Parts) -> None:
     _link_profiles(story, parts.profile)
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
-    image.before.chosen.toggled.connect(lambda on: story.show_whole_picture(on))
+    image.before.chosen.toggled.connect(lambda on: on and story.show_whole_picture(True))
+    parts.window.actions_by_name["fit"].triggered.connect(story.fit)
 
 
 def _link_profiles(story: StoryView, profile: ProfileView) -> None:

@@ -1,5 +1,6 @@
 """Row of the code: the chips and bits received, under the columns that they were read from."""
 
+import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -36,6 +37,8 @@ class CodeRow(StoryRow):
 
     def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
         """Show the chips and bits of one decoder's result."""
+        if _is_same(decoded, self._decoded) and reading.sent == self._sent:
+            return
         self._decoded, self._sent = decoded, reading.sent
         self.edges = received_edges(decoded)
         self.fields = received_fields(decoded, reading.scene)
@@ -143,3 +146,14 @@ class CodeRow(StoryRow):
             (self.tr("bits"), _CHIPS + 2 * _GAP, _BITS),
         ):
             painter.drawText(QRectF(0, top, area.left() - 6, height), flags, text)
+
+
+def _is_same(one: DecodeResult, other: DecodeResult | None) -> bool:
+    """Return whether two results look alike here: painting takes longer than comparing."""
+    if other is None or (one.region, one.failure, one.code) != (
+        other.region, other.failure, other.code,
+    ):  # fmt: skip
+        return False
+    starts = (one.chip_starts, other.chip_starts)
+    pairs = ((one.chips, other.chips), (one.bits, other.bits), starts)
+    return all(np.array_equal(mine, others) for mine, others in pairs)

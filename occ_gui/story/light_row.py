@@ -69,10 +69,11 @@ class LightRow(StoryRow):
 
     def show_reading(self, reading: Reading) -> None:
         """Show the light of this reading's scene."""
-        self._scene = reading.scene
+        shown = (self._scene, self._edged, self._sent)
+        self._scene, self._sent = reading.scene, reading.sent
         self._edged = "led-edges" in reading.plan
-        self._sent = reading.sent
-        self.redraw()
+        if shown != (self._scene, self._edged, self._sent):
+            self.redraw()
 
     def light(self, first: float, last: float, most: int) -> LightCurve | None:
         """Return the light from one column to another, None for more chips than ``most``."""

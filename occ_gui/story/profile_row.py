@@ -46,6 +46,7 @@ class ProfileRow(StoryRow):
         self._decoded: DecodeResult | None = None
         self._photo: PhotoProfile | None = None
         self._whose = "camera"
+        self._drawn_from: tuple[object, ...] = ()
         self._top = 255.0
 
     def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
@@ -107,7 +108,15 @@ class ProfileRow(StoryRow):
         curves = (self.levels, self.band, None if photo is None else photo[1])
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
         self._top = max(_ROUNDED, math.ceil(largest / _ROUNDED) * _ROUNDED)
-        self.redraw()
+        region = None if self._decoded is None else self._decoded.region
+        drawn = (*curves, self.threshold, region, self._photo)
+        # Painting takes longer than comparing, and a picture mostly shows what was read before it.
+        if len(drawn) != len(self._drawn_from) or not all(
+            one is other or np.array_equal(one, other)
+            for one, other in zip(drawn, self._drawn_from, strict=True)
+        ):
+            self._drawn_from = drawn
+            self.redraw()
 
     def y_of(self, level: float, area: QRectF) -> float:
         """Return where a level lies, in pixels from the top."""
@@ -124,7 +133,7 @@ class ProfileRow(StoryRow):
         self._draw_threshold(painter, area)
         columns = np.arange(len(levels), dtype=np.float64)
         if self.band is not None:
-            self._draw_curve(painter, area, columns, self.band, BAND, DASH)
+            self._draw_curve(painter, area, columns, self.band, BAND, dash=DASH)
         self._draw_curve(painter, area, columns, levels, SIMULATION)
         if self.photo is not None:  # thinner, so that both are seen where they agree
             self._draw_curve(painter, area, *self.photo, PHOTO, width=_THIN)
@@ -136,6 +145,7 @@ class ProfileRow(StoryRow):
         columns: FloatArray,
         levels: FloatArray,
         colour: QColor,
+        *,
         dash: tuple[float, float] | None = None,
         width: float = _WIDTH,
     ) -> None:

@@ -91,6 +91,18 @@ def test_the_thumbnail_opens_the_whole_picture_and_a_button_leads_back(
     assert not application.image.isVisible()
 
 
+def test_the_picture_before_is_shown_in_the_whole_one(application: Application) -> None:
+    story, before = application.story, application.image.before.chosen
+    before.setChecked(True)
+    assert story.shows_whole_picture
+    before.setChecked(False)
+    assert story.shows_whole_picture  # the mode may be about it
+    story.show_whole_picture(False)
+    story.rows.axis.zoom(0.5, 1500.0)
+    application.window.actions_by_name["fit"].trigger()
+    assert story.rows.axis.is_following
+
+
 def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) -> None:
     story, image, profile = application.story, application.image, application.profile
     story.picture_chosen.emit("receiver")

@@ -92,7 +92,6 @@ class Application(QObject):
             controls=self.controls, preferences=self.preferences,
         )  # fmt: skip
         self.simulation.picture_ready.connect(self.image.show_picture)
-        self.simulation.draft_for(self.image.rows_per_pixel)
         # The profile follows what is drawn in it: the results before, and the comparison.
         comparison = self.photo_wiring.comparison
         readers = (self.image, comparison, self.profile, self.decode, self.story)

@@ -31,6 +31,7 @@ def tell_story(parts: Parts) -> None:
     """
     story, simulation, image = parts.story, parts.simulation, parts.image
     simulation.picture_ready.connect(story.show_picture)
+    simulation.draft_for(lambda: _rows_per_pixel(story, image))
     simulation.failed.connect(story.verdict.show_failure)
     simulation.submitted.connect(story.verdict.end_failure)
     parts.outdated.mark_verdict(story.verdict)
@@ -56,3 +57,8 @@ def _link_profiles(story: StoryView, profile: ProfileView) -> None:
 
     story.picture_chosen.connect(lambda whose: profile.enhanced.setChecked(whose == "receiver"))
     profile.photo_shown.connect(show_photo)
+
+
+def _rows_per_pixel(story: StoryView, image: ImageView) -> float:
+    """Return how many rows of the picture share a pixel where it is seen."""
+    return image.rows_per_pixel() if story.shows_whole_picture else story.rows_per_pixel()

@@ -127,6 +127,10 @@ class StoryView(QWidget):
         self.whole.setText(self.tr("Back to the rows") if shown else self.tr("Whole picture"))
         self.readout.setVisible(not shown)
 
+    def rows_per_pixel(self) -> float:
+        """Return how many rows of the picture share a pixel of the screen in the stripes."""
+        return self.rows.stripes.rows_per_pixel()
+
     def show_picture(self, picture: Picture) -> None:
         """Show this picture in place of the previous one."""
         self.rows.show_picture(picture)

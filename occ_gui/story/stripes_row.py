@@ -13,7 +13,6 @@ from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import REGION
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.results import Frame
 
 _LEAST_HEIGHT = 40
 _NAME = 22
@@ -36,7 +35,7 @@ class StripesRow(StoryRow):
     ) -> None:
         super().__init__(self.tr("Picture"), axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
-        self._frame: Frame | None = None
+        self._step = 1
         self._image: ByteArray | None = None
         self._corners: FloatArray | None = None
         self.thumbnail = FrameThumbnail(self)
@@ -45,18 +44,34 @@ class StripesRow(StoryRow):
     def show_picture(self, picture: Picture, whose: str) -> None:
         """Show this picture, the camera's or the receiver's, in place of the previous one."""
         frame = picture.frame
-        self._frame, self._image, self._corners = frame, frame.picture(whose), frame.corners
+        self._image, self._corners, self._step = (
+            frame.picture(whose),
+            frame.corners,
+            frame.rows_step,
+        )
         halves = picture.halves if picture.whose == whose else ()
-        self.thumbnail.show_image(halves[-1] if halves else self._image, self._image.shape)
+        camera = frame.scene.camera
+        self.thumbnail.show_image(
+            halves[-1] if halves else self._image, camera.rows, camera.columns
+        )
         self._mark_view()
         self.redraw()
 
+    def rows_per_pixel(self) -> float:
+        """Return how many rows of the picture share a pixel of the screen."""
+        first, last = self.rows_shown()
+        pixels = max(1.0, self.height() * self.devicePixelRatioF())
+        return (last - first) * self._step / pixels
+
     def rows_shown(self) -> tuple[int, int]:
-        """Return the first row of the panel in the picture, and the one after its last."""
+        """Return the first row of the picture that shows the panel, and the one after the last.
+
+        A draft has one of so many rows of the picture, which are counted here.
+        """
         if self._image is None or self._corners is None:
             return 0, 0
         rows = self._image.shape[0]
-        top, bottom = self._corners[:, 1].min(), self._corners[:, 1].max()
+        top, bottom = (extreme / self._step for extreme in _rows_of(self._corners))
         first, last = max(int(np.ceil(top)), 0), min(int(bottom) + 1, rows)
         return (first, last) if first < last else (0, rows)  # the panel is out of the picture
 
@@ -91,7 +106,12 @@ class StripesRow(StoryRow):
         self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, max(self.height() - _NAME - 3, 0))
 
     def _mark_view(self) -> None:
-        self.thumbnail.show_view(self.axis.first, self.axis.last, *self.rows_shown())
+        first, last = (row * self._step for row in self.rows_shown())
+        self.thumbnail.show_view(self.axis.first, self.axis.last, first, last)
+
+
+def _rows_of(corners: FloatArray) -> tuple[float, float]:
+    return float(corners[:, 1].min()), float(corners[:, 1].max())
 
 
 class FrameThumbnail(QAbstractButton):
@@ -110,9 +130,9 @@ class FrameThumbnail(QAbstractButton):
             self.tr("The whole picture, with the part that is shown here: click to see it large.")
         )
 
-    def show_image(self, pixels: ByteArray, size: tuple[int, ...]) -> None:
+    def show_image(self, pixels: ByteArray, rows: int, columns: int) -> None:
         """Show a frame of so many rows and columns, or a smaller copy of it."""
-        self._size = (size[0], size[1])
+        self._size = (rows, columns)
         self._pixels, self._image = pixels, None
         self.update()
 

@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.story.column_axis import GUTTER
 from occ_gui.story.column_values import in_words
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
@@ -73,6 +74,18 @@ def test_the_stripes_show_each_column_at_its_place(
     seen = [drawn[round(rows.stripes.x_of(column))] for column in inside if column != chosen]
     wanted = [means[column] for column in inside if column != chosen]
     np.testing.assert_allclose(seen, wanted, atol=1.0)
+
+
+def test_a_draft_shows_the_stripes_at_the_same_place(
+    rows: StoryRows, snapshot: Snapshot, grey_picture: Callable[[QWidget], Grey]
+) -> None:
+    exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail._view
+    draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=7)
+    rows.show_picture(Picture.of(draft, "camera", snapshot.request))
+    shown = grey_picture(rows.stripes)
+    np.testing.assert_array_equal(shown[:, GUTTER:], exact[:, GUTTER:])
+    assert rows.stripes.thumbnail._view.top() == pytest.approx(view.top(), abs=7)
+    assert rows.stripes.thumbnail._view.height() == pytest.approx(view.height(), abs=14)
 
 
 @pytest.mark.parametrize(

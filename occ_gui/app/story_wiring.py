@@ -44,7 +44,7 @@ def tell_story(parts: Parts) -> None:
     _link_profiles(story, parts.profile)
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
-    image.before.chosen.toggled.connect(lambda on: on and story.show_whole_picture(True))
+    image.before.chosen.toggled.connect(lambda on: _show_where_asked(story, on))
     parts.window.actions_by_name["fit"].triggered.connect(story.fit)
 
 
@@ -57,6 +57,11 @@ def _link_profiles(story: StoryView, profile: ProfileView) -> None:
 
     story.picture_chosen.connect(lambda whose: profile.enhanced.setChecked(whose == "receiver"))
     profile.photo_shown.connect(show_photo)
+
+
+def _show_where_asked(story: StoryView, asked: bool) -> None:
+    if asked:
+        story.show_whole_picture(True)
 
 
 def _rows_per_pixel(story: StoryView, image: ImageView) -> float:

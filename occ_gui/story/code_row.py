@@ -1,6 +1,5 @@
 """Row of the code: the chips and bits received, under the columns that they were read from."""
 
-import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -13,6 +12,7 @@ from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.plot import SIMULATION
 from occ_gui.widgets.state_look import State
+from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
 from occ_model.teaching.packet_fields import PacketField, received_edges, received_fields
@@ -32,13 +32,16 @@ class CodeRow(StoryRow):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._decoded: DecodeResult | None = None
         self._sent: tuple[int, ...] = ()
+        self._drawn_from: tuple[object, ...] = ()
         self.edges: FloatArray | None = None
         self.fields: tuple[PacketField, ...] = ()
 
     def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
         """Show the chips and bits of one decoder's result."""
-        if _is_same(decoded, self._decoded) and reading.sent == self._sent:
+        looks = (*_looks(decoded), reading.sent, received_fields(decoded, reading.scene))
+        if are_same(looks, self._drawn_from):
             return
+        self._drawn_from = looks
         self._decoded, self._sent = decoded, reading.sent
         self.edges = received_edges(decoded)
         self.fields = received_fields(decoded, reading.scene)
@@ -148,12 +151,9 @@ class CodeRow(StoryRow):
             painter.drawText(QRectF(0, top, area.left() - 6, height), flags, text)
 
 
-def _is_same(one: DecodeResult, other: DecodeResult | None) -> bool:
-    """Return whether two results look alike here: painting takes longer than comparing."""
-    if other is None or (one.region, one.failure, one.code) != (
-        other.region, other.failure, other.code,
-    ):  # fmt: skip
-        return False
-    starts = (one.chip_starts, other.chip_starts)
-    pairs = ((one.chips, other.chips), (one.bits, other.bits), starts)
-    return all(np.array_equal(mine, others) for mine, others in pairs)
+def _looks(decoded: DecodeResult) -> tuple[object, ...]:
+    """Return what of a result is drawn here."""
+    return (
+        decoded.region, decoded.failure, decoded.code, decoded.chips, decoded.bits,
+        decoded.chip_starts, decoded.headers,
+    )  # fmt: skip

@@ -15,6 +15,7 @@ from occ_gui.story.curve_lines import DASH, lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.plot import BAND, PHOTO, SIMULATION, THRESHOLD
+from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
 from occ_model.teaching.packet_fields import threshold_levels
@@ -110,11 +111,8 @@ class ProfileRow(StoryRow):
         self._top = max(_ROUNDED, math.ceil(largest / _ROUNDED) * _ROUNDED)
         region = None if self._decoded is None else self._decoded.region
         drawn = (*curves, self.threshold, region, self._photo)
-        # Painting takes longer than comparing, and a picture mostly shows what was read before it.
-        if len(drawn) != len(self._drawn_from) or not all(
-            one is other or np.array_equal(one, other)
-            for one, other in zip(drawn, self._drawn_from, strict=True)
-        ):
+        # A picture mostly shows what was read before it.
+        if not are_same(drawn, self._drawn_from):
             self._drawn_from = drawn
             self.redraw()
 

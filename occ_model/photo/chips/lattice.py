@@ -16,8 +16,9 @@ from occ_model.photo.chips.edges import Edges
 _AS_COHERENT = 0.93
 """Share of the best lattice's coherence from which a coarser one explains the edges as well."""
 
-_SHORTER = 0.9
-"""Share of the shortest runs' mean length that a chip may be longer by, for the edges' noise."""
+_SHORTER = 0.7
+"""Ratio to a chip of the mean length of the shortest bright and the shortest dark run: noise and
+uneven light shorten both."""
 
 _LEAST_COLUMNS = 2.0
 """Smallest number of columns per chip."""

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from photo_world.messages import message as simulated_message
 from simulated_photos import photo_of
 
 import occ_model as occ
@@ -93,3 +94,25 @@ def test_edges_of_either_kind_may_be_shifted(shift: float, frequency: float, sta
     coarse = coarsest(profile_edges)
     assert coarse is not None
     assert coarse.frequency == pytest.approx(frequency, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    "seeds", [range(60), pytest.param(range(60, 1060), marks=pytest.mark.whole)],
+    ids=["sample", "whole"],
+)  # fmt: skip
+def test_nine_of_ten_readings_that_are_nine_tenths_sure_are_right(seeds: range) -> None:
+    read = []
+    for seed in seeds:
+        sent = simulated_message(seed)
+        try:
+            one = occ.read_chips(sent.photo)
+        except occ.MatchError:
+            continue
+        read.append((one.confidence, sent.is_right(one)))
+    confidence, right = np.array(read, dtype=float).T
+    sure = confidence >= 0.9
+    assert sure.sum() > 0.5 * len(seeds)
+    assert right[sure].mean() >= 0.9
+    # A probability is right on average, within three deviations of a share of as many.
+    scatter = np.sqrt(right.mean() * (1.0 - right.mean()) / len(right))
+    assert confidence.mean() == pytest.approx(right.mean(), abs=3.0 * scatter)

@@ -1,0 +1,82 @@
+"""Photographs of messages that do not repeat, drawn without the model: one seed, one message."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from simulated_photos import photo_of
+
+import occ_model as occ
+
+_ROWS = 24
+
+
+@dataclass(frozen=True, eq=False)
+class Message:
+    """A photograph of a message.
+
+    Parameters
+    ----------
+    photo
+        The photograph.
+    chips
+        All chips that are sent, as a text of 0 and 1.
+    first
+        Chips that are sent before the middle of the first column's exposure.
+    columns_per_chip
+        Length of a chip.
+    """
+
+    photo: occ.Photo
+    chips: str
+    first: float
+    columns_per_chip: float
+
+    def is_right(self, read: occ.ChipReading) -> bool:
+        """Whether the chips read are those sent, at their place."""
+        if abs(read.columns_per_chip / self.columns_per_chip - 1.0) > 0.05:
+            return False
+        near = round(self.first + read.start / self.columns_per_chip)
+        starts = range(max(0, near - 1), near + 2)
+        return any(self.chips[start : start + len(read.text)] == read.text for start in starts)
+
+
+def message(seed: int) -> Message:
+    """Draw a message of 2.5 to 30 columns a chip and an exposure of 0.1 to 1.3 chips.
+
+    A third are Manchester-coded. Half of the lamps are brighter than white; the light is uneven,
+    the tone curve a gamma of 1 to 2.4; there is blur of up to 1.5 columns, and noise.
+    """
+    random = np.random.default_rng([77, seed])
+    columns_per_chip = float(np.exp(random.uniform(np.log(2.5), np.log(30.0))))
+    columns = int(random.integers(300, 1500))
+    count = int(columns / columns_per_chip) + 6
+    chips = random.integers(0, 2, count)
+    if seed % 3 == 0:
+        chips = np.stack([chips, 1 - chips], axis=1).ravel()[:count]
+    exposure = float(np.exp(random.uniform(np.log(0.1), np.log(1.3))))
+    first = float(random.uniform(2.0, 3.0))
+    place = first + np.arange(columns) / columns_per_chip
+    whole = np.concatenate([[0.0], np.cumsum(chips)])
+    ends = [
+        np.interp(place + half, np.arange(count + 1), whole)
+        for half in (-0.5 * exposure, 0.5 * exposure)
+    ]
+    lit = (ends[1] - ends[0]) / exposure
+    image = _photographed(random, lit)
+    return Message(photo_of(image), "".join(map(str, chips)), first, columns_per_chip)
+
+
+def _photographed(random: np.random.Generator, lit: np.ndarray) -> np.ndarray:
+    """Add surroundings, uneven light, a tone curve, blur and noise, and clip at white."""
+    columns = len(lit)
+    peak = float(random.uniform(0.1, 0.9) if random.integers(2) else random.uniform(1.0, 2.5))
+    off = np.linspace(-1.0, 1.0, columns) - random.uniform(-0.5, 0.5)
+    uneven = 1.0 - random.uniform(0.0, 0.5) * off**2
+    light = np.clip((lit + random.uniform(0.0, 0.1)) * uneven * peak, 0.0, 1.0)
+    values = 255.0 * light ** (1.0 / random.uniform(1.0, 2.4))
+    blur = float(random.uniform(0.1, 1.5))
+    values = cv2.GaussianBlur(values[None], (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
+    noise = float(np.exp(random.uniform(np.log(0.4), np.log(80.0))))
+    noisy = values + noise * random.standard_normal((_ROWS, columns))
+    return np.clip(np.rint(noisy), 0, 255).astype(np.uint8)

@@ -181,11 +181,7 @@ def _best_of_cameras(
         if best is not None and best[0][0].correlation > _most_before(camera):
             continue
         model = _model(stripes, chips, camera, starts[0].step)
-        if best is None or camera.enhancement == "equalization":
-            fits = _fits(model, starts, with_gamma)
-        else:
-            # Which quantity is averaged changes the best timings little.
-            fits = _distinct([model.fit(fit.timing, with_gamma) for fit in best[0]])
+        fits = _fits(model, starts, with_gamma)
         if fits and (best is None or fits[0].residual < _share(camera) * best[0][0].residual):
             best = fits, camera
     return best

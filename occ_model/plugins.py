@@ -1,6 +1,5 @@
 """Plug-ins: what installed packages offer under an entry point, read when first asked for."""
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
@@ -87,10 +86,3 @@ def reason(error: BaseException) -> str:
     except FAULTS:
         text = "it gives no reason"
     return f"{type(error).__name__}: {text}."
-
-
-def forget_plugins(*caches: Callable[[], None]) -> None:
-    """Look for plug-ins anew when they are next asked for; ``caches`` are cleared as well."""
-    _found.cache_clear()
-    for clear in caches:
-        clear()

@@ -7,6 +7,7 @@ from occ_model.commands import (
     accuracy,
     animate,
     bench,
+    codes,
     decode,
     figures,
     limits,
@@ -20,7 +21,9 @@ from occ_model.commands.files import check_files
 from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
-_COMMANDS = (render, animate, plan, accuracy, sweep, limits, bench, decode, match, figures, listing)
+_COMMANDS = (
+    render, animate, plan, accuracy, sweep, limits, bench, decode, match, figures, codes, listing,
+)  # fmt: skip
 
 
 def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:

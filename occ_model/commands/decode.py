@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.options import Commands, add_scene_options, decoder_name, scene_of
 from occ_model.photo.reading.load import CHANNELS, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.program import EXIT_FAILURE
@@ -18,7 +18,12 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser("decode", help="read the code from a picture or photo")
     parser.add_argument("file", type=Path, help="image file")
     add_scene_options(parser)
-    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPER_DECODER)
+    parser.add_argument(
+        "--decoder",
+        type=decoder_name,
+        default=PAPER_DECODER,
+        help=f"one of {', '.join(DECODERS)} or a plug-in's; default: %(default)s",
+    )
     parser.add_argument(
         "--scan-axis",
         choices=SCAN_AXES,
@@ -50,7 +55,11 @@ def _run(options: argparse.Namespace) -> int:
 def _report(result: DecodeResult) -> list[str]:
     lines = []
     if result.code is not None:
-        lines += [f"code         {result.code}", f"bits         {''.join(map(str, result.bits))}"]
+        if result.payload:
+            lines.append(f"payload      {result.payload}")
+        else:
+            lines.append(f"code         {result.code}")
+        lines.append(f"bits         {''.join(map(str, result.bits))}")
     if result.region is not None:
         region = result.region
         lines.append(

@@ -3,7 +3,14 @@
 import argparse
 import math
 
-from occ_model.commands.options import Commands, add_scene_options, number, scene_of, whole_number
+from occ_model.commands.options import (
+    Commands,
+    add_scene_options,
+    decoder_name,
+    number,
+    scene_of,
+    whole_number,
+)
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
@@ -26,7 +33,12 @@ def add_to(commands: Commands) -> None:
         "limits", help="find how fast a scene can go, and how long it can be exposed"
     )
     add_scene_options(parser)
-    parser.add_argument("--decoder", choices=tuple(DECODERS), default=PAPER_DECODER)
+    parser.add_argument(
+        "--decoder",
+        type=decoder_name,
+        default=PAPER_DECODER,
+        help=f"one of {', '.join(DECODERS)} or a plug-in's; default: %(default)s",
+    )
     parser.add_argument(
         "--rate", type=number, default=99.0, metavar="PERCENT",
         help="of the bits from which a scene counts as read; default: %(default)s",

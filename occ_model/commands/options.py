@@ -7,6 +7,7 @@ from typing import IO, TYPE_CHECKING, NoReturn, TypeAlias
 
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
+from occ_model.receiver.decoders import DECODERS, decoders
 from occ_model.scene.argument_checks import check_choice, check_seed
 from occ_model.scene.from_text import DEFAULT_PRESET, read_scene_file, with_settings
 from occ_model.scene.presets import load_preset
@@ -74,6 +75,21 @@ def whole_number(text: str) -> int:
         return int(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{shown(text)} is not a whole number") from None
+
+
+def decoder_name(text: str) -> str:
+    """Read the name of a decoder, also of a plug-in, which is not imported yet.
+
+    Raises
+    ------
+    ArgumentTypeError
+        There is none of that name.
+    """
+    if text not in DECODERS and text not in decoders():
+        raise argparse.ArgumentTypeError(
+            f"there is no decoder {shown(text)}; known: {', '.join(decoders())}"
+        )
+    return text
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:

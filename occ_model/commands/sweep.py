@@ -10,7 +10,14 @@ from typing import Any
 
 from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
-from occ_model.commands.options import Commands, add_scene_options, number, scene_of, whole_number
+from occ_model.commands.options import (
+    Commands,
+    add_scene_options,
+    decoder_name,
+    number,
+    scene_of,
+    whole_number,
+)
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
@@ -47,8 +54,9 @@ def add_to(commands: Commands) -> None:
         "--images", type=whole_number, default=5, help="a point; default: %(default)s"
     )
     parser.add_argument(
-        "--decoder", action="append", choices=(*DECODERS, BOTH),
-        help=f"may be repeated; {BOTH}: all there are; default: {PAPER_DECODER}",
+        "--decoder", action="append", type=_decoder_or_all,
+        help=f"one of {', '.join(DECODERS)} or a plug-in's; may be repeated; {BOTH}: all but "
+        f"plug-ins; default: {PAPER_DECODER}",
     )  # fmt: skip
     parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.add_argument(
@@ -115,6 +123,10 @@ def _run(options: argparse.Namespace) -> int:
         write_sweep_figure(options.plot, table)
         print(f"{one_line(str(options.plot))}: success rate over {' and '.join(axes)}")
     return 0
+
+
+def _decoder_or_all(text: str) -> str:
+    return text if text == BOTH else decoder_name(text)
 
 
 def _decoders(names: Sequence[str]) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
 from occ_gui.help.pages import CONTENTS, heading_id, pages
 from occ_model.commands import read_command_line
+from occ_model.commands.codes import framing_table, line_code_table
 from occ_model.commands.listing import parameter_table
 from occ_model.effects.registry import EFFECTS
 from occ_model.receiver.decoder import Decoder
@@ -95,6 +96,12 @@ def test_every_command_is_one_that_the_program_takes(page: Path) -> None:
 def test_the_table_of_parameters_is_that_of_the_declarations() -> None:
     """``occ-model parameters --markdown`` prints it anew."""
     assert parameter_table() in page_named("parameters")
+
+
+def test_the_tables_of_codes_are_those_of_the_declarations() -> None:
+    """``occ-model codes --markdown`` prints them anew."""
+    assert line_code_table() in page_named("codes")
+    assert framing_table() in page_named("codes")
 
 
 def test_the_table_of_effects_is_that_of_the_registry() -> None:

@@ -1,0 +1,34 @@
+"""Packages with entry points, installed into a folder as an installer would."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def install(
+    folder: Path, package: str, entry_points: Mapping[str, Mapping[str, str]], module: str
+) -> None:
+    """Write a package of one module, with the description that installers write.
+
+    Parameters
+    ----------
+    folder
+        The folder of packages, such as ``site-packages``.
+    package
+        Its name; that of the module has underscores.
+    entry_points
+        Objects by name, by group.
+    module
+        The module's text.
+    """
+    name = package.replace("-", "_")
+    (folder / f"{name}.py").write_text(module, encoding="utf-8")
+    description = folder / f"{name}-1.0.dist-info"
+    description.mkdir()
+    (description / "METADATA").write_text(
+        f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n", encoding="utf-8"
+    )
+    groups = (
+        f"[{group}]\n" + "".join(f"{key} = {value}\n" for key, value in objects.items())
+        for group, objects in entry_points.items()
+    )
+    (description / "entry_points.txt").write_text("\n".join(groups), encoding="utf-8")

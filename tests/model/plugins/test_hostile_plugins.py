@@ -1,0 +1,218 @@
+"""Plug-ins that raise or give rubbish: each is named in a sentence, and the program lives."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from model.plugins.installed_package import install
+
+import occ_model as occ
+from occ_model import plugins
+from occ_model.receiver import decoders
+from occ_model.transmitter import packet, scheme
+from occ_model.transmitter.framings import registry as framings
+from occ_model.transmitter.line_codes import registry as line_codes
+
+CACHES = (
+    plugins._found,
+    decoders._plugin,
+    line_codes.line_code_named,
+    framings.framing_named,
+    scheme.scheme_named,
+    packet._payload_chips,
+)
+
+MODULE = """
+from dataclasses import replace
+
+import numpy as np
+
+import occ_model as occ
+from occ_model.transmitter.framings.preamble import FRAMING
+from occ_model.transmitter.line_codes.manchester import LINE_CODE
+
+
+class Unspeakable(Exception):
+    def __str__(self):
+        raise RuntimeError
+
+
+def fail(*_):
+    raise ValueError("not today")
+
+
+def leave(*_):
+    raise SystemExit(3)
+
+
+def unspeakable(*_):
+    raise Unspeakable
+
+
+def overwrite(signal, scene):
+    signal[:] = 0
+    return occ.DecodeResult("overwrites", failure="Nothing was read.")
+
+
+def decoder(name, read):
+    return occ.Decoder(name, name, read)
+
+
+raises = decoder("raises", fail)
+leaves = decoder("leaves", leave)
+mute = decoder("mute", unspeakable)
+nothing = decoder("nothing", lambda *_: None)
+empty = decoder("empty", lambda *_: occ.DecodeResult("empty"))
+floats = decoder("floats", lambda *_: occ.DecodeResult("floats", code=1, bits=np.array([0.5])))
+lists = decoder("lists", lambda *_: occ.DecodeResult("lists", code=1, bits=[1]))
+no_sentence = decoder("no_sentence", lambda *_: occ.DecodeResult("no_sentence", failure=5))
+overwrites = decoder("overwrites", overwrite)
+misnamed = decoder("another", fail)
+threshold = decoder("threshold", fail)
+
+code_raises = replace(LINE_CODE, name="code_raises", encode=fail, decode=fail)
+code_short = replace(LINE_CODE, name="code_short", encode=lambda bits, level: bits)
+code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.full(2 * len(bits), 7))
+code_blocks = replace(LINE_CODE, name="code_blocks", block_chips=0)
+code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
+
+frame_raises = replace(FRAMING, name="frame_raises", encode=fail)
+frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
+frame_mute = replace(FRAMING, name="frame_mute", decode=lambda chips, form: "nothing")
+frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
+"""
+
+DECODERS = [
+    "raises", "leaves", "mute", "nothing", "empty", "floats", "lists", "no_sentence", "overwrites",
+    "misnamed", "threshold", "gone",
+]  # fmt: skip
+CODES = ["code_raises", "code_short", "code_grey", "code_blocks", "code_mute"]
+FRAMINGS = ["frame_raises", "frame_empty", "frame_mute", "frame_fails"]
+SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
+
+
+def named(names: list[str], module: str = "hostile") -> dict[str, str]:
+    return {name: f"{module}:{name}" for name in names}
+
+
+@pytest.fixture(autouse=True)
+def _hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Install hostile plug-ins, which no other test sees."""
+    groups = {
+        plugins.DECODERS: named(DECODERS) | {"broken": "broken_import:DECODER"},
+        plugins.LINE_CODES: named(CODES),
+        plugins.FRAMINGS: named(FRAMINGS),
+    }
+    install(tmp_path, "hostile", groups, MODULE)
+    (tmp_path / "broken_import.py").write_text("raise SystemExit('no licence')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    for cache in CACHES:
+        cache.cache_clear()
+    yield
+    for cache in CACHES:
+        cache.cache_clear()
+
+
+def decode(decoder: str) -> occ.DecodeResult:
+    return occ.decode(occ.column_profile(SCENE), SCENE, decoder)
+
+
+@pytest.mark.parametrize(
+    ("decoder", "said"),
+    [
+        ("raises", "fails: ValueError: not today."),
+        ("leaves", "fails: SystemExit: 3."),
+        ("mute", "fails: Unspeakable: it gives no reason."),
+        ("nothing", "gives no DecodeResult but a NoneType."),
+        ("empty", "gives neither a code with its bits nor a failure."),
+        ("floats", "gives bits that are not an array of zeros and ones."),
+        ("lists", "gives bits that are not an array of zeros and ones."),
+        ("no_sentence", "gives a failure that is no sentence."),
+    ],
+)
+def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -> None:
+    result = decode(decoder)
+    assert result.failure == f"The plug-in '{decoder}' of the package 'hostile' {said}"
+    assert result.decoder == decoder
+    assert result.code is None
+
+
+@pytest.mark.parametrize(
+    ("decoder", "said"),
+    [
+        ("broken", "cannot be imported: SystemExit: no licence."),
+        ("gone", "cannot be imported: AttributeError: "),
+        ("misnamed", "calls itself 'another'."),
+    ],
+)
+def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> None:
+    with pytest.raises(occ.PluginError) as caught:
+        decode(decoder)
+    expected = f"The plug-in '{decoder}' of the package 'hostile' {said}"
+    assert str(caught.value).startswith(expected)
+
+
+def test_a_decoder_cannot_change_the_signal_of_others() -> None:
+    signal = occ.column_profile(SCENE)
+    before = signal.copy()
+    assert occ.decode(signal, SCENE, "overwrites").failure == "Nothing was read."
+    np.testing.assert_array_equal(signal, before)
+
+
+def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
+    assert occ.decoders().count("threshold") == 1
+    assert decode("threshold").code == SCENE.transmitter.code
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("code_raises", "cannot encode: ValueError: not today."),
+        ("code_short", "gives 10 chips in place of 20."),
+        ("code_grey", "gives no chips, which are zeros and ones."),
+        ("code_blocks", "declares block_chips = 0; allowed: from 1."),
+    ],
+)
+def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:
+    scene = SCENE.replace(line_code=name)
+    with pytest.raises(occ.PluginError) as caught:
+        occ.packet(scene)
+    assert str(caught.value) == f"The plug-in '{name}' of the package 'hostile' {said}"
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("frame_raises", "cannot encode: ValueError: not today."),
+        ("frame_empty", "gives no chips, which are zeros and ones."),
+    ],
+)
+def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
+    with pytest.raises(occ.PluginError) as caught:
+        occ.render(SCENE.replace(framing=name))
+    assert str(caught.value) == f"The plug-in '{name}' of the package 'hostile' {said}"
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"line_code": "code_mute"}, "'code_mute' of the package 'hostile' gives no bits"),
+        ({"framing": "frame_mute"}, "'frame_mute' of the package 'hostile' gives no bits"),
+        ({"framing": "frame_fails"}, "'frame_fails' of the package 'hostile' cannot decode"),
+    ],
+)
+def test_what_cannot_be_read_is_named_in_the_failure(changes: dict[str, str], said: str) -> None:
+    scene = SCENE.replace(**changes, enhancement="none")
+    result = occ.decode(occ.column_profile(scene), scene)
+    assert result.failure is not None
+    assert said in result.failure
+
+
+def test_a_scene_with_an_unknown_plugin_lists_those_there_are() -> None:
+    with pytest.raises(occ.ParameterError, match=r"line_code is 'mine'; allowed: .*code_grey"):
+        SCENE.replace(line_code="mine")
+    text = SCENE.replace(line_code="code_mute").to_toml()
+    assert occ.Scene.from_toml(text).transmitter.line_code == "code_mute"
+    with pytest.raises(occ.ParameterError, match="'mine'"):
+        occ.Scene.from_toml(text.replace("code_mute", "mine"))

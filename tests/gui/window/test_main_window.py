@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -156,10 +157,13 @@ def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(
             [bar.tabText(place) for place in range(bar.count())] for bar in found if bar.isVisible()
         ]
 
+    def is_shown(wanted: list[list[str]]) -> bool:
+        return tabs() == wanted
+
     for mode in ("photo", "explore", "limits", "photo"):
         window.modes.switch(mode)
         wanted = [["Photo", "Scene"]] if mode == "photo" else []
-        qtbot.waitUntil(lambda wanted=wanted: tabs() == wanted)
+        qtbot.waitUntil(partial(is_shown, wanted))
 
 
 def test_one_way_of_showing_the_photo_is_chosen_at_a_time(application: Application) -> None:

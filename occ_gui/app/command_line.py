@@ -37,7 +37,7 @@ _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 
 PANES = (
     "controls", "decode", "photo", "profile", "accuracy", "map",
-    "equations", "compare", "lessons",
+    "equations", "spectrum", "compare", "lessons",
 )  # fmt: skip
 """Names of the panes."""
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from occ_gui.lessons.lesson_view import LessonView
     from occ_gui.lessons.wiring import LessonWiring
     from occ_gui.pins.compare_view import CompareView
+    from occ_gui.spectrum.spectrum_view import SpectrumView
 
 
 class DockWindow(Protocol):
@@ -68,7 +69,7 @@ class LearningPanes(QObject):
     """The outcome of an action, shown until the scene changes."""
 
     exposure_made = Signal(QWidget)
-    """The pane of a column's exposure has been created, which shows results."""
+    """A pane has been created that shows results."""
 
     def __init__(
         self,
@@ -116,6 +117,17 @@ class LearningPanes(QObject):
         return view
 
     @cached_property
+    def spectrum(self) -> "SpectrumView":
+        """The spectrum of the profile and the histogram of the picture."""
+        from occ_gui.spectrum.spectrum_view import SpectrumView
+
+        view = SpectrumView()
+        if self._snapshot is not None:
+            view.show_snapshot(self._snapshot)
+        self.exposure_made.emit(view)
+        return view
+
+    @cached_property
     def lessons_pane(self) -> "LessonView":
         """The pane of the lessons."""
         from occ_gui.lessons.lesson_view import LessonView
@@ -160,6 +172,8 @@ class LearningPanes(QObject):
         self.pins.show_snapshot(snapshot)
         if "explanation" in vars(self):
             self.explanation.show_snapshot(snapshot)
+        if "spectrum" in vars(self):
+            self.spectrum.show_snapshot(snapshot)
 
     def show_pinned(self, pinned: Pinned) -> None:
         """Show the pinned states in the comparison, if that pane has been created."""
@@ -173,6 +187,7 @@ class LearningPanes(QObject):
     def _add_docks(self) -> None:
         add = self._add_dock
         add("equations", self.tr("Equations"), self._explain)
+        add("spectrum", self.tr("Spectrum and levels"), self._analyse)
         add("compare", self.tr("Compare"), self._compare)
         add("lessons", self.tr("Lessons"), self._learn)
 
@@ -186,6 +201,9 @@ class LearningPanes(QObject):
 
     def _compare(self) -> PaneContent:
         return self.compare, self.compare.set_seen
+
+    def _analyse(self) -> PaneContent:
+        return self.spectrum, self.spectrum.set_seen
 
     def _learn(self) -> PaneContent:
         return self.lessons_pane, self.lessons.controller.set_seen

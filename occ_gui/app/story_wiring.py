@@ -46,6 +46,7 @@ def tell_story(parts: Parts) -> None:
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     image.before.chosen.toggled.connect(lambda on: _show_where_asked(story, on))
     parts.window.actions_by_name["fit"].triggered.connect(story.fit)
+    parts.window.actions_by_name["measure"].toggled.connect(story.switch_measuring)
 
 
 def _link_profiles(story: StoryView, profile: ProfileView) -> None:

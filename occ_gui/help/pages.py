@@ -20,6 +20,7 @@ PAGE_OF_PANE = {
     "accuracy": "effects.md#accuracy-against-time",
     "map": "sweeps.md#the-detection-map",
     "equations": "model.md",
+    "spectrum": "guide.md#measure",
     "compare": "guide.md#compare-two-states",
     "lessons": "lessons.md#follow-a-lesson",
 }

@@ -2,6 +2,8 @@
 
 from PySide6.QtCore import QObject, Signal
 
+from occ_gui.story.measure_cursors import MeasureCursors
+
 GUTTER = 96
 """Pixels at the left of each row, for its name and its levels."""
 
@@ -101,7 +103,7 @@ class ColumnAxis(QObject):
 
 
 class Crosshair(QObject):
-    """The column under the mouse, and the column whose exposure is shown."""
+    """The column under the mouse, the column whose exposure is shown, and the cursors."""
 
     pointed_at = Signal()
     """The mouse is at another column, or at none."""
@@ -114,6 +116,7 @@ class Crosshair(QObject):
         self.pointed: int | None = None
         self.column: int | None = None
         self.columns = 0
+        self.cursors = MeasureCursors(self)
 
     def set_columns(self, columns: int, first: int) -> None:
         """Set the number of columns; ``first`` is chosen if none is yet."""

@@ -17,6 +17,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
+from occ_gui.story.measure_cursors import NAMES
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
 
@@ -31,6 +32,9 @@ _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 
 _NOTCH = 120
 _A_NOTCH = 0.85
+
+_GRIP = 6
+"""Pixels from a measuring cursor within which the mouse takes it."""
 
 _CLICK = 4
 """Most pixels between press and release of a click."""
@@ -61,6 +65,7 @@ class StoryRow(QWidget):
         self._drawn: QPixmap | None = None
         self._press: QPointF | None = None
         self._last: QPointF | None = None
+        self._held: int | None = None
         self.setAccessibleName(name)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -68,6 +73,7 @@ class StoryRow(QWidget):
         axis.changed.connect(self.redraw)
         crosshair.pointed_at.connect(self.update)
         crosshair.chosen.connect(self.update)
+        crosshair.cursors.changed.connect(self.update)
 
     def redraw(self) -> None:
         """Draw the row anew."""
@@ -131,6 +137,7 @@ class StoryRow(QWidget):
         if self.crosshair.pointed is not None:
             self._draw_line(painter, self.crosshair.pointed, area, Qt.PenStyle.DashLine)
         self.draw_markers(painter, area)
+        self._draw_cursors(painter, area)
         if read is not None:
             self.draw_pointed(painter, read, area)
         painter.setClipping(False)
@@ -179,6 +186,23 @@ class StoryRow(QWidget):
         painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
+    def _draw_cursors(self, painter: QPainter, area: QRectF) -> None:
+        """Draw the measuring cursors, with their names at the top."""
+        colour = self.colour(QPalette.ColorRole.Highlight)
+        metrics = painter.fontMetrics()
+        for name, column in zip(NAMES, self.crosshair.cursors.columns, strict=False):
+            x = self.x_of(column)
+            painter.setPen(QPen(colour, 2))
+            painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
+            box = QRectF(x, area.top(), metrics.horizontalAdvance(name) + 6, metrics.height())
+            painter.fillRect(box, colour)
+            painter.setPen(self.colour(QPalette.ColorRole.HighlightedText))
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
+
+    def _cursor_at(self, x: float) -> int | None:
+        reach = _GRIP * self.axis.span / self.axis.plot_width(self.width())
+        return self.crosshair.cursors.near(self.column_at(x), reach)
+
     def colour(self, role: QPalette.ColorRole) -> QColor:
         """Return a colour of the theme."""
         return self.palette().color(role)
@@ -199,13 +223,17 @@ class StoryRow(QWidget):
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Begin a drag or a click."""
         if event.button() == Qt.MouseButton.LeftButton:
+            self._held = self._cursor_at(event.position().x())
             self._press = self._last = event.position()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Move the columns with the mouse while a button is pressed, else point at one."""
         place = event.position()
         inside = self.plot_area().contains(place)
-        if self._last is not None:
+        if self._held is not None:
+            column = self.column_at(place.x())
+            self.crosshair.cursors.move(self._held, column, self.crosshair.columns)
+        elif self._last is not None:
             self.drag_to(place)
             self._last = place
         self.crosshair.point_at(self.column_at(place.x()) if inside else None)
@@ -226,9 +254,10 @@ class StoryRow(QWidget):
         if event.button() != Qt.MouseButton.LeftButton or self._press is None:
             return
         place = event.position()
-        if not self.moved_from_press(place) and self.plot_area().contains(place):
+        is_click = self._held is None and not self.moved_from_press(place)
+        if is_click and self.plot_area().contains(place):
             self.click(place)
-        self._press = self._last = None
+        self._press = self._last = self._held = None
         self.unsetCursor()
 
     def click(self, place: QPointF) -> None:

@@ -13,6 +13,8 @@ from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
 from occ_gui.story.curve_legend import CurveLegend
 from occ_gui.story.light_row import LightRow
+from occ_gui.story.measure_cursors import in_words as difference_in_words
+from occ_gui.story.measure_cursors import measure
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.scales import ColumnScale, TimeScale
 from occ_gui.story.stripes_row import StripesRow
@@ -32,6 +34,9 @@ class StoryRows(QWidget):
 
     values_changed = Signal(str)
     """The values of the column at the crosshair, in words."""
+
+    measured_changed = Signal(str)
+    """What is measured between the cursors, in words; empty while nothing is."""
 
     range_left = Signal()
     """The user has zoomed or moved the columns."""
@@ -63,6 +68,7 @@ class StoryRows(QWidget):
         for signal in (self.crosshair.pointed_at, self.crosshair.chosen):
             signal.connect(self._read_out)
         self.axis.changed.connect(self._on_range)
+        self.crosshair.cursors.changed.connect(self._measure)
 
     def _legend_line(self) -> QWidget:
         """Make the legend of the profile, above its curves."""
@@ -107,6 +113,7 @@ class StoryRows(QWidget):
         self._show_decoded()
         first = int(reading.panel_origin[0] + reading.packet_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
+        self._measure()
         self._set_range()
         self._read_out()
 
@@ -178,3 +185,13 @@ class StoryRows(QWidget):
         values = self.values()
         if values is not None and self._reading is not None:
             self.values_changed.emit(in_words(values, self._reading.scene))
+
+    def switch_measuring(self, on: bool) -> None:
+        """Show two cursors in what is in view, or hide them."""
+        self.crosshair.cursors.switch(on, self.axis.first, self.axis.last)
+
+    def _measure(self) -> None:
+        reading = self._reading
+        if reading is not None:
+            found = measure(self.crosshair.cursors, reading.scene, self.profile.levels)
+            self.measured_changed.emit("" if found is None else difference_in_words(found))

@@ -55,6 +55,11 @@ class StoryView(QWidget):
         self.readout.setAccessibleName(self.tr("Values at the crosshair"))
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.rows.values_changed.connect(self.readout.set_full_text)
+        self.measured = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.measured.setAccessibleName(self.tr("Measured between the cursors"))
+        self.measured.setContentsMargins(4, 0, 0, 0)
+        self.measured.hide()
+        self.rows.measured_changed.connect(self._show_measured)
         self._make_controls(decoders)
         self._pages = QStackedWidget()
         for page in (self.rows, picture):
@@ -72,6 +77,7 @@ class StoryView(QWidget):
         layout.setSpacing(4)
         layout.addWidget(self.verdict)
         layout.addLayout(line)
+        layout.addWidget(self.measured)
         layout.addWidget(self._pages, 1)
 
     def _make_controls(self, decoders: Sequence[str]) -> None:
@@ -163,6 +169,16 @@ class StoryView(QWidget):
     def fit(self) -> None:
         """Return to the range of columns that was chosen last."""
         self.choose_range(self.rows.range)
+
+    def switch_measuring(self, on: bool) -> None:
+        """Show two cursors to measure between, or hide them."""
+        if on:
+            self.show_whole_picture(False)
+        self.rows.switch_measuring(on)
+
+    def _show_measured(self, text: str) -> None:
+        self.measured.set_full_text(text)
+        self.measured.setVisible(bool(text))
 
     def _mark_range(self, name: str) -> None:
         for key, button in self.ranges.items():

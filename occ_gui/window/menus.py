@@ -190,6 +190,9 @@ class Menus(QObject):
         before = self._add(menu, "before", self.tr("&Before the change"), self.tr("Ctrl+Alt+Z"))
         before.setCheckable(True)
         before.setToolTip(self.tr("Show the picture before the latest change beside the one now."))
+        measure = self._add(menu, "measure", self.tr("Meas&ure"), self.tr("Ctrl+Shift+D"))
+        measure.setCheckable(True)
+        measure.setToolTip(self.tr("Two cursors, A and B, that you drag over the rows."))
         theme = self.drop_downs["theme"] = menu.addMenu(self.tr("&Theme"))
         words = {
             "system": self.tr("&System"),

@@ -1,0 +1,133 @@
+"""Pane of the spectrum: the profile's frequencies, and the grey levels of the panel's picture."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.contrast import pen_on, seen_on
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.plot import BAND, SIMULATION, new_plot, thin
+from occ_model.errors import ParameterError
+from occ_model.scene.units import HERTZ
+from occ_model.study.level_histogram import LevelHistogram, level_histogram
+from occ_model.study.spectrum import Spectrum, profile_spectrum
+
+_KILO = 1e-3
+_HEADROOM = 1.15
+_LEAST_TOP = 1.0
+
+
+class SpectrumView(QWidget):
+    """The profile's spectrum with the response of the exposure, and a histogram below it.
+
+    What is shown follows the simulation while the pane is visible.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._snapshot: Snapshot | None = None
+        self._seen = False
+        self._make_spectrum()
+        self._make_histogram()
+        self.sentence = QLabel()
+        self.sentence.setWordWrap(True)
+        self.sentence.setTextFormat(Qt.TextFormat.PlainText)
+        self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 4, 8, 8)
+        layout.setSpacing(4)
+        layout.addWidget(self.legend)
+        layout.addWidget(self.spectrum, 3)
+        layout.addWidget(self.sentence)
+        layout.addWidget(self.histogram, 2)
+
+    def _make_spectrum(self) -> None:
+        self.spectrum = new_plot(
+            self.tr("Spectrum of the column profile"), self.tr("frequency (kHz)"),
+            self.tr("amplitude (levels)"), self.palette(),
+        )  # fmt: skip
+        self.amplitudes = self.spectrum.add_curve(thin(SIMULATION))
+        self.response = self.spectrum.add_curve(thin(BAND, Qt.PenStyle.DashLine))
+        self._nulls: list[pg.InfiniteLine] = []
+        self.legend = LineLegend()
+        self.legend.add_line("profile", thin(SIMULATION), self.tr("profile"))
+        self.legend.add_line(
+            "response",
+            thin(BAND, Qt.PenStyle.DashLine),
+            self.tr("what the exposure leaves, |sinc(F t)|, with its nulls"),
+        )
+
+    def _make_histogram(self) -> None:
+        self.histogram = new_plot(
+            self.tr("Histogram of the panel's pixels"), self.tr("grey level"),
+            self.tr("share (%)"), self.palette(),
+        )  # fmt: skip
+        self.bars = pg.BarGraphItem(x=np.arange(256), height=np.zeros(256), width=1.0)
+        self.histogram.addItem(self.bars, ignoreBounds=True)
+        self.histogram.dress_with(
+            lambda palette: self.bars.setOpts(
+                brush=seen_on(palette, SIMULATION), pen=pen_on(palette, thin(SIMULATION))
+            )
+        )
+        self.histogram.setXRange(-2, 257, padding=0)
+
+    def set_seen(self, seen: bool) -> None:
+        """Follow the simulation while visible."""
+        self._seen = seen
+        if seen:
+            self._show()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Show the spectrum and the histogram of these results."""
+        self._snapshot = snapshot
+        if self._seen:
+            self._show()
+
+    def _show(self) -> None:
+        snapshot = self._snapshot
+        if snapshot is None:
+            return
+        left, top = (int(value) for value in np.maximum(snapshot.corners.min(axis=0), 0.0))
+        right, bottom = (int(value) + 1 for value in np.maximum(snapshot.corners.max(axis=0), 0.0))
+        try:
+            self._draw_spectrum(profile_spectrum(snapshot.profile[left:right], snapshot.scene))
+        except ParameterError:  # too few columns show the panel
+            self.amplitudes.setData([], [])
+            self.response.setData([], [])
+        self._draw_histogram(level_histogram(snapshot.frame.camera_image[top:bottom, left:right]))
+
+    def _draw_spectrum(self, found: Spectrum) -> None:
+        frequencies = found.frequencies * _KILO
+        highest = max(_HEADROOM * float(found.amplitudes.max()), _LEAST_TOP)
+        self.amplitudes.setData(frequencies, found.amplitudes)
+        self.response.setData(frequencies, found.response * highest / _HEADROOM)
+        for line in self._nulls:
+            self.spectrum.removeItem(line)
+        self._nulls = [pg.InfiniteLine(null * _KILO, pen=thin(BAND)) for null in found.nulls[:12]]
+        for line in self._nulls:
+            self.spectrum.addItem(line, ignoreBounds=True)
+        last = float(frequencies[-1])
+        self.spectrum.setXRange(0.0, last, padding=0)
+        self.spectrum.setYRange(0.0, highest, padding=0)
+        peak = int(found.amplitudes.argmax())
+        null = HERTZ.format(found.nulls[0], 4) if found.nulls else self.tr("none in view")
+        self.spectrum.setAccessibleDescription(
+            self.tr("Strongest at {peak}; first null of the exposure: {null}").format(
+                peak=HERTZ.format(float(found.frequencies[peak]), 4), null=null
+            )
+        )
+
+    def _draw_histogram(self, found: LevelHistogram) -> None:
+        self.bars.setOpts(height=100.0 * found.shares)
+        self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.shares.max()), 1.0))
+        if found.is_saturated:
+            text = self.tr(
+                "⚠ {share:.0f} % of the panel's pixels are white: the light beyond is lost."
+            ).format(share=100.0 * found.white)
+        else:
+            text = self.tr("The panel's pixels: {share:.1f} % are white.").format(
+                share=100.0 * found.white
+            )
+        self.sentence.setText(text)

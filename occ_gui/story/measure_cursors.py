@@ -1,0 +1,96 @@
+"""Measuring cursors: two columns between which columns, time and levels are measured."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication, QObject, Signal
+
+from occ_model.arrays import FloatArray
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND
+
+NAMES = ("A", "B")
+_START = (0.3, 0.6)
+"""Where the cursors stand at first, as parts of what is in view."""
+
+
+class MeasureCursors(QObject):
+    """Two columns that the user moves, or none while nothing is measured."""
+
+    changed = Signal()
+    """A cursor has moved, or they have been switched on or off."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.columns: list[float] = []
+        """The columns of A and B; empty while nothing is measured."""
+
+    def switch(self, on: bool, first: float, last: float) -> None:
+        """Show the cursors within a range of columns, or hide them."""
+        self.columns = [first + part * (last - first) for part in _START] if on else []
+        self.changed.emit()
+
+    def move(self, place: int, column: float, columns: int) -> None:
+        """Move a cursor within a picture of so many columns."""
+        if self.columns:
+            self.columns[place] = min(max(column, 0.0), columns - 1.0)
+            self.changed.emit()
+
+    def near(self, column: float, reach: float) -> int | None:
+        """Return which cursor is within so many columns, the nearer one; None if none is."""
+        found = [(abs(each - column), place) for place, each in enumerate(self.columns)]
+        within = [pair for pair in found if pair[0] <= reach]
+        return min(within)[1] if within else None
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """The difference between two cursors.
+
+    Parameters
+    ----------
+    columns
+        From A to B, negative where B is at the left.
+    time
+        The same in seconds.
+    levels
+        How much higher the profile is at B, in grey levels; None outside of it.
+    chips
+        The same time in chips.
+    """
+
+    columns: float
+    time: float
+    levels: float | None
+    chips: float
+
+
+def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -> Measured | None:
+    """Measure between the cursors; None while there are none."""
+    if not cursors.columns:
+        return None
+    first, second = cursors.columns
+    columns = second - first
+    time = columns * scene.camera.readout_time
+    places = [round(first), round(second)]
+    levels = None
+    if profile is not None and all(0 <= place < len(profile) for place in places):
+        levels = float(profile[places[1]] - profile[places[0]])
+    return Measured(columns, time, levels, time * scene.transmitter.switching_frequency)
+
+
+def in_words(measured: Measured) -> str:
+    """Write a difference in one line."""
+    parts = [
+        _tr("A to B: {columns:.1f} columns").format(columns=measured.columns),
+        SECOND.format(measured.time, 4),
+    ]
+    if measured.levels is not None:
+        parts.append(_tr("{levels:+.1f} levels").format(levels=measured.levels))
+    parts.append(_tr("{chips:.2f} chips").format(chips=measured.chips))
+    if measured.time:
+        parts.append(_tr("as a period {rate}").format(rate=HERTZ.format(1 / abs(measured.time), 4)))
+    return "  ·  ".join(parts)
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("MeasureCursors", text)

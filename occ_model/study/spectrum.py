@@ -1,0 +1,77 @@
+"""Spectrum of a profile, beside the response of the exposure that shaped it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.errors import ParameterError
+from occ_model.scene.scene import Scene, check_scene
+
+_FEWEST = 8
+_MOST_NULLS = 100
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Spectrum:
+    """The amplitudes of a profile's frequencies.
+
+    Parameters
+    ----------
+    frequencies : ndarray of float64, shape (n,)
+        In Hz, from 0 to half the rate of the columns, 1 / (2 t_r).
+    amplitudes : ndarray of float64, shape (n,)
+        Of a sine of each frequency, in grey levels.
+    response : ndarray of float64, shape (n,)
+        What the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|.
+    nulls
+        Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one.
+    """
+
+    frequencies: FloatArray
+    amplitudes: FloatArray
+    response: FloatArray
+    nulls: tuple[float, ...]
+
+
+def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
+    """Compute the spectrum of a profile.
+
+    The mean is taken off, and both ends are faded out by a Hann window, so that a profile that does
+    not hold whole periods has clean lines.
+
+    Parameters
+    ----------
+    profile : ndarray of float64, shape (columns,)
+        The profile, at least 8 columns.
+    scene
+        The scene, for exposure and readout time.
+
+    Returns
+    -------
+    Spectrum
+        The response is that of a box of the exposure's length (arXiv 2602.08474).
+
+    Raises
+    ------
+    ParameterError
+        The profile is too short, or not finite.
+    """
+    check_scene(scene)
+    values = np.asarray(profile, dtype=np.float64)
+    if values.ndim != 1 or len(values) < _FEWEST:
+        raise ParameterError(f"profile has shape {values.shape}; allowed: ({_FEWEST} or more,).")
+    if not np.isfinite(values).all():
+        raise ParameterError("profile has values that are not finite; allowed: finite ones.")
+    window = np.hanning(len(values))
+    amplitudes = 2.0 * np.abs(np.fft.rfft(window * (values - values.mean()))) / window.sum()
+    frequencies = np.fft.rfftfreq(len(values), scene.camera.readout_time)
+    exposure = scene.camera.exposure_time
+    last = float(frequencies[-1])
+    count = min(int(last * exposure), _MOST_NULLS)
+    return Spectrum(
+        frequencies=np.asarray(frequencies, dtype=np.float64),
+        amplitudes=np.asarray(amplitudes, dtype=np.float64),
+        response=np.abs(np.sinc(frequencies * exposure)),
+        nulls=tuple(k / exposure for k in range(1, count + 1)),
+    )

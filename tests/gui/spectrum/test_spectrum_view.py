@@ -1,0 +1,56 @@
+"""The pane of the spectrum shows the profile's frequencies and warns of lost light."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from gui.user import User
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.spectrum.spectrum_view import SpectrumView
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> SpectrumView:
+    view = SpectrumView()
+    qtbot.addWidget(view)
+    view.resize(500, 400)
+    view.show()
+    view.set_seen(True)
+    return view
+
+
+def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
+    view: SpectrumView, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    view.show_snapshot(snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
+    frequencies, amplitudes = view.amplitudes.getData()
+    assert frequencies[amplitudes.argmax()] == pytest.approx(4.0, rel=0.05)
+    assert "first null of the exposure: 20 kHz" in view.spectrum.accessibleDescription()
+    assert len(view._nulls) == 3
+
+
+def test_a_bright_panel_is_told_to_lose_light(
+    view: SpectrumView, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    view.show_snapshot(snapshot_of(iso=100.0))
+    assert "0.0 % are white" in view.sentence.text()
+    view.show_snapshot(snapshot_of(iso=6400.0, f_number=1.0))
+    assert view.sentence.text().startswith("⚠")
+    assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)
+
+
+def test_the_pane_follows_the_simulation_while_it_is_seen(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    application.window.bring_to_front("spectrum")
+    qtbot.waitUntil(lambda: application.learning.spectrum.isVisible())
+    view = application.learning.spectrum
+    user.wait_until_idle()
+    before = view.spectrum.accessibleDescription()
+    application.store.change(exposure_time=100e-6)
+    user.wait_until_idle()
+    assert "first null of the exposure: 10 kHz" in view.spectrum.accessibleDescription()
+    assert before != view.spectrum.accessibleDescription()

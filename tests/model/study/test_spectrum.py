@@ -1,0 +1,60 @@
+"""The spectrum of a profile has the amplitudes of its sines, and the exposure's nulls."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.study.level_histogram import level_histogram
+from occ_model.study.spectrum import profile_spectrum
+
+
+@pytest.mark.parametrize(("amplitude", "cycles"), [(10.0, 40), (3.0, 123), (80.0, 400)])
+def test_a_sine_has_its_amplitude_at_its_frequency(amplitude: float, cycles: int) -> None:
+    scene = occ.load_preset("phone-68us")
+    columns = 2048
+    profile = 100.0 + amplitude * np.sin(2 * np.pi * cycles * np.arange(columns) / columns)
+    found = profile_spectrum(profile, scene)
+    peak = int(found.amplitudes.argmax())
+    assert found.amplitudes[peak] == pytest.approx(amplitude, rel=1e-3)
+    wanted = cycles / (columns * scene.camera.readout_time)
+    assert found.frequencies[peak] == pytest.approx(wanted)
+    assert found.frequencies[-1] == pytest.approx(0.5 / scene.camera.readout_time)
+
+
+@pytest.mark.parametrize("frequency", [4e3, 9e3, 13e3])
+def test_an_alternating_pattern_is_damped_as_the_response_says(frequency: float) -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        pattern="10", switching_frequency=frequency, columns=20_000
+    )
+    short = scene.replace(exposure_time=1e-6)
+    one, other = (
+        profile_spectrum(occ.on_time(s) / s.camera.exposure_time, s) for s in (scene, short)
+    )
+    place = int(other.amplitudes.argmax())
+    assert one.frequencies[place] == pytest.approx(frequency / 2, rel=1e-2)
+    damped = one.amplitudes[place] / other.amplitudes[place]
+    assert damped == pytest.approx(one.response[place] / other.response[place], rel=1e-3)
+
+
+def test_the_nulls_are_where_the_response_is_nothing() -> None:
+    scene = occ.load_preset("phone-136us")
+    found = profile_spectrum(np.zeros(3000), scene)
+    assert found.nulls[0] == pytest.approx(1 / 136e-6)
+    at_nulls = np.interp(found.nulls, found.frequencies, found.response)
+    assert at_nulls.max() < 0.02
+    assert len(found.nulls) == int(0.5 / 8e-6 * 136e-6)
+
+
+@pytest.mark.parametrize("profile", [np.zeros(7), np.zeros((2, 9)), np.full(9, np.nan)])
+def test_a_profile_that_has_no_spectrum_is_refused(profile: np.ndarray) -> None:
+    with pytest.raises(occ.ParameterError, match="profile has"):
+        profile_spectrum(profile, occ.load_preset("phone-68us"))
+
+
+def test_the_shares_of_a_histogram_add_up_and_tell_what_is_clipped() -> None:
+    image = np.array([[0, 0, 7, 255], [255, 9, 9, 255]], dtype=np.uint8)
+    found = level_histogram(image)
+    assert found.shares.sum() == pytest.approx(1.0)
+    assert (found.black, found.white, found.is_saturated) == (0.25, 0.375, True)
+    assert not level_histogram(image[:, 2:3]).is_saturated
+    assert level_histogram(image[:0]).shares.sum() == 0.0

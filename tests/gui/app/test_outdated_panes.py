@@ -18,6 +18,7 @@ from occ_gui.background.result_age import PAUSE, ResultAges
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.outdated_mark import DELAY
+from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import render_with
 
@@ -45,7 +46,8 @@ def marks(application: Application) -> list[QWidget]:
 
 def tabs(application: Application) -> list[str]:
     bar = application.decode.decoders
-    return [bar.tabText(place).split()[-1] for place in range(bar.count())]
+    texts = {name: bar.tabText(place) for place, name in enumerate(DECODERS)}
+    return [texts[name].split()[-1] for name in QUICK_DECODERS]
 
 
 def test_a_verdict_does_not_wait_for_the_picture(
@@ -86,6 +88,7 @@ def test_without_a_profile_path_a_verdict_is_soon_the_earlier_scenes(
 def test_each_pane_is_marked_while_its_result_is_outdated(
     application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int
 ) -> None:
+    application.window.bring_to_front("equations")
     application.learning.explanation.set_seen(True)
     assert [mark.parentWidget() for mark in marks(application)] == [
         application.image.simulation,

@@ -23,7 +23,15 @@ from occ_gui.photo.match_result import MatchResult
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import AccuracyPoint, Alternative, Match, Region, Stripes, SweepPoint
+from occ_model.results import (
+    AccuracyPoint,
+    Alternative,
+    Forecast,
+    Match,
+    Region,
+    Stripes,
+    SweepPoint,
+)
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation
@@ -106,12 +114,14 @@ def test_the_accuracy_looks_as_stored(
     complete = CompleteSimulation(snapshot.request.scene, "image")
     differences = {name: complete.without(name) for name in complete.effects}
     view.show_costs(SceneCosts(snapshot.request, (), differences, complete.errors))
+    expected = Forecast(snapshot.frame.plan, 0.045, 0.0, is_measured=True)
+    view.show_forecast(snapshot.request, expected)
     points = (
         AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
         AccuracyPoint("integration", "closed form", 1e-4, 1e-14),
         AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
         AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0, effects=("vignetting",)),
-        AccuracyPoint("effects", "this plan", 1e-2, 0.5, current=True),
+        AccuracyPoint("effects", "this plan", 1e-2, 0.0, True, ("led-edges", "vignetting")),
         AccuracyPoint("path", "profile path", 1e-4, 0.4),
         AccuracyPoint("draft", "draft 1/16", 2e-3, 0.8),
         AccuracyPoint("noise", "reused plane", 2e-2, 0.01),

@@ -57,6 +57,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Lamp as Lamp,
         Limits as Limits,
         Match as Match,
+        MostBits as MostBits,
         PhotoTable as PhotoTable,
         Plan as Plan,
         Region as Region,
@@ -80,6 +81,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.study.bit_error_rate import bit_error_rate as bit_error_rate
     from occ_model.study.confidence import wilson_interval as wilson_interval
     from occ_model.study.limits import limits as limits
+    from occ_model.study.most_bits import most_bits as most_bits
     from occ_model.study.success_rate import success_rate as success_rate
     from occ_model.study.sweep.sweep import sweep as sweep
     from occ_model.transmitter.framings.framing import (
@@ -121,6 +123,7 @@ _MODULES = {
     "LineCode": "transmitter.line_codes.line_code",
     "Match": "results",
     "MatchError": "errors",
+    "MostBits": "results",
     "OccError": "errors",
     "OutputError": "errors",
     "ParameterError": "errors",
@@ -157,6 +160,7 @@ _MODULES = {
     "match_lamps": "photo.lamps.match",
     "match_photo": "photo.match",
     "match_photos": "photo.many.match_photos",
+    "most_bits": "study.most_bits",
     "on_time": "camera.exposure",
     "packet": "transmitter.packet",
     "panel_corners": "camera.projection",

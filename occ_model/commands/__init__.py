@@ -13,6 +13,7 @@ from occ_model.commands import (
     limits,
     listing,
     match,
+    most_bits,
     plan,
     render,
     sweep,
@@ -22,7 +23,8 @@ from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
 _COMMANDS = (
-    render, animate, plan, accuracy, sweep, limits, bench, decode, match, figures, codes, listing,
+    render, animate, plan, accuracy, sweep, limits, bench, most_bits, decode, match, figures,
+    codes, listing,
 )  # fmt: skip
 
 

@@ -20,6 +20,7 @@ from occ_model.results.frame import Frame
 from occ_model.results.lamp import Lamp
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.match import Alternative, ChipReading, Comparison, Match, Stripes
+from occ_model.results.most_bits import MostBits
 from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
@@ -47,6 +48,7 @@ __all__ = [
     "Location",
     "Match",
     "MeasuredCosts",
+    "MostBits",
     "PhotoRow",
     "PhotoTable",
     "Plan",

@@ -84,10 +84,13 @@ def undo_exposure(
     ndarray of float64, shape as ``light``
         At each column the light in the middle of its exposure.
     """
-    from skimage.restoration import wiener  # slow to import, and for this decoder alone
+    from scipy.fft import next_fast_len  # both slow to import, and for this decoder alone
+    from skimage.restoration import wiener
 
     mean = float(light.mean())
-    faded, margin = _faded(light - mean, math.ceil(_TAPER * exposure))
+    margin = math.ceil(_TAPER * exposure)
+    # A Fourier transform of a length with large prime factors takes many times as long.
+    faded = _faded(light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True))
     passed = response(exposure, len(faded))
     frequency = np.arange(len(passed)) / len(faded)
     if method == ZERO_FORCING:
@@ -103,10 +106,11 @@ def undo_exposure(
     return np.asarray(undone[margin : margin + len(light)] + mean, dtype=np.float64)
 
 
-def _faded(signal: FloatArray, margin: int) -> tuple[FloatArray, int]:
+def _faded(signal: FloatArray, margin: int, length: int) -> FloatArray:
     """Continue a signal beyond both ends, where it fades out: a spectrum repeats it endlessly."""
     fade = 0.5 - 0.5 * np.cos(np.pi * (np.arange(margin) + 0.5) / margin)
-    return np.concatenate([signal[0] * fade, signal, signal[-1] * fade[::-1]]), margin
+    rest = np.zeros(length - len(signal) - 2 * margin)
+    return np.concatenate([signal[0] * fade, signal, signal[-1] * fade[::-1], rest])
 
 
 def _noise_over_light(

@@ -59,9 +59,11 @@ def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
     # The first row shows one chip more than the state after it holds: the state before it does.
     features = np.pad(statistics.features, ((1, 0), (0, 0)))
     parts = _Parts.of(len(features), trellis.memory)
-    costs = _costs(trellis, parts.of_chips(features))
-    forward = _forward(trellis, costs)
-    both = _add_backward(trellis, costs, forward)
+    costs = _costs(trellis, features)
+    outside = np.where(costs[:1] < _NEVER, 0.0, _NEVER)
+    costs = np.concatenate([costs, outside])
+    forward = _forward(trellis, costs, parts)
+    both = _add_backward(trellis, costs, forward, parts)
     values, margins = _decided(trellis, both, parts)
     return Chips(statistics.first - trellis.memory, values, margins)
 
@@ -84,11 +86,11 @@ def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> F
     features = np.zeros((count, len(statistics), statistics[0].features.shape[1]))
     for place, one in enumerate(statistics):
         features[: len(one.features), place] = one.features
-    now = np.zeros((trellis.states, len(statistics)))
+    now = np.zeros((len(statistics), trellis.states))
     for cost in _costs(trellis, features):
-        now = np.add(now[trellis.before], cost).min(axis=0)
+        now = np.minimum.reduce(now.take(trellis.before, axis=1, mode="wrap") + cost, axis=1)
     energy = np.array([float(one.energy.sum()) for one in statistics])
-    return np.asarray(now.min(axis=0) + energy)
+    return np.asarray(now.min(axis=1) + energy)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -99,7 +101,7 @@ class _Parts:
     core: int
     overlap: int
     chips: IndexArray
-    """The chip of each step of each part, shape (steps, parts); outside there are none."""
+    """The chip of each step of each part, shape (steps, parts); outside it is ``count``."""
 
     @classmethod
     def of(cls, count: int, memory: int) -> Self:
@@ -109,12 +111,8 @@ class _Parts:
             return cls(count, count, 0, np.arange(count)[:, None])
         core = -(-count // parts)
         steps = np.arange(-overlap, core + overlap)
-        return cls(count, core, overlap, steps[:, None] + core * np.arange(parts))
-
-    def of_chips(self, features: FloatArray) -> FloatArray:
-        """Return the features of each step of each part; 0 where there are no rows."""
-        inside = (self.chips >= 0) & (self.chips < self.count)
-        return features[np.clip(self.chips, 0, self.count - 1)] * inside[..., None]
+        chips = steps[:, None] + core * np.arange(parts)
+        return cls(count, core, overlap, np.where((chips >= 0) & (chips < count), chips, count))
 
 
 def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
@@ -124,39 +122,58 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
     ----------
     trellis
         The code.
-    features : ndarray of float64, shape (chips, parts, features)
+    features : ndarray of float64, shape (chips, ..., features)
         What the rows say.
 
     Returns
     -------
-    ndarray of float64, shape (chips, steps, states, parts)
+    ndarray of float64, shape (chips, ..., steps, states)
     """
-    of_words = features_of(trellis.words).reshape(-1, features.shape[-1])
-    costs = of_words @ features.swapaxes(1, 2)
-    costs[:, (trellis.before == NO_STATE).ravel()] = _NEVER
-    return np.asarray(costs.reshape(len(costs), *trellis.before.shape, -1))
+    of_words = features @ features_of(trellis.words).T
+    costs = of_words.take(trellis.word_of, axis=-1)
+    costs[..., trellis.before == NO_STATE] = _NEVER
+    return np.asarray(costs)
 
 
-def _forward(trellis: Trellis, costs: FloatArray) -> FloatArray:
-    """Return the least distance of the ways to each state, shape (chips, states, parts)."""
-    least = np.empty((len(costs), trellis.states, costs.shape[-1]))
-    now, ways = np.zeros(least.shape[1:]), np.empty(costs.shape[1:])
-    for step, cost in enumerate(costs):
-        np.add(now.take(trellis.before, axis=0, out=ways, mode="wrap"), cost, out=ways)
-        now = np.minimum.reduce(ways, axis=0, out=least[step])
+def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts) -> FloatArray:
+    """Return the least distance of the ways to each state, shape (chips, parts, states).
+
+    Parameters
+    ----------
+    trellis
+        The code.
+    costs : ndarray of float64, shape (chips + 1, steps, states)
+        Those of the whole sequence, and of a chip that no row shows.
+    parts
+        The parts.
+    """
+    shape = (parts.chips.shape[1], *costs.shape[1:])
+    least = np.empty((len(parts.chips), shape[0], trellis.states))
+    now, ways, cost = np.zeros(least.shape[1:]), np.empty(shape), np.empty(shape)
+    for step, chips in enumerate(parts.chips):
+        costs.take(chips, axis=0, out=cost, mode="wrap")
+        now.take(trellis.before, axis=1, out=ways, mode="wrap")
+        ways += cost
+        now = np.minimum.reduce(ways, axis=1, out=least[step])
     return least
 
 
-def _add_backward(trellis: Trellis, costs: FloatArray, forward: FloatArray) -> FloatArray:
-    """Add the least distance of the ways on from each state, in place."""
-    now = np.zeros(forward.shape[1:])
-    ways = np.empty((costs.shape[1] * costs.shape[2] + 1, costs.shape[-1]))
-    ways[NO_STATE] = _NEVER
-    on, into = np.empty((*trellis.after.shape, costs.shape[-1])), ways[:-1].reshape(costs.shape[1:])
-    for step in range(len(costs) - 2, -1, -1):
-        np.add(costs[step + 1], now, out=into)
-        ways.take(trellis.after, axis=0, out=on, mode="wrap")
-        np.minimum.reduce(on, axis=0, out=now)
+def _add_backward(
+    trellis: Trellis, costs: FloatArray, forward: FloatArray, parts: _Parts
+) -> FloatArray:
+    """Add the least distance of the ways on from each state, in place; costs as before."""
+    steps, states = costs.shape[1:]
+    count = parts.chips.shape[1]
+    now = np.zeros((count, states))
+    ways = np.empty((count, steps * states + 1))
+    ways[:, NO_STATE] = _NEVER
+    on, into = np.empty((count, *trellis.after.shape)), np.empty((count, steps, states))
+    for step in range(len(parts.chips) - 2, -1, -1):
+        costs.take(parts.chips[step + 1], axis=0, out=into, mode="wrap")
+        into += now[:, None]
+        ways[:, :-1] = into.reshape(count, -1)
+        ways.take(trellis.after, axis=1, out=on, mode="wrap")
+        np.minimum.reduce(on, axis=1, out=now)
         forward[step] += now
     return forward
 
@@ -166,8 +183,8 @@ def _decided(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[Byt
 
     def margins(of_states: FloatArray, age: int) -> FloatArray:
         lit = trellis.chips[:, age] == 1
-        dark = of_states[..., ~lit, :].min(axis=-2)
-        return np.asarray(dark - of_states[..., lit, :].min(axis=-2))
+        dark = of_states[..., ~lit].min(axis=-1)
+        return np.asarray(dark - of_states[..., lit].min(axis=-1))
 
     inner = distance[parts.overlap : parts.overlap + parts.core]
     # The first state also holds the chips before its own.

@@ -47,8 +47,10 @@ class Trellis:
         The last chips, the latest first.
     before : ndarray of int64, shape (steps, states)
         The state that each step comes from.
-    words : ndarray of float64, shape (steps, states, memory + 1)
-        The chips of each step, the latest first.
+    words : ndarray of float64, shape (words, memory + 1)
+        The chips that a step can have, the latest first.
+    word_of : ndarray of int64, shape (steps, states)
+        The word of each step.
     after : ndarray of int64, shape (ways, states)
         The steps out of each state, as places in the flat ``before``.
     """
@@ -58,6 +60,7 @@ class Trellis:
     chips: ByteArray
     before: IndexArray
     words: FloatArray
+    word_of: IndexArray
     after: IndexArray
 
     @property
@@ -141,17 +144,19 @@ def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
             into[number[to, word[:memory]]].append((state, word))
     most = max(map(len, into))
     before = np.full((most, len(states)), NO_STATE)
-    words_of = np.zeros((most, len(states), memory + 1))
+    words_of = np.zeros((most * len(states), memory + 1))
     for state, found in enumerate(into):
         for step, (origin, word) in enumerate(found):
             before[step, state] = origin
-            words_of[step, state] = word
+            words_of[step * len(states) + state] = word
+    different, word_of = np.unique(words_of, axis=0, return_inverse=True)
     return Trellis(
         memory,
         np.array([place for place, _ in states]),
         np.array([chips for _, chips in states], dtype=np.uint8).reshape(len(states), memory),
         before,
-        words_of,
+        different,
+        word_of.reshape(before.shape),
         _steps_out(before),
     )
 

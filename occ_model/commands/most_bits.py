@@ -1,0 +1,81 @@
+"""The command ``occ-model most-bits``: which code, frequency and number of bits carry most."""
+
+import argparse
+
+from occ_model.commands.options import Commands, add_scene_options, number, scene_of, whole_number
+from occ_model.commands.progress_bar import progress_bar
+from occ_model.program import EXIT_FAILURE
+from occ_model.receiver.decoders import decoders
+from occ_model.results import MostBits
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.scene.parameters import quantity
+from occ_model.scene.units import HERTZ, SECOND
+from occ_model.study import theory
+from occ_model.study.most_bits import most_bits
+
+_BAR = "{desc}: {n_fmt} of {total_fmt} combinations tried, {elapsed}"
+
+_DEFAULT = ("threshold", "equalizer", "sequence")
+"""The decoders that read payloads of any length."""
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser(
+        "most-bits", help="find the code, frequency and number of bits that carry most"
+    )
+    add_scene_options(parser)
+    parser.add_argument(
+        "--decoder", action="append", choices=decoders(),
+        help=f"may be repeated; default: {', '.join(_DEFAULT)}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--fps", type=number, default=FRAMES_A_SECOND,
+        help="pictures a second, one payload each; default: %(default)g",
+    )  # fmt: skip
+    parser.add_argument(
+        "--pictures", type=whole_number, default=10,
+        help="of which every bit must be read; default: %(default)s",
+    )  # fmt: skip
+    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    scene = scene_of(options)
+    names = tuple(dict.fromkeys(options.decoder or _DEFAULT))
+    with progress_bar(total=1, bar_format=_BAR, leave=False, delay=0.5) as bar:
+
+        def show(decoder: str, done: int, of: int) -> None:
+            bar.set_description_str(decoder, refresh=False)
+            bar.total = of
+            bar.update(done - bar.n)
+
+        found = most_bits(
+            scene, names, frames_a_second=options.fps, pictures=options.pictures,
+            seed=options.seed, progress=show,
+        )  # fmt: skip
+    exposure = SECOND.format(scene.camera.exposure_time)
+    distance = quantity("distance").format(scene.pose.distance)
+    print(f"At an exposure of {exposure} and {distance}, {options.fps:g} pictures a second:")
+    for one in found:
+        print(f"  {_sentence(one)}")
+    null = HERTZ.format(theory.null_frequency(scene), 4)
+    rows = HERTZ.format(2.0 * theory.row_rate_frequency(scene), 4)
+    print(
+        f"By theory an alternating pattern has no stripes at {null}, and from {rows} on a chip is "
+        "shorter than a column."
+    )
+    return 0 if all(one.scene for one in found) else EXIT_FAILURE
+
+
+def _sentence(found: MostBits) -> str:
+    if found.scene is None:
+        return f"{found.decoder}: {found.failure}"
+    sent = found.scene.transmitter
+    frequency = HERTZ.format(sent.switching_frequency, 3)
+    return (
+        f"{found.decoder}: {found.bits_a_second:,.0f} bits a second, {sent.payload_length} bits a "
+        f"picture in {sent.line_code} at {frequency}; every bit of {found.pictures} pictures was "
+        f"read, and none of {found.tried} combinations that carry as much or more."
+    )

@@ -1,0 +1,182 @@
+"""Search for the line code, switching frequency and payload that carry most bits a second.
+
+A picture shows some chips of the panel. For each line code and frequency, payloads are tried that
+fill them, or half or a quarter of them: more repetitions make up for noise. The combinations are
+tried in order of the bits that they would carry. So the first one that is read is the best of them.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.camera.projection import panel_corners
+from occ_model.effects.paper_view import region_of
+from occ_model.errors import ParameterError
+from occ_model.parallel.job import Heartbeat
+from occ_model.receiver.decoders import decoder_named
+from occ_model.results import MostBits, RateSettings
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.scene.argument_checks import check_count, check_seed
+from occ_model.scene.parameters import quantity
+from occ_model.scene.payload import MAX_PAYLOAD_BITS
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.study.bit_error_rate import check_frame_rate, with_payload
+from occ_model.study.success_rate import right_bits_of_images
+from occ_model.transmitter.line_codes.registry import line_code_named
+from occ_model.transmitter.scheme import scheme_of
+
+LINE_CODES = ("manchester", "4b6b", "8b10b")
+"""The line codes that are tried: of those as short, only the better known."""
+
+_FRAMING = "preamble"
+
+_STEP = 1.15
+"""Ratio of neighbouring frequencies."""
+
+_FILLED = (0.95, 0.5, 0.25)
+"""Shares of the chips that a picture shows which one period of a payload takes."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    line_code: str
+    frequency: float
+    bits: int
+
+
+def most_bits(
+    scene: Scene,
+    decoders: Sequence[str],
+    *,
+    frames_a_second: float = FRAMES_A_SECOND,
+    pictures: int = 10,
+    seed: int = 1,
+    heartbeat: Heartbeat = lambda: None,
+    progress: Callable[[str, int, int], object] = lambda _decoder, _done, _all: None,
+) -> tuple[MostBits, ...]:
+    """Find what carries most at a scene's exposure and distance.
+
+    Parameters
+    ----------
+    scene
+        The scene; its scheme, payload and switching frequency are varied.
+    decoders
+        The decoders' names.
+    frames_a_second
+        Pictures a second, each of which shows another payload.
+    pictures
+        Pictures that all bits must be read of.
+    seed
+        Seed of payloads, start times and noise.
+    heartbeat
+        Called before each picture; what it raises ends the search.
+    progress
+        Called with a decoder, the number of combinations tried with it, and of all of them.
+
+    Returns
+    -------
+    tuple of MostBits
+        One a decoder.
+
+    Raises
+    ------
+    ParameterError
+        An argument is not allowed.
+    ProjectionError
+        The scene has no picture.
+    """
+    check_scene(scene)
+    check_count("pictures", pictures, 1, 10_000)
+    check_seed(seed)
+    check_frame_rate(scene, frames_a_second)
+    for name in decoders:
+        decoder_named(name)
+    candidates = _candidates(scene)
+    found = []
+    for name in decoders:
+        settings = RateSettings(1, (name,), seed)
+        place, sent = _first_read(scene, candidates, settings, pictures, (heartbeat, progress))
+        bits = 0 if sent is None else candidates[place].bits
+        failure = None if sent is not None else _why(candidates)
+        found.append(
+            MostBits(name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure)
+        )
+    return tuple(found)
+
+
+def _why(candidates: Sequence[_Candidate]) -> str:
+    if not candidates:
+        return "The picture shows too few chips of the panel for any payload; come closer."
+    return f"None of {len(candidates)} combinations of line code, frequency and bits was read."
+
+
+def _candidates(scene: Scene) -> list[_Candidate]:
+    """Return what is tried, what carries most first; of equals the slowest first."""
+    camera = scene.camera
+    region = region_of(panel_corners(scene), camera.rows, camera.columns)
+    seen = 0.0 if region is None else region.columns * camera.readout_time
+    found = {
+        _Candidate(line_code, frequency, bits)
+        for line_code in LINE_CODES
+        for frequency in _frequencies(scene)
+        for filled in _FILLED
+        if (bits := _bits_in(line_code, filled * seen * frequency)) > 0
+    }
+    return sorted(found, key=lambda one: (-one.bits, one.frequency, one.line_code))
+
+
+def _frequencies(scene: Scene) -> list[float]:
+    """Return switching frequencies up to one chip a column."""
+    low = quantity("switching_frequency").slider[0]
+    high = 1.0 / scene.camera.readout_time
+    count = max(1, int(np.log(high / low) / np.log(_STEP)))
+    return [low * _STEP**place for place in range(count + 1)]
+
+
+def _bits_in(line_code: str, chips: float) -> int:
+    """Return the bits of the longest payload that takes at most so many chips."""
+    code = line_code_named(line_code)
+    overhead = scheme_of(_sending(Scene(), line_code, 1, 1e3).transmitter).length
+    blocks = int((chips - overhead) // code.block_chips)
+    return min(MAX_PAYLOAD_BITS, max(0, blocks) * code.block_bits)
+
+
+def _sending(scene: Scene, line_code: str, bits: int, frequency: float) -> Scene:
+    return scene.replace(
+        pattern="", line_code=line_code, framing=_FRAMING, preamble="", error_correction="none",
+        payload="bits:" + "0" * bits, switching_frequency=frequency,
+    )  # fmt: skip
+
+
+def _first_read(
+    scene: Scene,
+    candidates: Sequence[_Candidate],
+    settings: RateSettings,
+    pictures: int,
+    calls: tuple[Heartbeat, Callable[[str, int, int], object]],
+) -> tuple[int, Scene | None]:
+    heartbeat, progress = calls
+    (decoder,) = settings.decoders
+    for place, one in enumerate(candidates):
+        progress(decoder, place, len(candidates))
+        try:
+            sent = _sending(scene, one.line_code, one.bits, one.frequency)
+        except ParameterError:  # a frequency beyond what is allowed
+            continue
+        if all(_read(sent, settings, pictures, heartbeat)):
+            return place, sent
+    return len(candidates), None
+
+
+def _read(
+    sent: Scene, settings: RateSettings, pictures: int, heartbeat: Heartbeat
+) -> Iterator[bool]:
+    """Yield whether all bits of each picture are right."""
+    length = sent.transmitter.payload_length
+    random = np.random.default_rng(settings.seed)
+    for _ in range(pictures):
+        scene = with_payload(sent, random.integers(0, 2, length).tolist())
+        own = RateSettings(1, settings.decoders, int(random.integers(2**32)))
+        ((right,),) = right_bits_of_images(scene, own, heartbeat)
+        yield right == length

@@ -1,0 +1,53 @@
+"""The scheme that carries most is read, and what carries more is not."""
+
+import pytest
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.errors import ParameterError
+from occ_model.study.most_bits import _candidates
+
+FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
+
+
+def test_what_carries_most_is_tried_first() -> None:
+    bits = [one.bits for one in _candidates(FAR)]
+    assert bits == sorted(bits, reverse=True)
+    assert len(bits) > 50
+
+
+def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
+    (found,) = occ.most_bits(FAR, ("threshold",), frames_a_second=20.0, pictures=3)
+    assert found.scene is not None
+    length = found.scene.transmitter.payload_length
+    assert found.bits_a_second == 20.0 * length
+    assert found.scene.camera == FAR.camera
+    assert occ.bit_error_rate(found.scene, "threshold", 3 * length).rate < 0.5
+
+
+def test_more_bits_are_not_read() -> None:
+    (found,) = occ.most_bits(FAR, ("threshold",), pictures=2)
+    (strict,) = occ.most_bits(FAR, ("threshold",), pictures=6)
+    assert strict.bits_a_second <= found.bits_a_second
+    assert strict.tried >= found.tried
+
+
+def test_a_panel_too_far_away_carries_nothing() -> None:
+    (found,) = occ.most_bits(FAR.replace(distance=2000.0), ("threshold",), pictures=1)
+    assert found.scene is None
+    assert found.bits_a_second == 0.0
+    assert "come closer" in (found.failure or "")
+
+
+def test_a_video_faster_than_the_readout_is_refused() -> None:
+    with pytest.raises(ParameterError, match="frames_a_second is 100"):
+        occ.most_bits(FAR, ("threshold",), frames_a_second=100.0)
+
+
+def test_the_command_says_what_carries_most(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--set", "rows=60", "--set", "distance=3", "--set", "enhancement=none"]
+    assert main(["most-bits", *words, "--decoder", "threshold", "--pictures", "2"]) == 0
+    head, found, theory = capsys.readouterr().out.splitlines()
+    assert "30 pictures a second" in head
+    assert "bits a second" in found
+    assert "29.41 kHz" in theory

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands, number, whole_number
+from occ_model.commands.options import Commands, decoder_name, number, whole_number
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import decoders
@@ -24,7 +24,7 @@ def add_to(commands: Commands) -> None:
         help=f"may be repeated; default: {_OWN.schemes[0]}",
     )  # fmt: skip
     parser.add_argument(
-        "--decoder", action="append", choices=decoders(), help="may be repeated; default: all"
+        "--decoder", action="append", type=decoder_name, help="may be repeated; default: all"
     )
     parser.add_argument(
         "--exposure", action="append", type=number, metavar="SYMBOLS",

@@ -11,7 +11,7 @@ from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
+from occ_model.receiver.decoders import PAPER_DECODER, QUICK_DECODERS
 from occ_model.results import SweepRequest, SweepTable
 from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS
 from occ_model.scene.argument_checks import check_count, check_seed
@@ -96,7 +96,7 @@ def _progress_of(bar: Any) -> Progress:
 def _requests(options: argparse.Namespace) -> dict[str, SweepRequest]:
     """Request the sweep of each preset."""
     return {
-        preset: grid_request(preset, tuple(DECODERS), options.images, options.seed)
+        preset: grid_request(preset, QUICK_DECODERS, options.images, options.seed)
         for presets in DEVICES.values()
         for preset in presets
     }

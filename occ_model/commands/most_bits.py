@@ -2,10 +2,16 @@
 
 import argparse
 
-from occ_model.commands.options import Commands, add_scene_options, number, scene_of, whole_number
+from occ_model.commands.options import (
+    Commands,
+    add_scene_options,
+    decoder_name,
+    number,
+    scene_of,
+    whole_number,
+)
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
-from occ_model.receiver.decoders import decoders
 from occ_model.results import MostBits
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.parameters import quantity
@@ -26,7 +32,7 @@ def add_to(commands: Commands) -> None:
     )
     add_scene_options(parser)
     parser.add_argument(
-        "--decoder", action="append", choices=decoders(),
+        "--decoder", action="append", type=decoder_name,
         help=f"may be repeated; default: {', '.join(_DEFAULT)}",
     )  # fmt: skip
     parser.add_argument(

@@ -23,7 +23,7 @@ from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.program import EXIT_INTERRUPTED
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
+from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
 from occ_model.results import RateSettings, SweepRequest, SweepTable
 from occ_model.results.sweep_request import MOST_JOBS, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count
@@ -31,7 +31,7 @@ from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.request_check import checked_request
 from occ_model.study.sweep.sweep import run_sweep
 
-BOTH = "both"
+BOTH, ALL = "both", "all"
 
 PLOT_ENDINGS = (".png", ".pdf", ".svg")
 """The endings of the files that a plot is written to."""
@@ -55,8 +55,9 @@ def add_to(commands: Commands) -> None:
     )
     parser.add_argument(
         "--decoder", action="append", type=_decoder_or_all,
-        help=f"one of {', '.join(DECODERS)} or a plug-in's; may be repeated; {BOTH}: all but "
-        f"plug-ins; default: {PAPER_DECODER}",
+        help=f"one of {', '.join(DECODERS)} or a plug-in's; may be repeated; "
+        f"{BOTH}: {' and '.join(QUICK_DECODERS)}; {ALL}: all but plug-ins; default: "
+        f"{PAPER_DECODER}",
     )  # fmt: skip
     parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.add_argument(
@@ -126,11 +127,13 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _decoder_or_all(text: str) -> str:
-    return text if text == BOTH else decoder_name(text)
+    return text if text in (BOTH, ALL) else decoder_name(text)
 
 
 def _decoders(names: Sequence[str]) -> tuple[str, ...]:
-    return tuple(DECODERS) if BOTH in names else tuple(dict.fromkeys(names))
+    if ALL in names:
+        return tuple(DECODERS)
+    return QUICK_DECODERS if BOTH in names else tuple(dict.fromkeys(names))
 
 
 def _check_plot(path: Path, axes: int) -> None:

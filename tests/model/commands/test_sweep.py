@@ -14,9 +14,11 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands import cluster
+from occ_model.commands.sweep import _decoders
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
 from occ_model.figures.sweep import write_sweep_figure
+from occ_model.receiver.decoders import DECODERS
 
 VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.8m,120cm")
 
@@ -283,3 +285,9 @@ def test_a_number_of_too_many_digits_is_refused_in_short(
     assert last.startswith("occ-model sweep: error: argument --images: '999")
     assert last.endswith(" is not a whole number")
     assert len(last) < 1100
+
+
+def test_both_are_the_quick_decoders_and_all_every_one() -> None:
+    assert _decoders(["both"]) == ("threshold", "matched")
+    assert _decoders(["sequence", "all"]) == tuple(DECODERS)
+    assert _decoders(["sequence", "matched", "sequence"]) == ("sequence", "matched")

@@ -64,6 +64,7 @@ class StoryView(QWidget):
         self._pages = QStackedWidget()
         for page in (self.rows, picture):
             self._pages.addWidget(page)
+        self._size_by_page()
         line = QHBoxLayout()
         line.setContentsMargins(0, 0, 0, 0)
         line.addSpacing(4)
@@ -121,6 +122,14 @@ class StoryView(QWidget):
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.whole.clicked.connect(self.show_whole_picture)
 
+    def _size_by_page(self) -> None:
+        """Let only the page that is shown need space."""
+        kinds = QSizePolicy.Policy
+        for place in range(self._pages.count()):
+            page = self._pages.widget(place)
+            kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
+            page.setSizePolicy(kind, kind)
+
     @property
     def shows_whole_picture(self) -> bool:
         """Whether the whole picture is shown in place of the rows."""
@@ -130,6 +139,7 @@ class StoryView(QWidget):
         """Show the whole picture in place of the rows, or the rows again."""
         self.whole.setChecked(shown)
         self._pages.setCurrentWidget(self._picture if shown else self.rows)
+        self._size_by_page()
         self.whole.setText(self.tr("Back to the rows") if shown else self.tr("Whole picture"))
         self.readout.setVisible(not shown)
 

@@ -29,14 +29,16 @@ def checked(view: StoryView) -> list[str]:
 def test_only_the_page_that_is_shown_needs_space(view: StoryView) -> None:
     rows = view.minimumSizeHint().height()
     view.show_whole_picture(True)
+    QApplication.processEvents()
     assert view.minimumSizeHint().height() < rows - view.rows.code.height()
     view.show_whole_picture(False)
+    QApplication.processEvents()
     assert view.minimumSizeHint().height() == rows
 
 
 def test_it_fits_beside_other_panes_of_a_small_window(view: StoryView) -> None:
     least = view.minimumSizeHint()
-    assert least.width() <= 400
+    assert least.width() <= 460
     assert least.height() <= 400
     view.resize(least)
     QApplication.processEvents()
@@ -49,7 +51,7 @@ def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     packets = view.rows.axis.span
     view.ranges["panel"].click()
     assert checked(view) == ["panel"]
-    assert view.rows.axis.span > 2 * packets
+    assert view.rows.axis.span > 1.5 * packets
     view.rows.axis.zoom(0.5, 1500.0)
     assert checked(view) == []
     view.fit()

@@ -14,6 +14,18 @@ _CELL = 24
 _GAP = 3
 _LABEL = 66
 
+_NARROWEST = 9.0
+"""Pixels of a cell below which a digit does not fit."""
+
+_BAR = 3
+"""Pixels of a bar and the gap beside it."""
+
+_OVER = 2
+"""Pixels by which a bar of wrong bits is longer than its row at either end."""
+
+_MOST_DIGITS = 64
+"""Bits up to which the tool tip writes them out."""
+
 _FADED = 0.35
 """Opacity of bits that are not of the present scene."""
 
@@ -25,7 +37,9 @@ class BitStrip(QWidget):
     """Two rows of cells, the sent bits over the received ones.
 
     A right bit is a filled square; a wrong one is larger by its thick frame, crossed out, and
-    orange; one that was not received is a dashed outline.
+    orange; one that was not received is a dashed outline. Where there is no room for a digit, bars
+    stand for one bit or more: as high as their share of ones; higher than the row, and orange,
+    where one of them is wrong.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -49,10 +63,15 @@ class BitStrip(QWidget):
 
     def _describe(self) -> None:
         wrong = self.wrong_places()
-        sent_text, received_text = ("".join(map(str, b)) for b in (self._sent, self._received))
-        text = self.tr("sent {sent}, received {received}, {wrong} wrong").format(
-            sent=sent_text, received=received_text or self.tr("nothing"), wrong=len(wrong)
-        )
+        if len(self._sent) > _MOST_DIGITS:
+            text = self.tr("sent {sent} bits, received {received}, {wrong} wrong").format(
+                sent=len(self._sent), received=len(self._received), wrong=len(wrong)
+            )
+        else:
+            sent_text, received_text = ("".join(map(str, b)) for b in (self._sent, self._received))
+            text = self.tr("sent {sent}, received {received}, {wrong} wrong").format(
+                sent=sent_text, received=received_text or self.tr("nothing"), wrong=len(wrong)
+            )
         if not self.isEnabled():
             text = self.tr("earlier scene: {text}").format(text=text)
         self.setAccessibleDescription(text)
@@ -85,12 +104,34 @@ class BitStrip(QWidget):
             top = _GAP + row * (_CELL + _GAP)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
             painter.drawText(QRectF(0, top, _LABEL, _CELL), Qt.AlignmentFlag.AlignVCenter, label)
+            if width < _NARROWEST:
+                self._draw_bars(painter, top, bits, wrong if row == 1 else set())
+                continue
             for place in range(len(self._sent)):
                 cell = QRectF(_LABEL + place * (width + _GAP), top, width, _CELL)
                 if place >= len(bits):
                     self._draw_missing(painter, cell)
                 else:
                     self._draw_bit(painter, cell, bits[place], row == 1 and place in wrong)
+
+    def _draw_bars(
+        self, painter: QPainter, top: float, bits: Sequence[int], wrong: set[int]
+    ) -> None:
+        """Draw a row of bars, each of which stands for as many bits as it has no room for."""
+        span = self.width() - _LABEL - _GAP
+        count = len(self._sent)
+        bars = max(1, min(count, span // _BAR))
+        for bar in range(bars):
+            first, last = bar * count // bars, (bar + 1) * count // bars
+            cell = QRectF(_LABEL + bar * span / bars, top, span / bars - 1.0, _CELL)
+            part = bits[first:last]
+            if not part:
+                painter.fillRect(cell.adjusted(0, _CELL - 1, 0, 0), self.palette().mid())
+            elif wrong.isdisjoint(range(first, last)):
+                height = max(1.0, _CELL * sum(part) / len(part))
+                painter.fillRect(cell.adjusted(0, _CELL - height, 0, 0), _RIGHT)
+            else:
+                painter.fillRect(cell.adjusted(0, -_OVER, 0, _OVER), _WRONG)
 
     def _draw_missing(self, painter: QPainter, cell: QRectF) -> None:
         painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Mid), 1, Qt.PenStyle.DashLine))

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
+from occ_gui.decoding.payload_text import PayloadText
 from occ_gui.decoding.verdict import is_right, result_of, verdict_on
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.state_look import State
@@ -46,6 +47,7 @@ class DecodeView(QWidget):
         self.origin.setWordWrap(True)
         self.origin.setTextFormat(Qt.TextFormat.PlainText)
         self.origin.setAccessibleName(self.tr("What the code was read from"))
+        self.payload = PayloadText()
         self.strip = BitStrip()
         self.reason = QLabel()
         self.reason.setWordWrap(True)
@@ -61,7 +63,8 @@ class DecodeView(QWidget):
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)
         for widget in (
-            self.decoders, self.verdict, self.origin, self.strip, self.reason, self.left_out,
+            self.decoders, self.verdict, self.origin, self.payload, self.strip, self.reason,
+            self.left_out,
         ):  # fmt: skip
             layout.addWidget(widget)
         layout.addLayout(self._make_form())
@@ -69,7 +72,7 @@ class DecodeView(QWidget):
         layout.addWidget(self.run_lengths, 1)
         layout.addStretch()
         # Before the first result these are empty.
-        empty = (self.origin, self.strip, self.reason, self.left_out)
+        empty = (self.origin, self.payload, self.strip, self.reason, self.left_out)
         for part in (*empty, self.signal, self.run_lengths):
             part.hide()
         for step in self._steps.values():
@@ -164,7 +167,9 @@ class DecodeView(QWidget):
         if reading is None:
             return
         decoded = self._chosen(reading)
-        self.strip.show_bits(reading.sent, decoded.bits.tolist())
+        bits = decoded.bits.tolist()
+        self.payload.show_payload(reading.request.scene.transmitter.payload, bits)
+        self.strip.show_bits(reading.sent, bits)
         self.verdict.setText(self._verdict(decoded))
         self.origin.setText(self._origin(reading))
         self.reason.setText(decoded.failure or "")

@@ -8,7 +8,11 @@ from PySide6.QtCore import QCoreApplication
 
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.state_look import State
+from occ_model.errors import one_line
 from occ_model.results import DecodeResult
+
+_LONGEST_PAYLOAD = 24
+"""Characters of a payload that a title shows."""
 
 _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
@@ -71,6 +75,13 @@ def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
 
 
+def what_was_read(decoded: DecodeResult) -> str:
+    """Name the code or the payload that a decoder read, as the start of a sentence."""
+    if decoded.payload:
+        return _tr("“{payload}”").format(payload=one_line(decoded.payload, _LONGEST_PAYLOAD))
+    return _tr("Code {code}").format(code=decoded.code)
+
+
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
     """Compare what a decoder read with the bits sent; these are empty for a raw pattern."""
     if not sent:
@@ -81,11 +92,11 @@ def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
     if decoded.code is None:
         return Verdict(State.BAD, _tr("No code read"), decoded.failure or "")
     if is_right(decoded, sent):
-        title = _tr("Code {code} read, all bits right").format(code=decoded.code)
+        title = _tr("{what} read, all bits right").format(what=what_was_read(decoded))
         return Verdict(State.GOOD, title)
     wrong = len(wrong_places(sent, decoded.bits.tolist()))
-    title = _tr("Code {code} read, {wrong} of {bits} bits wrong").format(
-        code=decoded.code, wrong=wrong, bits=len(sent)
+    title = _tr("{what} read, {wrong} of {bits} bits wrong").format(
+        what=what_was_read(decoded), wrong=wrong, bits=len(sent)
     )
     return Verdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)
 

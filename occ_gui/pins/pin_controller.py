@@ -12,11 +12,15 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.errors import one_line
 from occ_model.results import DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE
+
+_LONGEST_PAYLOAD = 24
+"""Characters of a payload that the table shows."""
 
 _ALL_DIGITS = 17
 
@@ -201,6 +205,9 @@ class PinController(QObject):
             return result.failure or self.tr("no code read")
         right = tuple(result.bits.tolist()) == snapshot.sent
         verdict = self.tr("right") if right else self.tr("wrong")
+        if result.payload:
+            payload = one_line(result.payload, _LONGEST_PAYLOAD)
+            return self.tr("“{payload}”, {verdict}").format(payload=payload, verdict=verdict)
         return self.tr("code {code}, {verdict}").format(code=result.code, verdict=verdict)
 
 

@@ -4,7 +4,8 @@ The word before the colon says how the payload is written, and how one that is r
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 from occ_model.errors import shown
@@ -90,3 +91,48 @@ def payload_of_bits(bits: Sequence[int], form: str) -> str:
 def form_of(payload: str) -> str:
     """Return how a payload is written: ``text``, ``hex`` or ``bits``."""
     return payload.partition(":")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A letter of a text or a byte in hex, as sent and as received.
+
+    Parameters
+    ----------
+    sent, received
+        How it is written; ``received`` is empty where its bits were not received.
+    is_right
+        Whether all its bits are those sent.
+    """
+
+    sent: str
+    received: str
+    is_right: bool
+
+
+def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
+    """Compare a payload with the bits received, letter by letter or byte by byte.
+
+    Returns
+    -------
+    tuple of Piece
+        Empty for a payload that is written as bits, or none.
+    """
+    if form_of(payload) not in ("text", "hex"):
+        return ()
+    bits, pieces, start = bits_of_payload(payload), [], 0
+    for letter in _letters(payload):
+        end = start + 8 * (len(letter.encode()) if form_of(payload) == "text" else 1)
+        seen = tuple(received[start:end])
+        written = payload_of_bits(seen, form_of(payload)) if len(seen) == end - start else ""
+        shown_letter = payload_of_bits(bits[start:end], form_of(payload))
+        pieces.append(Piece(shown_letter, written, seen == bits[start:end]))
+        start = end
+    return tuple(pieces)
+
+
+def _letters(payload: str) -> Iterator[str]:
+    """Return the letters of a text, or the bytes of hex digits."""
+    form, _, content = payload.partition(":")
+    step = 2 if form == "hex" else 1
+    return (content[place : place + step] for place in range(0, len(content), step))

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 from occ_model.errors import ParameterError, shown
-from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Quantity
+from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Payload, Quantity
 from occ_model.scene.parameters.camera import CAMERA, LENS, SENSOR
 from occ_model.scene.parameters.light import SURROUNDINGS, TRANSMITTER
 from occ_model.scene.parameters.pose_receiver_model import MODEL, POSE, RECEIVER
@@ -73,4 +73,18 @@ def open_choice(name: str) -> OpenChoice:
     declared = PARAMETERS[name]
     if not isinstance(declared, OpenChoice):
         raise TypeError(f"{name} is no choice that plug-ins extend")
+    return declared
+
+
+def payload_parameter() -> Payload:
+    """Return the declaration of the payload.
+
+    Raises
+    ------
+    TypeError
+        It is of another kind.
+    """
+    declared = PARAMETERS["payload"]
+    if not isinstance(declared, Payload):
+        raise TypeError("payload is no payload")
     return declared

@@ -133,3 +133,24 @@ def test_who_cannot_see_the_strip_can_read_it(strip: BitStrip) -> None:
     assert strip.accessibleDescription() == "sent 101, received nothing, 0 wrong"
     assert strip.toolTip() == strip.accessibleDescription()
     assert strip.accessibleName()
+
+
+@pytest.mark.parametrize("count", [40, 400, 4096])
+@pytest.mark.parametrize("wrong", [0, 17, 39])
+def test_one_wrong_bit_among_many_is_seen_in_grey_print(
+    picture: Picture, count: int, wrong: int
+) -> None:
+    sent = (np.arange(count) % 3 % 2).tolist()
+    received = list(sent)
+    received[wrong] ^= 1
+    assert changed_pixels(picture(sent, sent), picture(sent, received)) >= 4
+
+
+def test_bits_that_are_missing_at_the_end_leave_their_bars_out(picture: Picture) -> None:
+    sent = [1] * 400
+    assert changed_pixels(picture(sent, sent), picture(sent, sent[:200])) > 400
+
+
+def test_many_bits_are_counted_in_the_tool_tip(strip: BitStrip) -> None:
+    strip.show_bits([0] * 400, [0] * 100 + [1])
+    assert strip.toolTip() == "sent 400 bits, received 101, 1 wrong"

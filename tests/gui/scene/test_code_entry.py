@@ -117,3 +117,43 @@ def test_equal_bits_written_with_spaces_are_shown_without(bench: Bench) -> None:
     assert bench.codes == []
     assert bench.refused == []
     assert bench.shown() == (718, "1011001110")
+
+
+def test_a_payload_is_entered_in_the_field_of_the_bits(bench: Bench) -> None:
+    bench.enter_bits("text:HI")
+    assert bench.store.scene.transmitter.payload == "text:HI"
+    assert bench.shown() == (718, "text:HI")
+    assert not bench.entry.number.isEnabled()
+    assert bench.refused == []
+
+
+def test_the_emptied_field_sends_the_code_again(bench: Bench) -> None:
+    bench.enter_bits("hex:0F")
+    assert bench.shown()[1] == "hex:0f"
+    bench.enter_bits("")
+    assert bench.store.scene.transmitter.payload == ""
+    assert bench.shown() == (718, "1011001110")
+    assert bench.entry.number.isEnabled()
+
+
+def test_bits_end_a_payload(bench: Bench) -> None:
+    bench.enter_bits("text:HI")
+    bench.enter_bits("0000000001")
+    assert bench.store.scene.transmitter.payload == ""
+    assert bench.store.scene.transmitter.code == 1
+    assert bench.shown() == (1, "0000000001")
+
+
+def test_a_payload_that_is_none_is_refused_and_the_code_stays(bench: Bench) -> None:
+    bench.enter_bits("text:")
+    assert bench.store.scene.transmitter.payload == ""
+    assert bench.shown() == (718, "1011001110")
+    assert len(bench.refused) == 1
+    assert "payload has 0 bits" in bench.refused[0]
+
+
+def test_a_payload_from_elsewhere_is_shown_and_undone(bench: Bench) -> None:
+    bench.store.change(-1, payload="bits:01")
+    assert bench.shown() == (718, "bits:01")
+    bench.store.undo_stack.undo()
+    assert bench.shown() == (718, "1011001110")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from payloads import PAYLOADS
 
 import occ_model as occ
@@ -10,6 +11,7 @@ from occ_model.scene.payload import (
     MAX_PAYLOAD_BITS,
     bits_of_payload,
     canonical,
+    compared,
     form_of,
     payload_of_bits,
 )
@@ -102,3 +104,24 @@ def test_a_text_is_sent_and_read_from_the_picture() -> None:
 
 def test_form_of_names_the_form() -> None:
     assert [form_of(text) for text in ("text:a", "hex:00", "bits:1")] == ["text", "hex", "bits"]
+
+
+@given(payload=PAYLOADS.filter(lambda text: text.startswith(("text:", "hex:"))))
+def test_what_was_received_rightly_compares_right_throughout(payload: str) -> None:
+    pieces = compared(payload, bits_of_payload(payload))
+    assert all(piece.is_right and piece.sent == piece.received for piece in pieces)
+    assert "".join(piece.sent for piece in pieces) == payload_of_bits(
+        bits_of_payload(payload), form_of(payload)
+    )
+
+
+@given(payload=PAYLOADS.filter(lambda text: text.startswith("text:")), data=st.data())
+def test_one_wrong_bit_makes_one_wrong_letter(payload: str, data: st.DataObject) -> None:
+    bits = list(bits_of_payload(payload))
+    bits[data.draw(st.integers(0, len(bits) - 1))] ^= 1
+    assert sum(not piece.is_right for piece in compared(payload, bits)) == 1
+
+
+def test_bits_have_no_letters_to_compare() -> None:
+    assert compared("bits:0101", [0, 1, 0, 1]) == ()
+    assert compared("", [0, 1]) == ()

@@ -1,0 +1,64 @@
+"""A payload as text or hex digits: sent, and received with the wrong letters crossed out."""
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QWidget
+
+from occ_model import colours
+from occ_model.scene.payload import Piece, compared
+
+_MOST = 120
+"""Letters that are shown; the bits of the others are in the strip of bits."""
+
+_MISSING = "·"
+"""In place of a letter that was not received."""
+
+
+class PayloadText(QLabel):
+    """Two lines: the payload sent, and what was received of it."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWordWrap(True)
+        self.setTextFormat(Qt.TextFormat.RichText)
+        self.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.setAccessibleName(self.tr("Sent and received payload"))
+
+    def show_payload(self, payload: str, received: Sequence[int]) -> None:
+        """Show a payload and the bits received of it; nothing where it is written as bits."""
+        pieces = compared(payload, received)
+        self.setVisible(bool(pieces))
+        if not pieces:
+            return
+        sent = _shortened("".join(piece.sent for piece in pieces))
+        wrong = sum(not piece.is_right for piece in pieces)
+        self.setText(
+            self.tr("sent <b>{sent}</b><br>received <b>{received}</b>").format(
+                sent=escape(sent), received=_marked(pieces)
+            )
+        )
+        self.setAccessibleDescription(
+            self.tr("sent {sent}, received {received}, {wrong} wrong").format(
+                sent=sent,
+                received=_shortened("".join(piece.received or _MISSING for piece in pieces)),
+                wrong=wrong,
+            )
+        )
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _MOST else f"{text[: _MOST - 1]}…"
+
+
+def _marked(pieces: Iterable[Piece]) -> str:
+    """Write what was received, with wrong letters crossed out in the colour of what is wrong."""
+    marked, letters = "", 0
+    for piece in pieces:
+        letters += len(piece.sent)
+        if letters > _MOST:
+            return f"{marked}…"
+        text = escape(piece.received or _MISSING)
+        marked += text if piece.is_right else f'<s style="color:{colours.WRONG}">{text}</s>'
+    return marked

@@ -9,9 +9,17 @@ from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.decoders import decoder_named, decoders
 from occ_model.scene.units import HERTZ
 from occ_model.transmitter.framings.framing import Framing
-from occ_model.transmitter.framings.registry import FRAMINGS, framing_named, framings
+from occ_model.transmitter.framings.registry import (
+    built_in_framings,
+    framing_named,
+    framings,
+)
 from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.registry import LINE_CODES, line_code_named, line_codes
+from occ_model.transmitter.line_codes.registry import (
+    built_in_line_codes,
+    line_code_named,
+    line_codes,
+)
 from occ_model.transmitter.scheme import Scheme
 
 _EXAMPLE = ("manchester", 10)
@@ -58,7 +66,7 @@ def line_code_table() -> str:
         "| slowest wave | its runs unseen from | one wrong chip |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_properties(code))} |" for code in LINE_CODES.values()]
+    lines += [f"| {' | '.join(_properties(code))} |" for code in built_in_line_codes().values()]
     return "\n".join(lines)
 
 
@@ -86,16 +94,15 @@ def framing_table() -> str:
     """Write the properties of the built-in framings as a Markdown table."""
     name, bits = _EXAMPLE
     lines = [
-        f"| framing | a frame | chips for {bits} bits, {LINE_CODES[name].title.partition(' ')[0]} "
-        "| checks the payload |",
+        f"| framing | a frame | chips for {bits} bits, `{name}` | checks the payload |",
         "|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_frame(framing))} |" for framing in FRAMINGS.values()]
+    lines += [f"| {' | '.join(_frame(framing))} |" for framing in built_in_framings().values()]
     return "\n".join(lines)
 
 
 def _frame(framing: Framing) -> tuple[str, ...]:
     name, bits = _EXAMPLE
-    scheme = Scheme(LINE_CODES[name], framing, "", "none", bits)
+    scheme = Scheme(line_code_named(name), framing, "", "none", bits)
     checks = "yes" if framing.checks else "no"
     return f"`{framing.name}`", framing.title, str(scheme.length), checks

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import lru_cache
+from importlib import import_module
 
 import numpy as np
 
@@ -9,14 +10,16 @@ from occ_model import plugins
 from occ_model.arrays import ByteArray
 from occ_model.errors import OccError, PluginError
 from occ_model.scene.parameters import open_choice
-from occ_model.transmitter.framings import c_ook, paper, preamble, raw
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.line_codes.registry import checked_chips, is_bits
 
-FRAMINGS: dict[str, Framing] = {
-    module.FRAMING.name: module.FRAMING for module in (paper, preamble, c_ook, raw)
-}
-"""The built-in framings by name."""
+_MODULES = {"paper": "paper", "preamble": "preamble", "c-ook": "c_ook", "raw": "raw"}
+"""The file of each built-in framing, imported when the framing is first used."""
+
+
+def built_in_framings() -> dict[str, Framing]:
+    """Return the built-in framings by name."""
+    return {name: framing_named(name) for name in _MODULES}
 
 
 def framings() -> tuple[str, ...]:
@@ -36,8 +39,10 @@ def framing_named(name: str) -> Framing:
         It is a plug-in that cannot be used.
     """
     open_choice("framing").check(name)
-    if name in FRAMINGS:
-        return FRAMINGS[name]
+    if name in _MODULES:
+        module = import_module(f"occ_model.transmitter.framings.{_MODULES[name]}")
+        built_in: Framing = module.FRAMING
+        return built_in
     return _guarded(plugins.load_plugin(plugins.FRAMINGS, name, Framing))
 
 

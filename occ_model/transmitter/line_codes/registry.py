@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import lru_cache
+from importlib import import_module
 
 import numpy as np
 
@@ -9,21 +10,22 @@ from occ_model import plugins
 from occ_model.arrays import ByteArray
 from occ_model.errors import PluginError
 from occ_model.scene.parameters import open_choice
-from occ_model.transmitter.line_codes import (
-    differential_manchester,
-    eight_b_ten_b,
-    four_b_six_b,
-    fsk,
-    manchester,
-    nrz,
-)
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
 
-LINE_CODES: dict[str, LineCode] = {
-    module.LINE_CODE.name: module.LINE_CODE
-    for module in (differential_manchester, manchester, nrz, four_b_six_b, eight_b_ten_b, fsk)
+_MODULES = {
+    "differential-manchester": "differential_manchester",
+    "manchester": "manchester",
+    "nrz": "nrz",
+    "4b6b": "four_b_six_b",
+    "8b10b": "eight_b_ten_b",
+    "fsk": "fsk",
 }
-"""The built-in line codes by name."""
+"""The file of each built-in line code, imported when the code is first used."""
+
+
+def built_in_line_codes() -> dict[str, LineCode]:
+    """Return the built-in line codes by name."""
+    return {name: line_code_named(name) for name in _MODULES}
 
 
 def line_codes() -> tuple[str, ...]:
@@ -43,8 +45,10 @@ def line_code_named(name: str) -> LineCode:
         It is a plug-in that cannot be used.
     """
     open_choice("line_code").check(name)
-    if name in LINE_CODES:
-        return LINE_CODES[name]
+    if name in _MODULES:
+        module = import_module(f"occ_model.transmitter.line_codes.{_MODULES[name]}")
+        built_in: LineCode = module.LINE_CODE
+        return built_in
     return _guarded(plugins.load_plugin(plugins.LINE_CODES, name, LineCode))
 
 

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.transmitter.framings.registry import FRAMINGS
-from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.framings.registry import built_in_framings
+from occ_model.transmitter.line_codes.registry import built_in_line_codes
+
+LINE_CODES = built_in_line_codes()
+FRAMINGS = built_in_framings()
 
 DECODERS = ("threshold", "matched", "equalizer")
 

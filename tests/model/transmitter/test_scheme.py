@@ -10,10 +10,13 @@ from occ_model.arrays import ByteArray, IndexArray
 from occ_model.transmitter.error_correction import PARITY_BYTES, protected_bits
 from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.framings.registry import FRAMINGS
-from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.framings.registry import built_in_framings
+from occ_model.transmitter.line_codes.registry import built_in_line_codes
 from occ_model.transmitter.packet import sends_paper_code
 from occ_model.transmitter.scheme import Scheme, scheme_named
+
+LINE_CODES = built_in_line_codes()
+FRAMINGS = built_in_framings()
 
 CORRECTIONS = ("none", "reed-solomon")
 

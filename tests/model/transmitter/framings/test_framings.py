@@ -8,8 +8,10 @@ import pytest
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.transmitter.framings.framing import BARKER, run_preamble
-from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.line_codes.registry import built_in_line_codes
 from occ_model.transmitter.scheme import scheme_named
+
+LINE_CODES = built_in_line_codes()
 
 
 def chips_of(text: str) -> ByteArray:

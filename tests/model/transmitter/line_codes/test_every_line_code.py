@@ -9,8 +9,10 @@ import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
-from occ_model.transmitter.line_codes.registry import LINE_CODES, line_code_named
+from occ_model.transmitter.line_codes.registry import built_in_line_codes, line_code_named
 from occ_model.transmitter.packet import bits_of
+
+LINE_CODES = built_in_line_codes()
 
 every_code = pytest.mark.parametrize("code", LINE_CODES.values(), ids=lambda code: code.name)
 

@@ -10,10 +10,14 @@ from matplotlib.figure import Figure
 
 from occ_model import colours
 from occ_model.arrays import FloatArray
+from occ_model.errors import one_line
 from occ_model.figures.drawing import Drawing
 from occ_model.figures.window_panes import caption
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
+
+_LONGEST_PAYLOAD = 40
+"""Characters of a payload in the title."""
 
 _SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
 _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
@@ -30,7 +34,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     result
         The decoder's result.
     """
-    message = result.failure or f"code {result.code} read by the {result.decoder} decoder"
+    message = result.failure or f"{_read(result)} read by the {result.decoder} decoder"
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))
@@ -54,6 +58,12 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     header = ("column of the region", "signal (grey level)", "chip from column", "chip")
     title = f"Decoding, {message}: {caption(scene)}"
     return Drawing(f"decoding-{result.decoder}", title, draw, header, rows)
+
+
+def _read(result: DecodeResult) -> str:
+    if result.payload:
+        return f"“{one_line(result.payload, _LONGEST_PAYLOAD)}”"
+    return f"code {result.code}"
 
 
 def _draw_signal(ax: Axes, result: DecodeResult) -> None:

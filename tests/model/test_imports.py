@@ -83,3 +83,11 @@ def test_every_public_name_is_there() -> None:
 
     assert sorted(occ_model.__all__) == list(occ_model.__all__)
     assert [name for name in occ_model.__all__ if not hasattr(occ_model, name)] == []
+
+
+def test_no_plugin_is_looked_for_while_built_in_names_are_used() -> None:
+    scheme = "code=718, line_code='4b6b', framing='raw'"
+    loaded = run(f"{USE.replace('code=718', scheme)}\nimport sys; print(*sys.modules)")
+    assert "occ_model.transmitter.line_codes.four_b_six_b" in loaded
+    assert "occ_model.transmitter.line_codes.eight_b_ten_b" not in loaded
+    assert "importlib.metadata" not in loaded

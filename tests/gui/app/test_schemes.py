@@ -1,0 +1,60 @@
+"""Line codes, framings and payloads, chosen and typed at the window."""
+
+from gui.user import User
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.scene.parameter_rows import OpenChoiceRow, ParameterRow
+
+
+def row(application: Application, name: str) -> ParameterRow:
+    panels = application.controls.panels.values()
+    (found,) = [panel.rows[name] for panel in panels if name in panel.rows]
+    return found
+
+
+def choose(application: Application, user: User, name: str, choice: str) -> None:
+    control = row(application, name)
+    assert isinstance(control, OpenChoiceRow)
+    control.field.setCurrentText(choice)
+    control.field.textActivated.emit(choice)
+    user.wait_until_idle()
+
+
+def test_a_text_typed_for_the_code_is_sent_read_and_shown(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    field = application.controls.code.bits
+    field.selectAll()
+    qtbot.keyClicks(field, "text:HI")
+    qtbot.keyClick(field, Qt.Key.Key_Return)
+    user.wait_until_idle()
+    choose(application, user, "line_code", "4b6b")
+    choose(application, user, "framing", "c-ook")
+    transmitter = application.store.scene.transmitter
+    assert (transmitter.payload, transmitter.line_code, transmitter.framing) == (
+        "text:HI", "4b6b", "c-ook",
+    )  # fmt: skip
+    view = application.decode
+    assert view.verdict.text() == "✓ “HI” read, all bits right"
+    assert view.payload.accessibleDescription() == "sent HI, received HI, 0 wrong"
+    application.store.undo_stack.undo()
+    application.store.undo_stack.undo()
+    application.store.undo_stack.undo()
+    user.wait_until_idle()
+    assert view.verdict.text() == "✓ Code 718 read, all bits right"
+    assert view.payload.isHidden()
+
+
+def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(
+    application: Application, user: User
+) -> None:
+    choose(application, user, "line_code", "nrz")
+    choose(application, user, "framing", "c-ook")
+    for name in ("line_code", "framing"):
+        notice = row(application, name).notice
+        assert "'nrz', which limits no run" in notice.text()
+    choose(application, user, "line_code", "manchester")
+    assert application.decode.verdict.text() == "✓ Code 718 read, all bits right"
+    assert row(application, "framing").notice.text() == ""

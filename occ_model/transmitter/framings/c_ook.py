@@ -1,7 +1,7 @@
 """C-OOK, camera on-off keying of IEEE 802.15.7-2018 (PHY V), with sub-packets.
 
 A sub-packet is a preamble, asynchronous bits, a part of the payload, and the asynchronous bits once
-more, line-coded. The preamble is a run of ones that no payload contains. A sub-packet that is cut
+more, line-coded. The preamble is one that no payload contains. A sub-packet that is cut
 by the picture's edges is joined from its start at one edge and its end at the other, where the
 asynchronous bits of both agree. The standard has one asynchronous bit, which changes from one
 packet to the next; here they count the sub-packets of a longer payload, so that their order is
@@ -18,7 +18,7 @@ from occ_model.transmitter.framings.framing import (
     FrameFormat,
     Framing,
     find_preambles,
-    run_preamble,
+    own_preamble,
 )
 
 _PART_BITS = 16
@@ -51,7 +51,7 @@ class _Division:
 
 
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
-    preamble, division = run_preamble(form.line_code), _Division.of(len(bits))
+    preamble, division = own_preamble(form.line_code), _Division.of(len(bits))
     missing = division.parts * division.part_bits - len(bits)
     parts = np.pad(np.asarray(bits, dtype=np.uint8), (0, missing))
     sent = []
@@ -63,7 +63,7 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    preamble, division = run_preamble(form.line_code), _Division.of(form.bits)
+    preamble, division = own_preamble(form.line_code), _Division.of(form.bits)
     headers = find_preambles(chips, preamble)
     length = form.line_code.chips_for(division.bits)
     parts: dict[int, ByteArray] = {}

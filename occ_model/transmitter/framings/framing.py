@@ -85,17 +85,20 @@ class Framing:
     decode: Callable[[ByteArray, FrameFormat], Framed]
 
 
-def run_preamble(line_code: LineCode) -> ByteArray:
-    """Return a preamble that no payload contains: a run longer than any of the line code.
+def own_preamble(line_code: LineCode) -> ByteArray:
+    """Return a line code's own preamble, which no payload contains.
 
-    With a longest run of n it is a run of n + 1 ones between as many zeros, so it is balanced: of
-    Manchester 0 111 00 and of 4B6B 00 11111 000, which are those of C-OOK in IEEE 802.15.7-2018.
+    It is the one declared, or a run longer than any of the code. With a longest run of n that is
+    n + 1 ones between as many zeros, so it is balanced: of Manchester 0 111 00 and of 4B6B
+    00 11111 000, which are those of C-OOK in IEEE 802.15.7-2018.
 
     Raises
     ------
     ParameterError
         The line code limits no run.
     """
+    if line_code.preamble:
+        return _chips_of(line_code.preamble)
     if line_code.longest_run is None:
         raise ParameterError(
             f"line_code is '{line_code.name}', which limits no run: no preamble differs from all "
@@ -110,14 +113,20 @@ def run_preamble(line_code: LineCode) -> ByteArray:
 def preamble_of(form: FrameFormat) -> ByteArray:
     """Return the preamble given, else the line code's own."""
     if form.preamble:
-        return np.array([int(chip) for chip in form.preamble], dtype=np.uint8)
-    if form.line_code.longest_run is None:
+        return _chips_of(form.preamble)
+    if form.line_code.longest_run is None and not form.line_code.preamble:
         return np.array(BARKER, dtype=np.uint8)
-    return run_preamble(form.line_code)
+    return own_preamble(form.line_code)
+
+
+def _chips_of(text: str) -> ByteArray:
+    return np.array([int(chip) for chip in text], dtype=np.uint8)
 
 
 def is_unique(preamble: ByteArray, line_code: LineCode) -> bool:
-    """Whether a preamble has a run inside that is longer than any of a payload."""
+    """Whether no payload contains a preamble: the code's own, or one with too long a run inside."""
+    if line_code.preamble and np.array_equal(preamble, _chips_of(line_code.preamble)):
+        return True
     if line_code.longest_run is None:
         return False
     edges = np.flatnonzero(np.diff(preamble.astype(np.int8)))

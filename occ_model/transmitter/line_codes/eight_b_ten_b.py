@@ -145,4 +145,6 @@ LINE_CODE = LineCode(
     finds_wrong_chip=False,
     encode=_encode,
     decode=_decode,
+    # It holds a comma, which no data do, and leaves the running disparity that the first byte has.
+    preamble=control_word("K28.5", 1),
 )

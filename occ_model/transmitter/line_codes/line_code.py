@@ -66,6 +66,9 @@ class LineCode:
         Turns bits, shape (bits,), into chips; its second argument is the chip before the first.
     decode
         Turns chips, shape (chips,), into a :class:`Decoded`; its second argument is the same.
+    preamble
+        Chips, as a text, that start a frame and that no payload contains; empty: a run of ones
+        that is longer than the longest.
     """
 
     name: str
@@ -77,6 +80,7 @@ class LineCode:
     finds_wrong_chip: bool
     encode: Callable[[ByteArray, int], ByteArray]
     decode: Callable[[ByteArray, int], Decoded]
+    preamble: str = ""
 
     @property
     def chips_a_bit(self) -> Fraction:

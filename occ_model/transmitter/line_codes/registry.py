@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError
+from occ_model.errors import PluginError, shown
 from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
 
@@ -55,9 +55,18 @@ def line_code_named(name: str) -> LineCode:
 def _guarded(offered: LineCode) -> LineCode:
     """Return a plug-in's line code whose faults become sentences."""
     who = plugins.described(plugins.LINE_CODES, offered.name)
-    for label, count in (("block_bits", offered.block_bits), ("block_chips", offered.block_chips)):
+    longest = 1 if offered.longest_run is None else offered.longest_run
+    for label, count in (
+        ("block_bits", offered.block_bits),
+        ("block_chips", offered.block_chips),
+        ("longest_run", longest),
+    ):
         if not isinstance(count, int) or count < 1:
-            raise PluginError(f"{who} declares {label} = {count!r}; allowed: from 1.")
+            raise PluginError(f"{who} declares {label} = {shown(count)}; allowed: from 1.")
+    if not isinstance(offered.preamble, str) or set(offered.preamble) - {"0", "1"}:
+        raise PluginError(
+            f"{who} declares preamble = {shown(offered.preamble)}; allowed: zeros and ones."
+        )
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
         try:

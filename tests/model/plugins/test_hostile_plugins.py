@@ -75,6 +75,8 @@ code_raises = replace(LINE_CODE, name="code_raises", encode=fail, decode=fail)
 code_short = replace(LINE_CODE, name="code_short", encode=lambda bits, level: bits)
 code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.full(2 * len(bits), 7))
 code_blocks = replace(LINE_CODE, name="code_blocks", block_chips=0)
+code_run = replace(LINE_CODE, name="code_run", longest_run="two")
+code_preamble = replace(LINE_CODE, name="code_preamble", preamble="012")
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
 frame_raises = replace(FRAMING, name="frame_raises", encode=fail)
@@ -87,7 +89,10 @@ DECODERS = [
     "raises", "leaves", "mute", "nothing", "empty", "floats", "lists", "no_sentence", "overwrites",
     "misnamed", "threshold", "gone",
 ]  # fmt: skip
-CODES = ["code_raises", "code_short", "code_grey", "code_blocks", "code_mute"]
+CODES = [
+    "code_raises", "code_short", "code_grey", "code_blocks", "code_run", "code_preamble",
+    "code_mute",
+]  # fmt: skip
 FRAMINGS = ["frame_raises", "frame_empty", "frame_mute", "frame_fails"]
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
@@ -172,6 +177,8 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
         ("code_short", "gives 10 chips in place of 20."),
         ("code_grey", "gives no chips, which are zeros and ones."),
         ("code_blocks", "declares block_chips = 0; allowed: from 1."),
+        ("code_run", "declares longest_run = 'two'; allowed: from 1."),
+        ("code_preamble", "declares preamble = '012'; allowed: zeros and ones."),
     ],
 )
 def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:

@@ -7,7 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.transmitter.framings.framing import BARKER, run_preamble
+from occ_model.transmitter.framings.framing import BARKER, own_preamble
 from occ_model.transmitter.line_codes.registry import built_in_line_codes
 from occ_model.transmitter.scheme import scheme_named
 
@@ -27,17 +27,27 @@ def text_of(chips: ByteArray | IndexArray) -> str:
     [("manchester", "011100"), ("4b6b", "0011111000"), ("differential-manchester", "011100")],
 )
 def test_the_preambles_of_c_ook_are_those_of_the_standard(code: str, preamble: str) -> None:
-    assert text_of(run_preamble(LINE_CODES[code])) == preamble
+    assert text_of(own_preamble(LINE_CODES[code])) == preamble
 
 
 @pytest.mark.parametrize("code", [name for name in LINE_CODES if name != "nrz"])
-def test_a_preamble_is_balanced_and_in_no_payload(code: str) -> None:
-    preamble = run_preamble(LINE_CODES[code])
+def test_no_payload_contains_the_preamble_of_its_code(code: str) -> None:
+    preamble = own_preamble(LINE_CODES[code])
+    random = np.random.default_rng(1)
+    for bits in (*range(8, 200, 8), 4096):
+        data = LINE_CODES[code].encode(random.integers(0, 2, bits).astype(np.uint8), 0)
+        endless = text_of(np.tile(np.concatenate([preamble, data]), 2))
+        assert endless.count(text_of(preamble)) == 2
+
+
+@pytest.mark.parametrize("code", ["differential-manchester", "manchester", "4b6b", "fsk"])
+def test_a_run_of_ones_stands_between_as_many_zeros(code: str) -> None:
+    preamble = own_preamble(LINE_CODES[code])
     assert 2 * int(preamble.sum()) == len(preamble)
-    data = LINE_CODES[code].encode(
-        np.random.default_rng(1).integers(0, 2, 4096).astype(np.uint8), 0
-    )
-    assert text_of(preamble) not in text_of(data)
+
+
+def test_the_preamble_of_8b10b_is_the_comma_k28_5() -> None:
+    assert text_of(own_preamble(LINE_CODES["8b10b"])) == "1100000101"
 
 
 def test_barker_correlates_with_no_shift_of_itself() -> None:

@@ -161,7 +161,8 @@ def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> N
 def test_a_decoder_cannot_change_the_signal_of_others() -> None:
     signal = occ.column_profile(SCENE)
     before = signal.copy()
-    assert occ.decode(signal, SCENE, "overwrites").failure == "Nothing was read."
+    read = decoders.decoder_named("overwrites").read
+    assert read(signal, SCENE).failure == "Nothing was read."
     np.testing.assert_array_equal(signal, before)
 
 

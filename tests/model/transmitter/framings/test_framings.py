@@ -133,6 +133,27 @@ def test_a_preamble_inside_the_payload_is_told_not_guessed() -> None:
     assert not read.bits.size
 
 
+def test_padding_that_is_not_0_is_found() -> None:
+    one = scheme_named("4b6b", "preamble", "", "none", 3)
+    sent = one.encode([1, 0, 1])  # and a zero: the word of 10
+    other = scheme_named("4b6b", "preamble", "", "none", 4).encode([1, 0, 1, 1])
+    assert one.decode(np.tile(sent, 3)).bits.tolist() == [1, 0, 1]
+    assert one.decode(np.tile(other, 3)).failure == (
+        "The bits that fill the last block are not 0: some chips were misread."
+    )
+
+
+def test_the_first_and_last_chip_may_be_cut_off() -> None:
+    one = scheme_named("manchester", "preamble", "", "none", 10)
+    payload = [1, 0, 1, 1, 0, 0, 1, 1, 1, 0]
+    sent = one.encode(payload)
+    # The preamble stands in the middle, so that the frame is joined of both ends.
+    seen = np.resize(np.roll(sent, one.length // 2), one.length + 2)
+    seen[[0, -1]] ^= 1
+    read = one.decode(seen)
+    assert (read.failure, read.bits.tolist()) == (None, payload)
+
+
 @pytest.mark.parametrize("framing", ["preamble", "raw"])
 def test_too_few_chips_are_counted_in_the_failure(framing: str) -> None:
     one = scheme_named("manchester", framing, "", "none", 10)

@@ -28,14 +28,15 @@ def test_each_4b6b_word_has_three_ones_and_stands_once() -> None:
     assert len({text(word) for word in WORDS}) == 16
 
 
-@pytest.mark.parametrize(
-    ("number", "word"),
-    [(0b0000, "001110"), (0b0100, "010101"), (0b0111, "100101"), (0b1010, "011100"),
-     (0b1111, "101100")],
-)  # fmt: skip
-def test_4b6b_words_are_those_of_ieee_802_15_7(number: int, word: str) -> None:
-    bits = np.array([number >> place & 1 for place in (3, 2, 1, 0)], dtype=np.uint8)
-    assert text(four_b_six_b.LINE_CODE.encode(bits, 0)) == word
+def test_4b6b_words_are_those_of_ieee_802_15_7() -> None:
+    published = {
+        0x0: "001110", 0x1: "001101", 0x2: "010011", 0x3: "010110", 0x4: "010101", 0x5: "100011",
+        0x6: "100110", 0x7: "100101", 0x8: "011001", 0x9: "011010", 0xA: "011100", 0xB: "110001",
+        0xC: "110010", 0xD: "101001", 0xE: "101010", 0xF: "101100",
+    }  # fmt: skip
+    bits = np.unpackbits(np.array([0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF], dtype=np.uint8))
+    sent = text(four_b_six_b.LINE_CODE.encode(bits, 0))
+    assert sent == "".join(published[number] for number in range(16))
 
 
 @pytest.mark.parametrize("byte", range(256))
@@ -54,6 +55,12 @@ def test_no_two_bytes_have_the_same_8b10b_word(before: int) -> None:
     assert len({encode_byte(byte, before)[0] for byte in range(256)}) == 256
 
 
+@pytest.mark.parametrize("before", [-1, 1])
+def test_no_8b10b_word_has_a_run_of_five_inside(before: int) -> None:
+    words = [encode_byte(byte, before)[0] for byte in range(256)]
+    assert not [word for word in words if "00000" in word or "11111" in word]
+
+
 def test_a_word_of_either_disparity_stands_for_one_byte_only() -> None:
     meanings: dict[str, set[int]] = {}
     for byte, before in itertools.product(range(256), (-1, 1)):
@@ -69,7 +76,11 @@ def test_a_word_of_either_disparity_stands_for_one_byte_only() -> None:
         (28, 5, "0011101010", "0011101010"),  # D28.5
         (31, 7, "1010110001", "0101001110"),  # D31.7
         (17, 7, "1000110111", "1000110001"),  # D17.7: the alternate form
+        (18, 7, "0100110111", "0100110001"),  # D18.7
+        (20, 7, "0010110111", "0010110001"),  # D20.7
         (11, 7, "1101001110", "1101001000"),  # D11.7
+        (13, 7, "1011001110", "1011001000"),  # D13.7
+        (14, 7, "0111001110", "0111001000"),  # D14.7
         (7, 3, "1110001100", "0001110011"),  # D7.3: balanced, and still two forms
         (16, 2, "0110110101", "1001000101"),  # D16.2, an idle of 1000BASE-X
         (5, 6, "1010010110", "1010010110"),  # D5.6, the other

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
+from occ_model.camera.row_interpolation import weighted
 from occ_model.camera.row_memory import MEMORY
 
 _REACH = 4.0
@@ -215,7 +216,7 @@ class Coverage:
         line = np.arange(len(rows))
         weight[line, row - row[0]] = 1.0 - below
         weight[line, row - row[0] + 1] = below
-        return np.asarray(weight @ wide, dtype=np.float32)
+        return weighted(weight, wide)
 
     def _between(self, pixels: range, cells: int) -> tuple[IndexArray, Pixels]:
         """Return the cell before each pixel's centre, and the distance from it in cells."""

@@ -186,8 +186,7 @@ class PixelExposure:
         if values is None:
             return ExposedRows(band.place, held.values, mean)
         held.combine(np.add, values, held.nodes, [rim.values for rim in held.rims])
-        np.maximum(values, np.float32(0.0), out=values)
-        np.minimum(values, np.float32(WHITE), out=values)
+        np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
         return ExposedRows(band.place, values, mean)
 
     def _held(self, mean: Rows, timer: StageTimer) -> Rows:

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -45,6 +46,31 @@ class CoveredPart:
 
     columns: slice
     share: float | Pixels
+
+
+def _divided(columns: slice, share: Pixels) -> list[CoveredPart]:
+    """Divide a rim whose rows are all alike into columns that are covered wholly or not at all."""
+    first = share[0]
+    if not ((first == 0.0) | (first == 1.0)).all() or (share != first).any():
+        return [CoveredPart(columns, share)]
+    ends = [0, *(np.flatnonzero(np.diff(first)) + 1).tolist(), len(first)]
+    return [
+        CoveredPart(slice(columns.start + start, columns.start + stop), float(first[start]))
+        for start, stop in pairwise(ends)
+    ]
+
+
+def _joined(parts: list[CoveredPart]) -> list[CoveredPart]:
+    """Join neighbouring parts that are covered alike."""
+    joined: list[CoveredPart] = []
+    for part in parts:
+        before = joined[-1] if joined else part
+        alike = isinstance(part.share, float) and isinstance(before.share, float)
+        if joined and alike and part.share == before.share:
+            joined[-1] = CoveredPart(slice(before.columns.start, part.columns.stop), part.share)
+        else:
+            joined.append(part)
+    return joined
 
 
 def _shares(parts: list[CoveredPart]) -> list[Pixels]:
@@ -105,11 +131,11 @@ class Coverage:
         for start, stop in self._rims(rows, columns):
             if start > before:
                 parts.append(self._even(rows, slice(before, start)))
-            parts.append(CoveredPart(slice(start, stop), self._rim(rows, slice(start, stop))))
+            parts += _divided(slice(start, stop), self._rim(rows, slice(start, stop)))
             before = stop
         if before < columns.stop:
             parts.append(self._even(rows, slice(before, columns.stop)))
-        return parts
+        return _joined(parts)
 
     def _rims(self, rows: range, columns: slice) -> list[tuple[int, int]]:
         """Return the columns near which the outline runs in some rows, from the left."""

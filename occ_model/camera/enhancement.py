@@ -99,9 +99,15 @@ class Enhancement:
         square = curve[lowest] ** 2 + np.einsum("ij,ij->i", square_steps[edge], passed)
         return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
 
-    def of_bytes(self, image: ByteArray) -> ByteArray:
-        """Enhance grey levels that are rounded already, shape (rows, columns)."""
-        return np.asarray(cv2.LUT(image, self.curve), dtype=np.uint8)
+    def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
+        """Enhance grey levels that are rounded already, shape (rows, columns), if wanted in place.
+
+        Parameters
+        ----------
+        image, out : ndarray of uint8, shape (rows, columns)
+            The grey levels, and where the enhanced ones are written.
+        """
+        return np.asarray(cv2.LUT(image, self.curve, dst=out), dtype=np.uint8)
 
 
 def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:

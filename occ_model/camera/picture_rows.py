@@ -5,8 +5,10 @@ memory than its own bytes. Only the rims of the panel are computed pixel by pixe
 them the light changes smoothly from row to row, and a band of rows follows from a few.
 """
 
+from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -26,6 +28,12 @@ BLOCK_ROWS = 64
 def in_blocks(rows: range) -> list[range]:
     """Divide rows, or every k-th row, of a picture into those that are computed at once."""
     return [rows[start : start + BLOCK_ROWS] for start in range(0, len(rows), BLOCK_ROWS)]
+
+
+def split_at(band: range, rows: Sequence[int]) -> list[range]:
+    """Divide a band before some rows."""
+    ends = {bisect_left(band, row) for row in rows} | {0, len(band)}
+    return [band[start:stop] for start, stop in pairwise(sorted(ends))]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

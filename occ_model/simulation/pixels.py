@@ -11,7 +11,7 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.picture_rows import PictureRows, Rows, in_blocks
+from occ_model.camera.picture_rows import PictureRows, Rows, in_blocks, split_at
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import PaperView
@@ -130,6 +130,10 @@ class PixelExposure:
         for effect in planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
             timer.stage_ended(effect.name)
+        if self._optics.is_plain and not self._files and view.sides:
+            # All rows of a band are alike then.
+            ends = self._region.first_row, self._region.last_row
+            self._bands = [part for band in self._bands for part in split_at(band, ends)]
         self._mean = PictureRows(scene, self._optics, columns.panel, columns.surroundings)
         timer.stage_ended(self._optics.cover_stage)
 
@@ -280,7 +284,7 @@ def _enhance(camera_image: ByteArray, enhancement: Enhancement, rows: Rows, out:
     """Enhance grey levels within the panel, and copy them beside it."""
     out[:] = camera_image
     for columns in rows.inside:
-        out[:, columns] = enhancement.of_bytes(camera_image[:, columns])
+        enhancement.of_bytes(camera_image[:, columns], out[:, columns])
     for rim in rows.rims:
         enhanced = enhancement.of_bytes(camera_image[:, rim.columns])
         np.copyto(out[:, rim.columns], enhanced, where=rim.inside)

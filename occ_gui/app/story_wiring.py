@@ -2,6 +2,10 @@
 
 from typing import Protocol
 
+from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QMenu
+
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.picture.image_view import ImageView
@@ -46,7 +50,27 @@ def tell_story(parts: Parts) -> None:
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     image.before.chosen.toggled.connect(lambda on: _show_where_asked(story, on))
     parts.window.actions_by_name["fit"].triggered.connect(story.fit)
+    rows = story.rows
+    rows.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+    rows.customContextMenuRequested.connect(
+        lambda place: story_menu(parts).popup(rows.mapToGlobal(place))
+    )
     parts.window.actions_by_name["measure"].toggled.connect(story.switch_measuring)
+
+
+def story_menu(parts: Parts) -> QMenu:
+    """Make the context menu of the rows: what can be copied, exported and measured there."""
+    actions, menu = parts.window.actions_by_name, QMenu(parts.story.rows)
+    text = parts.story.readout.toolTip()
+    menu.addAction(
+        QCoreApplication.translate("StoryMenu", "Copy the &values at the crosshair"),
+        lambda: QGuiApplication.clipboard().setText(text),
+    )
+    for name in ("copy_figure", "export_profile", "export_picture", "measure", "fit"):
+        if name in actions:
+            menu.addAction(actions[name])
+    menu.aboutToHide.connect(menu.deleteLater)
+    return menu
 
 
 def _link_profiles(story: StoryView, profile: ProfileView) -> None:

@@ -58,7 +58,7 @@ class SliderScale(QWidget):
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of a line of small text."""
-        return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK))
+        return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK + 2))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return a small width: names of marks are left out where there is no space."""
@@ -97,7 +97,7 @@ class SliderScale(QWidget):
             text = mark.label.replace("t_LED", "1 chip")
             width = metrics.horizontalAdvance(text)
             left = min(max(self._x(mark.value) - width / 2, 0.0), self.width() - width)
-            box = QRectF(left, _TICK - 1.0, width, metrics.height())
+            box = QRectF(left, _TICK + 1.0, width, metrics.height())
             if not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in taken):
                 painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
                 taken.append(box)
@@ -110,8 +110,8 @@ class SliderScale(QWidget):
         height = metrics.height()
         width = metrics.horizontalAdvance(high)
         boxes = [
-            QRectF(0.0, _TICK - 1.0, metrics.horizontalAdvance(low), height),
-            QRectF(self.width() - width, _TICK - 1.0, width, height),
+            QRectF(0.0, _TICK + 1.0, metrics.horizontalAdvance(low), height),
+            QRectF(self.width() - width, _TICK + 1.0, width, height),
         ]
         for box, text in zip(boxes, (low, high), strict=True):
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)

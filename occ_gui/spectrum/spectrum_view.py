@@ -3,7 +3,7 @@
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.contrast import pen_on, seen_on
@@ -35,13 +35,16 @@ class SpectrumView(QWidget):
         self.sentence.setWordWrap(True)
         self.sentence.setTextFormat(Qt.TextFormat.PlainText)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        layout = QVBoxLayout(self)
+        layout = QGridLayout(self)
         layout.setContentsMargins(8, 4, 8, 8)
-        layout.setSpacing(4)
-        layout.addWidget(self.legend)
-        layout.addWidget(self.spectrum, 3)
-        layout.addWidget(self.sentence)
-        layout.addWidget(self.histogram, 2)
+        layout.setSpacing(8)
+        layout.addWidget(self.legend, 0, 0)
+        layout.addWidget(self.sentence, 0, 1)
+        layout.addWidget(self.spectrum, 1, 0)
+        layout.addWidget(self.histogram, 1, 1)
+        layout.setColumnStretch(0, 3)
+        layout.setColumnStretch(1, 2)
+        layout.setRowStretch(1, 1)
 
     def _make_spectrum(self) -> None:
         self.spectrum = new_plot(

@@ -3,9 +3,11 @@
 import pytest
 from gui.user import User
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.app.story_wiring import story_menu
 from occ_gui.story.measure_cursors import measure
 
 
@@ -53,3 +55,14 @@ def test_without_measuring_there_are_no_cursors(measuring: Application) -> None:
     measuring.window.actions_by_name["measure"].trigger()
     assert measuring.story.rows.crosshair.cursors.columns == []
     assert not measuring.story.measured.isVisible()
+
+
+def test_the_context_menu_copies_the_values_at_the_crosshair(
+    application: Application, user: User
+) -> None:
+    user.wait_until_idle()
+    entries = {action.text(): action for action in story_menu(application).actions()}
+    entries["Copy the &values at the crosshair"].trigger()
+    assert QGuiApplication.clipboard().text().startswith("column ")
+    assert "Meas&ure" in entries
+    assert "Copy fi&gure" in entries

@@ -10,6 +10,7 @@ from PySide6.QtCore import QRect, QRectF
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
+from occ_gui.picture.pixel_values import draw_pixel_values
 from occ_gui.simulation.preview import halved
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
@@ -19,7 +20,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     """A grey image that shows the mean of the pixels that share a pixel of the screen.
 
     Taking one of them instead, as image items do, turns fine stripes into coarse ones that do not
-    exist. A pixel of the image that is larger than one of the screen is drawn as a square.
+    exist. A pixel of the image that is larger than one of the screen is drawn as a square, and has its
+    grey level written in it where that is readable.
     """
 
     def __init__(self) -> None:
@@ -29,6 +31,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self._rect = QRectF()
         self._first_row = -math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
+        self.values_drawn = 0
+        """The number of pixels whose grey levels are written into them."""
 
     def set_image(
         self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
@@ -83,6 +87,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         if self._first_row > self._rect.top():
             painter.setClipRect(self._rect.adjusted(0, self._first_row - self._rect.top(), 0, 0))
         painter.drawImage(target, self._drawn[2])
+        self.values_drawn = draw_pixel_values(painter, self._image, part, target)
 
     def _visible_part(self) -> QRect:
         """Return the pixels of the image that are in view."""

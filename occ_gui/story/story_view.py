@@ -128,7 +128,8 @@ class StoryView(QWidget):
         for place in range(self._pages.count()):
             page = self._pages.widget(place)
             kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
-            page.setSizePolicy(kind, kind)
+            if page is not None:
+                page.setSizePolicy(kind, kind)
 
     @property
     def shows_whole_picture(self) -> bool:

@@ -177,3 +177,16 @@ def test_only_the_visible_part_is_averaged_when_the_view_changes(
     rows, columns = sizes[0]
     assert rows <= HEIGHT
     assert 1000 <= columns <= 1002
+
+
+def test_pixels_that_are_large_enough_have_their_grey_level_written(screen: Screen) -> None:
+    image = np.full((200, 200), 255, dtype=np.uint8)
+    screen.item.set_image(image)
+    screen.shown(400, 400, QRectF(0, 0, 100, 100))
+    assert screen.item.values_drawn == 0
+    near = inner(screen.shown(400, 400, QRectF(10, 10, 6, 6)))
+    assert 36 <= screen.item.values_drawn <= 64
+    assert near.max() == 255
+    assert near.min() < 60  # black figures on white
+    screen.item.set_image(np.zeros((200, 200), dtype=np.uint8))
+    assert inner(screen.shown(400, 400, QRectF(10, 10, 6, 6))).max() > 200

@@ -1,5 +1,6 @@
 """The list of all effects, in the order that light travels."""
 
+from functools import lru_cache
 from typing import TypeVar
 
 from occ_model.effects.defocus import Defocus
@@ -45,4 +46,9 @@ def moves_light(scene: Scene) -> bool:
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
     """Return the effects of a kind that a plan includes, in order."""
     included = plan.included
-    return tuple(e for e in EFFECTS if isinstance(e, kind) and e.name in included)
+    return tuple(effect for effect in _of_kind(kind) if effect.name in included)
+
+
+@lru_cache(maxsize=16)
+def _of_kind(kind: type[_Kind]) -> tuple[_Kind, ...]:
+    return tuple(effect for effect in EFFECTS if isinstance(effect, kind))

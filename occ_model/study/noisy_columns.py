@@ -5,6 +5,7 @@ the sum of the columns' distributions, and a mean over rows is normal.
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,11 +13,11 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect
-from occ_model.effects.noise_spread import pixel_spread
+from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.registry import planned
 from occ_model.receiver.locate import bright_level, cell_size, least_bright_share
 from occ_model.results import Plan, Region
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
 
 _LEVELS = 512
@@ -27,6 +28,12 @@ _BINS = 128
 
 _NO_SPREAD = 1e-9
 """Standard deviation in grey levels below which there is no noise."""
+
+
+@lru_cache(maxsize=8)
+def _noise_of(effects: tuple[NoiseEffect, ...], camera: Camera, sensor: Sensor) -> NoiseSpread:
+    """Return the deviation of pixels; the images of a point and the points of a line share it."""
+    return NoiseSpread(effects, Scene(camera=camera, sensor=sensor))
 
 
 class NoisyColumns:
@@ -53,12 +60,12 @@ class NoisyColumns:
         self._columns = columns
         self._span = span
         self._enhancement = enhancement
-        self._noises = planned(plan, NoiseEffect)
+        self._noise = _noise_of(planned(plan, NoiseEffect), scene.camera, scene.sensor)
         self._limits = planned(plan, PixelEffect)
 
     def _distribution(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return mean and standard deviation of pixels with some values before saturation."""
-        spread = pixel_spread(self._noises, self._scene, values[None, :].astype(np.float32))[0]
+        spread = self._noise(values[:, None].astype(np.float32))[:, 0]
         for limit in self._limits:
             values = limit.apply(self._scene, values)
         return saturate(values), spread.astype(np.float64)
@@ -110,29 +117,25 @@ class NoisyColumns:
     def _histogram(self) -> IndexArray:
         """Return the expected number of pixels of each grey level in the whole image."""
         span, rows = self._span, self._scene.camera.rows
-        inside = np.zeros(len(self._columns.panel), dtype=bool)
-        inside[span.first_column : span.last_column] = True
-        panel = self._shares(self._columns.panel[inside]) * span.rows
-        counts = (
-            np.bincount(self._enhancement.curve, weights=panel, minlength=256)
-            + self._shares(self._columns.surroundings[inside]) * (rows - span.rows)
-            + self._shares(self._columns.surroundings[~inside]) * rows
-        )
+        on_panel = self._columns.panel[span.first_column : span.last_column]
+        beside = np.full(len(self._columns.panel), float(rows))
+        beside[span.first_column : span.last_column] -= span.rows
+        panel = self._shares(on_panel, np.full(len(on_panel), float(span.rows)))
+        curve = self._enhancement.curve
+        counts = np.asarray(np.bincount(curve, weights=panel, minlength=256), dtype=np.float64)
+        counts += self._shares(self._columns.surroundings, beside)
         return np.rint(counts).astype(np.int64)
 
-    def _shares(self, values: FloatArray) -> FloatArray:
+    def _shares(self, values: FloatArray, pixels: FloatArray) -> FloatArray:
         """Return the expected number of columns' pixels of each grey level before enhancement."""
-        if values.size == 0:
-            return np.zeros(256)
         low, high = float(values.min()), float(values.max())
         bins = _BINS if high > low else 1
         step = (high - low) / bins or 1.0
-        weights = np.bincount(
-            np.minimum(((values - low) / step).astype(np.int64), bins - 1), minlength=bins
-        )
+        place = np.minimum(((values - low) / step).astype(np.int64), bins - 1)
         middles = np.asarray(low + step * (np.arange(bins) + 0.5), dtype=np.float64)
         value, spread = self._distribution(middles)
-        return byte_shares(value, spread, weights.astype(np.float64))
+        weights = np.bincount(place, weights=pixels, minlength=bins)
+        return byte_shares(value, spread, np.asarray(weights, dtype=np.float64))
 
 
 def _lost_beyond(distance: FloatArray, spread: FloatArray) -> FloatArray:

@@ -9,7 +9,12 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidg
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
 from occ_gui.accuracy.cost_measurement import SceneCosts
-from occ_gui.accuracy.cost_sentences import forecast_sentence, picture_sentence, switch_sentence
+from occ_gui.accuracy.cost_sentences import (
+    ends_sentence,
+    forecast_sentence,
+    picture_sentence,
+    switch_sentence,
+)
 from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import rows_of, slowest_of
 from occ_gui.accuracy.effect_table import EffectTable
@@ -193,7 +198,7 @@ class AccuracyView(QWidget):
         same = pending is None or pending.plan.included == frame.plan.included
         self.table.show_rows(rows_of(frame, costs, self._new, None if same else pending))
         if same or pending is None:
-            sentence = picture_sentence(costs.picture, pending)
+            sentence = f"{picture_sentence(costs.picture, pending)} {ends_sentence(costs)}".strip()
         else:
             sentence = forecast_sentence(frame, costs.picture, pending)
         if self._changes.switches:

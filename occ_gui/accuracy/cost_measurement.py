@@ -74,7 +74,8 @@ class CostMeasurement:
         timer = _CancellableTimer(report)
         complete = self._complete_of(request, timer)
         chosen = plan_with(request.scene, request.settings)
-        complete.error_of(chosen.included, timer)
+        for effects in (chosen.included, ()):
+            complete.error_of(effects, timer)
         costs = SceneCosts(request, errors=complete.errors)
         report(costs)
         exact = frozenset(complete.effects) <= frozenset(chosen.included)

@@ -7,7 +7,7 @@ from PySide6.QtCore import QCoreApplication
 
 from occ_gui.accuracy.effect_rows import levels, milliseconds
 from occ_gui.accuracy.plan_changes import Switch
-from occ_model.results import Forecast, Frame, TimeShares
+from occ_model.results import Forecast, Frame, MeasuredCosts, TimeShares
 
 
 def picture_sentence(times: TimeShares, expected: Forecast | None) -> str:
@@ -22,6 +22,28 @@ def picture_sentence(times: TimeShares, expected: Forecast | None) -> str:
     """
     time = _tr("This picture: {time} ms").format(time=milliseconds(times.seconds))
     return f"{time}, {_error(expected)}." if expected is not None else f"{time}."
+
+
+def ends_sentence(costs: MeasuredCosts) -> str:
+    """Say what other ends of the slider take: no effects, and all; empty until it is measured.
+
+    Parameters
+    ----------
+    costs
+        What has been measured of the scene.
+    """
+    measured = (*costs.others, costs.picture)
+    bare = next((shares for shares in measured if not shares.effects), None)
+    most = max(reversed(measured), key=lambda shares: len(shares.effects) + len(shares.together))
+    error = costs.errors.get(frozenset())
+    if bare is None or error is None or most is bare:
+        return ""
+    sentence = _tr("Fastest: {time} ms, error {error} levels.").format(
+        time=milliseconds(bare.seconds), error=levels(error)
+    )
+    if most is not costs.picture:
+        sentence += " " + _tr("Exact: {time} ms.").format(time=milliseconds(most.seconds))
+    return sentence
 
 
 def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> str:

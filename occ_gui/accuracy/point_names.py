@@ -1,7 +1,7 @@
 """Names beside the points of a plot, placed so that they cover neither points nor each other."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -108,8 +108,14 @@ class PointNames:
         ):
             text.setText(point.name, self._colour)
             size = text.textItem.boundingRect().size()
-            # A line may cross a name only where there is no other way.
-            rect = self._free(place, size, True) or self._free(place, size, False)
+            others = [other for other in places if _distance(other, place) > _POINT]
+            # A line may cross a name, or a name stand by another point, only where there is no
+            # other way.
+            rect = (
+                self._free(place, size, others, self._shown.values())
+                or self._free(place, size, others, ())
+                or self._free(place, size, (), ())
+            )
             if rect is None:
                 continue
             self._taken.append(rect)
@@ -123,15 +129,34 @@ class PointNames:
                 line.setData([point.x, to.x()], [point.y, to.y()])
                 line.show()
 
-    def _free(self, place: QPointF, size: QSizeF, uncrossed: bool) -> QRectF | None:
-        """Find the nearest place for a name that covers nothing, its line crossing no name."""
+    def _free(
+        self,
+        place: QPointF,
+        size: QSizeF,
+        others: Iterable[QPointF],
+        names: Collection[QRectF],
+    ) -> QRectF | None:
+        """Find the nearest place for a name that covers nothing and stands by no other point.
+
+        Parameters
+        ----------
+        place, size
+            The point's place, and the size of its name.
+        others
+            Other points: the name must not stand nearer to one of them than to its own.
+        names
+            Names that the line to it must not cross.
+        """
         area = self._plot.getViewBox().sceneBoundingRect()
         for offset in _offsets(size.width(), size.height()):
             rect = _around(place + offset, size.width(), size.height())
             if not area.contains(rect) or any(rect.intersects(other) for other in self._taken):
                 continue
             end = _nearest(rect, place)
-            if uncrossed and _crosses(place, end, self._shown.values()):
+            own = min(_distance(place, end), _LED_FROM)
+            if any(_distance(other, _nearest(rect, other)) <= own for other in others):
+                continue
+            if _crosses(place, end, names):
                 continue
             return rect
         return None

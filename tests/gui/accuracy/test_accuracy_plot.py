@@ -4,7 +4,7 @@ import math
 from itertools import combinations
 
 import pytest
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QPointF, QRectF, QSize
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -105,6 +105,30 @@ def test_every_point_is_named_and_no_name_covers_another(plot: AccuracyPlot, siz
         assert not places[one].intersects(places[other]), (one, other)
     area = plot.plot.getViewBox().sceneBoundingRect()
     assert all(area.contains(place) for place in places.values())
+
+
+def test_a_name_stands_nearer_to_its_own_point_than_to_any_other(plot: AccuracyPlot) -> None:
+    plot.resize(720, 300)
+    measure(plot, tuple(crowd()))
+    QApplication.processEvents()
+    box = plot.plot.getViewBox()
+    points = {
+        way.name: box.mapViewToScene(
+            QPointF(
+                math.log10(1e3 * way.point.seconds),
+                math.log10(max(way.point.error, LEAST_ERROR)),
+            )
+        )
+        for way in ways_shown(crowd())
+    }
+    for name, rect in plot.names.places.items():
+
+        def distance(point: QPointF, rect: QRectF = rect) -> float:
+            right = max(rect.left() - point.x(), point.x() - rect.right(), 0.0)
+            down = max(rect.top() - point.y(), point.y() - rect.bottom(), 0.0)
+            return math.hypot(right, down)
+
+        assert min(points, key=lambda each: distance(points[each])) == name
 
 
 def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> None:

@@ -1,0 +1,58 @@
+"""The sentences say what was measured, what is predicted, and what is not known yet."""
+
+import math
+
+import pytest
+
+import occ_model as occ
+from occ_gui.accuracy.cost_sentences import ends_sentence, forecast_sentence, picture_sentence
+from occ_model.results import Forecast, Frame, MeasuredCosts, TimeShares
+
+
+@pytest.fixture(scope="module")
+def frame() -> Frame:
+    scene = occ.load_preset("phone-68us").replace(rows=30, columns=60, edge_time=5e-6)
+    return occ.render(scene, noise="reused")
+
+
+def shares(milliseconds: float, *effects: str) -> TimeShares:
+    return TimeShares(dict.fromkeys(effects, 0.001), {"image": 1e-3 * milliseconds}, {}, True)
+
+
+def test_an_error_is_called_measured_predicted_or_promised(frame: Frame) -> None:
+    times = shares(4.0)
+    plan = frame.plan
+    assert picture_sentence(times, None) == "This picture: 4.0 ms."
+    for expected, words in (
+        (Forecast(plan, 0.004, 0.0, is_measured=True), "exact: nothing is left out"),
+        (Forecast(plan, 0.004, 1.234, is_measured=True), "error 1.2 levels (measured)"),
+        (Forecast(plan, 0.004, 1.234, is_measured=False), "error about 1.2 levels (predicted)"),
+        (Forecast(plan, 0.004, None, is_measured=False), "error at most 0 levels (calculated)"),
+    ):
+        assert picture_sentence(times, expected) == f"This picture: 4.0 ms, {words}."
+
+
+def test_no_promise_is_made_of_what_is_off_by_hand_or_without_limit(frame: Frame) -> None:
+    for tolerance, force in ((math.inf, {}), (0.5, {"led-edges": False})):
+        plan = occ.plan(frame.scene, tolerance, force=force)
+        sentence = picture_sentence(shares(4.0), Forecast(plan, None, None, is_measured=False))
+        assert sentence.endswith("error not measured yet.")
+
+
+def test_a_forecast_names_what_is_switched_either_way(frame: Frame) -> None:
+    after = occ.plan(frame.scene, force={"led-edges": False, "jpeg": True})
+    found = Forecast(after, 0.01, 2.0, is_measured=False)
+    assert forecast_sentence(frame, shares(4.0), found) == (
+        "Next: about 10.0 ms, now 4.0; error about 2 levels (predicted). "
+        "Switches in: JPEG. Switches out: LED rise and fall."
+    )
+
+
+def test_the_ends_of_the_slider_are_stated_once_both_are_measured() -> None:
+    picture, bare, complete = shares(4.0, "jpeg"), shares(1.0), shares(8.0, "jpeg", "flicker")
+    assert ends_sentence(MeasuredCosts(picture)) == ""
+    assert ends_sentence(MeasuredCosts(picture, (complete, bare))) == ""
+    known = MeasuredCosts(picture, (complete, bare), errors={frozenset(): 12.34})
+    assert ends_sentence(known) == "Fastest: 1.0 ms, error 12 levels. Exact: 10.0 ms."
+    exact = MeasuredCosts(complete, (bare,), errors={frozenset(): 12.34})
+    assert ends_sentence(exact) == "Fastest: 1.0 ms, error 12 levels."

@@ -29,7 +29,6 @@ _ROUNDED = 20.0
 """The largest level is rounded up to a multiple of this, so that the axis rarely changes."""
 
 _GRID = 38
-_SHADE = 45
 _WIDTH, _THIN = 2.0, 1.2
 _CROWDED = 2
 """Columns a pixel from which a curve is drawn as its extremes, one pixel wide."""
@@ -99,9 +98,10 @@ class ProfileRow(StoryRow):
         levels, decoded = self.levels, self._decoded
         if levels is None or decoded is None or decoded.threshold is None:
             return None
-        if self._whose == "receiver":
-            return decoded.threshold, decoded.threshold
-        return threshold_levels(levels, decoded)
+        found = threshold_levels(levels, decoded)
+        if found is None or self._whose == "camera":
+            return found
+        return decoded.threshold, decoded.threshold
 
     def _fit(self) -> None:
         """Show from black to the largest level."""
@@ -192,10 +192,6 @@ class ProfileRow(StoryRow):
             return
         colour = seen_on(self.palette(), THRESHOLD)
         low, high = (self.y_of(level, area) for level in threshold)
-        if threshold[0] > threshold[1]:  # between these levels columns are read as either
-            shade = QColor(colour)
-            shade.setAlpha(_SHADE)
-            painter.fillRect(QRectF(area.left(), low, area.width(), high - low), shade)
         painter.setPen(QPen(colour, 1.5, Qt.PenStyle.DashDotLine))
         y = (low + high) / 2
         painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))

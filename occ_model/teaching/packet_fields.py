@@ -10,6 +10,9 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import packet_length, packets, sent_chips
 
+_MOST_EXCEPTIONS = 0.05
+"""Largest share of columns that a level may part otherwise than the decoder's threshold."""
+
 
 @dataclass(frozen=True, slots=True)
 class PacketField:
@@ -70,7 +73,9 @@ def _fields(start: int, bits: int) -> tuple[PacketField, ...]:
 def received_edges(result: DecodeResult) -> FloatArray | None:
     """Return where each chip received begins in the picture, and where the last one ends.
 
-    Column ``i`` of the picture reaches from ``i - 0.5`` to ``i + 0.5``.
+    Column ``i`` of the picture reaches from ``i - 0.5`` to ``i + 0.5``, and a chip found by its
+    columns begins and ends with them. A decoder that finds the chips by their light gives the time
+    at which each is sent; the exposure of column ``i`` begins at the time that lies at ``i``.
 
     Returns
     -------
@@ -79,14 +84,17 @@ def received_edges(result: DecodeResult) -> FloatArray | None:
     if result.chip_starts is None or result.region is None or not result.chips.size:
         return None
     columns = np.append(result.chip_starts, float(result.region.columns))
-    return np.asarray(columns + (result.region.first_column - 0.5), dtype=np.float64)
+    columns[:-1] -= 0.0 if result.light is not None else 0.5
+    columns[-1] -= 0.5
+    return np.asarray(columns + result.region.first_column, dtype=np.float64)
 
 
 def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, float] | None:
     """Return the levels of another profile between which a decoder's threshold lies.
 
-    The decoder compares its signal, which is enhanced, with the threshold. In a profile before
-    the enhancement the columns that it takes for zeros and for ones have levels, too.
+    The decoder compares its signal, which is enhanced, with the threshold. A profile before the
+    enhancement has a level, too, that parts the columns as the decoder does. Columns that show
+    more than the panel, at its sides, can be on the other side of both.
 
     Parameters
     ----------
@@ -98,14 +106,23 @@ def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, 
     Returns
     -------
     (float, float) or None
-        The highest level of a zero and the lowest level of a one: where the first is lower, any
-        level between them parts zeros from ones as the decoder does. None without a threshold.
+        Neighbouring levels of columns: any level between them parts zeros from ones with the
+        fewest exceptions. None without a threshold of the signal, or where more than one column in
+        twenty is an exception.
     """
     region, signal = result.region, result.signal
     if result.threshold is None or region is None or signal is None:
         return None
-    levels = profile[region.first_column : region.last_column]
-    ones = signal > result.threshold
-    if len(levels) != len(ones) or ones.all() or not ones.any():
+    if result.equalized is not None:  # the threshold is one of light, not of the signal
         return None
-    return float(levels[~ones].max()), float(levels[ones].min())
+    levels = profile[region.first_column : region.last_column]
+    if len(levels) != len(signal) or len(levels) < 2:
+        return None
+    order = np.argsort(levels, kind="stable")
+    ones = (signal > result.threshold)[order]
+    # With the lowest k levels taken for zeros: ones among them, and zeros among the others.
+    exceptions = np.cumsum(ones)[:-1] + np.cumsum(~ones[::-1])[-2::-1]
+    best = int(exceptions.argmin())
+    if exceptions[best] > _MOST_EXCEPTIONS * len(levels):
+        return None
+    return float(levels[order[best]]), float(levels[order[best + 1]])

@@ -52,17 +52,31 @@ def test_a_result_without_chips_has_no_places() -> None:
 
 
 @pytest.mark.parametrize("exposure", [20e-6, 68e-6, 136e-6])
-def test_a_chip_received_was_sent_in_the_middle_of_its_exposures(exposure: float) -> None:
-    frame, result = read(exposure_time=exposure)
+@pytest.mark.parametrize(
+    ("decoder", "share"), [("threshold", 0.5), ("equalizer", 0.5), ("sequence", 0.0)]
+)
+def test_a_chip_received_lies_where_it_was_sent(
+    exposure: float, decoder: str, share: float
+) -> None:
+    """Or earlier by half an exposure: the columns with that chip in their middle show it."""
+    frame, _ = read(exposure_time=exposure)
+    result = occ.decode(frame.image, frame.scene, decoder=decoder)
     edges = received_edges(result)
     assert edges is not None
     assert len(edges) == len(result.chips) + 1
-    late = exposure / frame.scene.camera.readout_time / 2
-    curve = light_over_columns(frame.scene, 0.0, len(frame.profile) + 2 * late, 10_000)
+    late = share * exposure / frame.scene.camera.readout_time
+    curve = light_over_columns(frame.scene, -50.0, len(frame.profile) + 2 * late, 10_000)
     assert curve is not None
     middles = (edges[1:-2] + edges[2:-1]) / 2 + late
     sent = [curve.lit[curve.chip_at(x) or 0] for x in middles.tolist()]
     np.testing.assert_array_equal(sent, result.chips[1:-1])
+
+
+def test_a_threshold_of_light_is_none_of_the_profile() -> None:
+    frame, _ = read(exposure_time=136e-6)
+    result = occ.decode(frame.image, frame.scene, decoder="equalizer")
+    assert result.threshold is not None
+    assert threshold_levels(frame.profile, result) is None
 
 
 def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
@@ -78,3 +92,15 @@ def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
     np.testing.assert_array_equal(part > middle, result.signal > result.threshold)
     low, high = threshold_levels(frame.signal, result) or (0.0, 0.0)
     assert low <= result.threshold <= high
+
+
+def test_columns_beside_the_panel_do_not_hide_the_threshold() -> None:
+    frame, result = read()
+    assert result.region is not None
+    profile = frame.profile.copy()
+    first = result.region.first_column
+    lit = first + np.flatnonzero(result.signal > result.threshold)
+    profile[lit[:5]] = 0.0
+    assert threshold_levels(profile, result) == threshold_levels(frame.profile, result)
+    rng = np.random.default_rng(3)
+    assert threshold_levels(rng.normal(size=len(profile)), result) is None

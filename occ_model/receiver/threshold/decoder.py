@@ -11,6 +11,7 @@ from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.receiver.threshold.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of
 
 _SHORTEST_CHIP = 1.0
@@ -20,7 +21,45 @@ _FEWEST_RUNS = 3
 """Fewest whole runs from which a chip's length is estimated."""
 
 
+_LONGEST_EXPOSURE = 2.0
+"""Chips of an exposure beyond which a single chip leaves less than half of its light in a column.
+
+A threshold in the middle no longer sees it, and all repetitions of a packet show the same errors.
+"""
+
+_LONGEST_UNCHECKED = 1.0
+"""Chips of an exposure beyond which single chips no longer reach the level of longer runs."""
+
+
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
+    """Read the payload from a signal, as :func:`read_stripes` does, as long as it shows the chips.
+
+    Of other schemes than the paper's the exposure time is known as well. Where it is so long that
+    several chips can be misread alike in every packet, and the framing does not check the payload,
+    the bits are given with a failure.
+    """
+    result = read_stripes(signal, scene)
+    unsure = None if result.failure is not None else _why_unsure(scene)
+    return result if unsure is None else replace(result, code=None, failure=unsure)
+
+
+def _why_unsure(scene: Scene) -> str | None:
+    """Say why a payload may have been misread unnoticed; None where it may not."""
+    scheme = scheme_of(scene.transmitter)
+    if scheme.is_papers or scheme.framing.checks:
+        return None
+    # Without rules of the line code or a longer preamble any chips behind 1110 are a payload.
+    unchecked = scheme.line_code.longest_run is None and scheme.framing.name == PAPER_FRAMING.name
+    chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
+    if chips <= (_LONGEST_UNCHECKED if unchecked else _LONGEST_EXPOSURE):
+        return None
+    return (
+        f"The exposure lasts {chips:.2f} chips, of which a threshold sees no single ones for "
+        "certain, and this scheme finds not all that are wrong; the framing raw checks the payload."
+    )
+
+
+def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the payload from a signal; of the scene scheme and number of bits are known.
 
     For a raw pattern, whose runs have no scale, and for other schemes than the paper's the length

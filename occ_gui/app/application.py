@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QSettings
+from PySide6.QtCore import QObject, QSettings, Qt
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
@@ -36,7 +36,7 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
-from occ_model.receiver.decoders import QUICK_DECODERS, decoders
+from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS, decoders
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -70,9 +70,9 @@ class Application(QObject):
         self.simulation = SimulationController(self.store, self.settings)
         effects = [name for effect in EFFECTS for name in effect.parameters]
         self.controls = ControlPanel([], effects)
-        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView(decoders())
+        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView([*DECODERS])
         self.accuracy, self.photo = AccuracyView(), PhotoView()
-        self.story = StoryView(self.image, decoders())
+        self.story = StoryView(self.image, [*DECODERS])
         self.detection = MapView(QUICK_DECODERS)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(
@@ -137,6 +137,9 @@ class Application(QObject):
         self.store.refused.connect(self._refuse)
         self.store.refused_for.connect(self.messages.show_refusal_for)
         self.simulation.snapshot_shown.connect(self._on_snapshot)
+        # Looking for plug-ins takes some 40 ms: not before the first picture.
+        once = Qt.ConnectionType.SingleShotConnection
+        self.simulation.snapshot_shown.connect(self._offer_plugins, once)
         self.simulation.failed_for.connect(self.messages.show_failure)
         self.simulation.failed.connect(self.learning.pins.give_up)
         for speaker in (self.presets, self.files, self.present):
@@ -274,6 +277,11 @@ class Application(QObject):
     def _on_photo_failure(self, sentence: str) -> None:
         self._match_next = False
         self.messages.show_photo_failure(sentence)
+
+    def _offer_plugins(self) -> None:
+        if decoders() != tuple(DECODERS):
+            self.decode.offer(decoders())
+            self.story.offer(decoders())
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.messages.end_failure()

@@ -120,6 +120,12 @@ class DecodeView(QWidget):
         )
         self._show_chosen()
 
+    def offer(self, decoders: Sequence[str]) -> None:
+        """Offer these decoders in place of the former ones."""
+        self._names = tuple(decoders)
+        if self._reading is not None:
+            self.show_reading(self._reading)
+
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the results are of an earlier scene; they are not the present verdict."""
         reading = self._reading

@@ -11,6 +11,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.projection import check_size
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import called_for_by_signal, plan_with
+from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
 from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
@@ -42,7 +43,8 @@ def reading_by_profile(request: SimulationRequest) -> Reading | None:
     ProjectionError
         The panel has no picture in this pose.
     """
-    found = read_profile(request.scene, request.settings, (*QUICK_DECODERS, *request.more))
+    more = filter(_is_usable, request.more)
+    found = read_profile(request.scene, request.settings, (*QUICK_DECODERS, *more))
     if found is None:
         return None
     first, *others = found.results
@@ -152,6 +154,15 @@ def _beside(scene: Scene) -> _Beside:
     }
 
 
+def _is_usable(decoder: str) -> bool:
+    """Whether a decoder can be used; what is wrong with a plug-in's is said with the picture."""
+    try:
+        decoder_named(decoder)
+    except PluginError:
+        return False
+    return True
+
+
 def _decode_with_others(
     decoded: DecodeResult, scene: Scene, more: tuple[str, ...]
 ) -> Iterator[DecodeResult]:
@@ -162,5 +173,8 @@ def _decode_with_others(
         if decoded.signal is None:  # no panel found, which holds for all decoders
             yield DecodeResult(name, failure=decoded.failure)
         else:
-            result = decoder_named(name).read(decoded.signal, scene)
+            try:
+                result = decoder_named(name).read(decoded.signal, scene)
+            except PluginError as error:
+                result = DecodeResult(name, failure=str(error))
             yield replace(result, region=decoded.region, location=decoded.location)

@@ -81,12 +81,19 @@ class StoryView(QWidget):
         layout.addWidget(self.measured)
         layout.addWidget(self._pages, 1)
 
+    def offer(self, decoders: Sequence[str]) -> None:
+        """Offer these decoders, beside those offered before."""
+        for name in decoders:
+            if self.decoder.findData(name) < 0:
+                self.decoder.addItem(self.tr("Decoder: {name}").format(name=name), name)
+
     def _make_controls(self, decoders: Sequence[str]) -> None:
         self.decoder = KeyedComboBox(
             self.tr("Decoder"),
             self.tr("Whose verdict, threshold, chips and bits are shown."),
-            {name: self.tr("Decoder: {name}").format(name=name) for name in decoders},
+            {},
         )
+        self.offer(decoders)
         self.decoder.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.decoder.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.decoder.chosen.connect(self.decoder_chosen)

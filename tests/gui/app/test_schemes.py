@@ -1,11 +1,18 @@
 """Line codes, framings and payloads, chosen and typed at the window."""
 
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
 from gui.user import User
+from model.plugins.installed_package import install
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import OpenChoiceRow, ParameterRow
+from occ_model import plugins
+from occ_model.receiver import decoders
 
 
 def row(application: Application, name: str) -> ParameterRow:
@@ -58,3 +65,36 @@ def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(
     choose(application, user, "line_code", "manchester")
     assert application.decode.verdict.text() == "✓ Code 718 read, all bits right"
     assert row(application, "framing").notice.text() == ""
+
+
+@pytest.fixture
+def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Install a decoder that reads nothing and one that cannot be imported."""
+    module = (
+        "import occ_model as occ\n"
+        "def read(signal, scene):\n"
+        "    return occ.DecodeResult('nothing', signal=signal, failure='Nothing is looked for.')\n"
+        "DECODER = occ.Decoder('nothing', 'Nothing', read)\n"
+    )
+    names = {"nothing": "reads_nothing:DECODER", "gone": "reads_nothing:GONE"}
+    install(tmp_path, "reads-nothing", {plugins.DECODERS: names}, module)
+    monkeypatch.syspath_prepend(tmp_path)
+    for cache in (plugins._found, decoders._plugin):
+        cache.cache_clear()
+    yield
+    for cache in (plugins._found, decoders._plugin):
+        cache.cache_clear()
+
+
+@pytest.mark.usefixtures("plugins_of_decoders")
+def test_decoders_of_plugins_have_tabs_and_say_why_they_fail(
+    application: Application, user: User
+) -> None:
+    view = application.decode
+    tabs = [view.decoders.tabText(place) for place in range(view.decoders.count())]
+    assert tabs[-2:] == ["nothing", "gone"]
+    assert application.story.decoder.findData("nothing") >= 0
+    for place, said in ((-2, "Nothing is looked for."), (-1, "The plug-in 'gone' of the package")):
+        view.decoders.setCurrentIndex(len(tabs) + place)
+        user.wait_until_idle()
+        assert said in view.reason.text()

@@ -20,12 +20,17 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     """A grey image that shows the mean of the pixels that share a pixel of the screen.
 
     Taking one of them instead, as image items do, turns fine stripes into coarse ones that do not
-    exist. A pixel of the image that is larger than one of the screen is drawn as a square, and has its
-    grey level written in it where that is readable.
+    exist. A pixel of the image that is larger than one of the screen is drawn as a square.
+
+    Parameters
+    ----------
+    with_values
+        Whether the grey level is written into pixels that are large enough to read it.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, with_values: bool = False) -> None:
         super().__init__()
+        self._with_values = with_values
         self._image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
         self._halves: tuple[ByteArray, ...] = ()
         self._rect = QRectF()
@@ -87,7 +92,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         if self._first_row > self._rect.top():
             painter.setClipRect(self._rect.adjusted(0, self._first_row - self._rect.top(), 0, 0))
         painter.drawImage(target, self._drawn[2])
-        self.values_drawn = draw_pixel_values(painter, self._image, part, target)
+        if self._with_values:
+            self.values_drawn = draw_pixel_values(painter, self._image, part, target)
 
     def _visible_part(self) -> QRect:
         """Return the pixels of the image that are in view."""

@@ -48,7 +48,7 @@ class PicturePane(QWidget):
             maxXRange=_LARGEST_SPAN, maxYRange=_LARGEST_SPAN,
         )  # fmt: skip
         self.graphics.setCentralItem(self.box)
-        self._picture = AveragedImage()
+        self._picture = AveragedImage(with_values=True)
         self._region = QGraphicsRectItem()
         self._region.setPen(_REGION_PEN)
         self.box.addItem(self._picture)

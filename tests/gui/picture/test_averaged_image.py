@@ -180,6 +180,9 @@ def test_only_the_visible_part_is_averaged_when_the_view_changes(
 
 
 def test_pixels_that_are_large_enough_have_their_grey_level_written(screen: Screen) -> None:
+    screen.box.removeItem(screen.item)
+    screen.item = AveragedImage(with_values=True)
+    screen.box.addItem(screen.item)
     image = np.full((200, 200), 255, dtype=np.uint8)
     screen.item.set_image(image)
     screen.shown(400, 400, QRectF(0, 0, 100, 100))

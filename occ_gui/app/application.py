@@ -68,8 +68,9 @@ class Application(QObject):
         self.preferences = Preferences(preferences)
         # Simulates the first picture while the panes are created.
         self.simulation = SimulationController(self.store, self.settings)
-        effects = [name for effect in EFFECTS for name in effect.parameters]
-        self.controls = ControlPanel([], effects)
+        effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
+        stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
+        self.controls = ControlPanel([], [*effects], {name: stages[name] for name in effects})
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView([*DECODERS])
         self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.story = StoryView(self.image, [*DECODERS])
@@ -246,11 +247,12 @@ class Application(QObject):
     def _show_scene(self, scene: Scene) -> None:
         self.messages.end_refusal()
         self.controls.show_scene(scene)
-        self.controls.show_preset(self.presets.name_of(scene))
+        self.controls.show_preset(*self.presets.follow(scene))
 
     def _list_presets(self) -> None:
-        self.controls.list_presets(self.presets.titles, self.presets.unreadable)
-        self.controls.show_preset(self.presets.name_of(self.store.scene))
+        presets = self.presets
+        self.controls.list_presets(presets.titles, presets.unreadable, presets.own)
+        self.controls.show_preset(*self.presets.follow(self.store.scene))
 
     def _list_recent(self) -> None:
         preferences, menus = self.preferences, self.window.menus

@@ -10,6 +10,7 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.preset_file import Preset
 from occ_model.scene.presets import (
     all_presets,
@@ -19,6 +20,14 @@ from occ_model.scene.presets import (
     user_presets,
 )
 from occ_model.scene.scene import Scene
+
+_MOST_OF_A_CHANGE = 2
+"""Parameters that one change of the user has at most: the exposure and, held by it, the ISO."""
+
+
+def _differences(one: Scene, other: Scene) -> int:
+    """Count the parameters in which two scenes differ."""
+    return sum(one.value(name) != other.value(name) for name in PARAMETERS)
 
 
 class PresetController(QObject):
@@ -45,6 +54,9 @@ class PresetController(QObject):
         self._window = window
         self._store = store
         self._matching = matching
+        self._own: tuple[str, ...] = ()
+        self._followed: Scene | None = None
+        self._base: str | None = None
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
         self._read()
@@ -60,9 +72,39 @@ class PresetController(QObject):
         """Names of the user's preset files that cannot be read, with the reasons."""
         return list(self._unreadable.items())
 
+    @property
+    def own(self) -> tuple[str, ...]:
+        """Names of the user's presets."""
+        return self._own
+
     def name_of(self, scene: Scene) -> str | None:
         """Return the name of the preset that equals a scene, None if there is none."""
         return next((p.name for p in self._presets if p.scene == scene), None)
+
+    def follow(self, scene: Scene) -> tuple[str | None, str | None]:
+        """Follow the scene from change to change.
+
+        Parameters
+        ----------
+        scene
+            The present scene.
+
+        Returns
+        -------
+        name
+            The preset that it equals, None if there is none.
+        changed
+            In that case the preset that it was before some of its values were changed, one or a
+            few at a time. None where a whole other scene has come meanwhile.
+        """
+        name, last = self.name_of(scene), self._followed
+        self._followed = scene
+        if name is not None:
+            self._base = name
+            return name, None
+        if last is None or _differences(last, scene) > _MOST_OF_A_CHANGE:
+            self._base = None
+        return None, self._base
 
     def load(self, name: str) -> None:
         """Load the scene of a preset, as one step that can be undone."""
@@ -131,6 +173,7 @@ class PresetController(QObject):
 
     def _read(self) -> None:
         self._presets = list(all_presets())
+        self._own = user_presets()
         self._unreadable = {
             name: one_line(reason, LONGEST) for name, reason in unreadable_presets().items()
         }

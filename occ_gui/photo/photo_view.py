@@ -19,6 +19,7 @@ from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_facts import PhotoFacts
+from occ_gui.photo.photo_steps import PhotoSteps
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.picture.placement import Placement
@@ -59,8 +60,13 @@ class PhotoView(QWidget):
         self._pages = QStackedWidget()
         self._pages.addWidget(self._make_invitation())
         self._pages.addWidget(self._make_page())
+        self.steps = PhotoSteps()
+        self.steps.chosen.connect(self._go_to_step)
+        self._match: Match | None = None
+        self._scene: Scene | None = None
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setContentsMargins(4, 0, 4, 0)
+        layout.addWidget(self.steps)
         layout.addWidget(self._pages)
         self._hide_failure()
         self.result.hide()
@@ -115,8 +121,9 @@ class PhotoView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
-        self._has_photo = photo is not None
+        self._has_photo, self._match = photo is not None, None
         self._show_page()
+        self._show_steps()
         self._hide_failure()
         self._noted = None if photo is None else photo.exposure_time
         path = None if photo is None else photo.path
@@ -134,9 +141,31 @@ class PhotoView(QWidget):
 
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene."""
+        self._scene = scene
+        self._show_steps()
         self.form.show_scene(scene)
         self.result.show_scene(scene)
         self.many.show_scene(scene)
+
+    def _show_steps(self) -> None:
+        match = self._match
+        self.steps.show_state(
+            has_photo=self._has_photo,
+            match="" if match is None else match.verdict,
+            is_applied=match is not None and match.scene == self._scene,
+        )
+
+    def _go_to_step(self, step: str) -> None:
+        """Open a photo, match it, apply the match, or show where what was sent is chosen."""
+        if step == "open":
+            self.open_asked.emit()
+        elif step == "sent":
+            self._bring_into_view(self.form)
+            self.form.sent.setFocus()
+        elif step == "match":
+            self.form.start.click()
+        else:
+            self.result.apply.click()
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         """Show where the photo lies."""
@@ -156,6 +185,8 @@ class PhotoView(QWidget):
         self.form.show_running(False)
         self._hide_failure()
         self.result.setVisible(match is not None)
+        self._match = match
+        self._show_steps()
         if match is not None:
             self.result.show_match(match, self._noted)
             self._bring_into_view(self.result)

@@ -1,6 +1,7 @@
 """Control panel: the preset, the code, and pages with the controls of all other parameters."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QStandardItemModel
@@ -37,7 +38,10 @@ class ControlPanel(QWidget):
     presets
         Names and titles of the presets.
     effects
-        The parameters of the effects, which have their own page.
+        The parameters of the effects, which have their own page, in the order that light travels.
+    stages
+        By the name of an effect's parameter what the light passes there: ``"light"``,
+        ``"optics"``, ``"sensor"`` or ``"processing"``; each has a heading on that page.
     parent
         The parent widget.
     """
@@ -49,6 +53,7 @@ class ControlPanel(QWidget):
         self,
         presets: Sequence[tuple[str, str]],
         effects: Sequence[str] = (),
+        stages: Mapping[str, str] = MappingProxyType({}),
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -72,12 +77,25 @@ class ControlPanel(QWidget):
         self.panels = {
             self.tr("Main"): ParameterPanel(MAIN, with_scales=True),
             self.tr("Panel and camera"): ParameterPanel(n for n in others if n not in model),
-            self.tr("Effects"): ParameterPanel(effects),
+            self.tr("Effects"): ParameterPanel(effects, self._headings(stages)),
             self.tr("Model"): ParameterPanel(model),
         }
         main = self.panels[self.tr("Main")]
         self.player = Player(self.main_rows(), main.play_buttons, self)
         self._lay_out()
+
+    def _headings(self, stages: Mapping[str, str]) -> dict[str, str]:
+        """Return the headings of the stages, by the first parameter of each."""
+        words = {
+            "light": self.tr("Light: LED and room"),
+            "optics": self.tr("Optics: from the panel through the lens"),
+            "sensor": self.tr("Sensor"),
+            "processing": self.tr("File"),
+        }
+        first: dict[str, str] = {}
+        for name, stage in stages.items():
+            first.setdefault(stage, name)
+        return {name: words[stage] for stage, name in first.items()}
 
     def connect_editor(self, editor: SceneEditor) -> None:
         """Connect every row and the code directly with the editor of the scene."""
@@ -104,7 +122,10 @@ class ControlPanel(QWidget):
         layout.addWidget(pages, 1)
 
     def list_presets(
-        self, presets: Sequence[tuple[str, str]], unreadable: Sequence[tuple[str, str]] = ()
+        self,
+        presets: Sequence[tuple[str, str]],
+        unreadable: Sequence[tuple[str, str]] = (),
+        own: Collection[str] = (),
     ) -> None:
         """List these presets in place of the former ones.
 
@@ -114,10 +135,13 @@ class ControlPanel(QWidget):
             Names and titles.
         unreadable
             Names of presets that cannot be loaded, with the reasons; they cannot be chosen.
+        own
+            Names of the presets that the user has named: these are listed by name.
         """
         self.preset.clear()
         for name, title in presets:
-            self._list(one_line(name), name, title)
+            by_name = name in own
+            self._list(one_line(name if by_name else title), name, title if by_name else name)
         for name, reason in unreadable:
             text = self.tr("{name}: cannot be read").format(name=one_line(name))
             place = self._list(text, None, reason)
@@ -172,6 +196,20 @@ class ControlPanel(QWidget):
             fields.update(panel.rows)
         return fields
 
-    def show_preset(self, name: str | None) -> None:
-        """Show the name of the preset that the scene equals, or none."""
+    def show_preset(self, name: str | None, changed: str | None = None) -> None:
+        """Show which preset the scene equals, or which one it was before it was changed.
+
+        Parameters
+        ----------
+        name
+            The preset that it equals, None if there is none.
+        changed
+            In that case the preset that it was, None if it was none.
+        """
+        text = self.tr("Choose a preset")
+        place = -1 if changed is None else self.preset.findData(changed)
+        if place >= 0:
+            text = self.tr("{title}, changed").format(title=self.preset.itemText(place))
+        if text != self.preset.placeholderText():
+            self.preset.setPlaceholderText(text)
         self.preset.setCurrentIndex(-1 if name is None else self.preset.findData(name))

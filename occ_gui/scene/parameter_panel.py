@@ -1,6 +1,7 @@
 """Parameter panel: a form of parameter rows with their labels."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
@@ -8,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.play_button import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
+from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -21,6 +23,8 @@ class ParameterPanel(QWidget):
     ----------
     names
         The parameters, in the order shown.
+    headings
+        Headings by the name of the parameter that they stand above.
     with_scales
         Whether each slider has a scale and a button that runs it.
     parent
@@ -28,7 +32,12 @@ class ParameterPanel(QWidget):
     """
 
     def __init__(
-        self, names: Iterable[str], parent: QWidget | None = None, *, with_scales: bool = False
+        self,
+        names: Iterable[str],
+        headings: Mapping[str, str] = MappingProxyType({}),
+        parent: QWidget | None = None,
+        *,
+        with_scales: bool = False,
     ) -> None:
         super().__init__(parent)
         self._scales: dict[str, SliderScale] = {}
@@ -38,6 +47,8 @@ class ParameterPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.setSpacing(2)
         for name in names:
+            if name in headings:
+                layout.addWidget(_heading(headings[name]))
             row = row_for(PARAMETERS[name])
             self.rows[name] = row
             self.labels[name] = _label(PARAMETERS[name])
@@ -67,6 +78,13 @@ class ParameterPanel(QWidget):
                 row.show_value(value)
         for name, scale in self._scales.items():
             scale.show_marks(marked_values(scene, name))
+
+
+def _heading(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setFont(scaled(label.font(), TextSize.BODY, bold=True))
+    label.setContentsMargins(0, 8, 0, 4)
+    return label
 
 
 def _label(declared: Parameter) -> QLabel:

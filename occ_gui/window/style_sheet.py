@@ -41,6 +41,12 @@ QPushButton:pressed { background: palette(mid); }
 QPushButton:checked { background: palette(highlight); color: palette(highlighted-text); }
 QPushButton:disabled { border-color: palette(midlight); }
 QPushButton:focus { border: 2px solid palette(accent); padding: 3px 8px; }
+QPushButton#step { border-radius: 13px; padding: 4px 4px; background: transparent; }
+QPushButton#step[current="true"] {
+    background: palette(highlight); color: palette(highlighted-text);
+    border-color: palette(highlight); font-weight: 600;
+}
+QPushButton#step:focus { border: 2px solid palette(window-text); padding: 3px 3px; }
 
 QLineEdit, QAbstractSpinBox, QComboBox {
     border: 1px solid palette(mid); border-radius: 4px; background: palette(base);

@@ -75,10 +75,10 @@ class User:
         return found
 
     def choose_next_preset(self) -> str:
-        """Move on in the list of presets, wait, and return the name that it shows."""
+        """Move on in the list of presets, wait, and return the name of the one shown."""
         self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)
         self.wait_until_idle()
-        return self._application.controls.preset.currentText()
+        return str(self._application.controls.preset.currentData())
 
     @property
     def message(self) -> str:

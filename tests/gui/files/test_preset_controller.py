@@ -59,7 +59,7 @@ def matched(application: Application, user: User, photo_file: Path) -> Applicati
 
 def names(application: Application) -> list[str]:
     combo = application.controls.preset
-    return [combo.itemText(place) for place in range(combo.count())]
+    return [combo.itemData(place) or combo.itemText(place) for place in range(combo.count())]
 
 
 def test_the_window_starts_in_spite_of_rubbish_among_presets(
@@ -123,7 +123,7 @@ def test_the_shown_preset_stays_shown_when_another_is_saved(
     shown = user.choose_next_preset()
     answer("mine", False)
     matched.photo.result.save.click()
-    assert matched.controls.preset.currentText() == shown
+    assert matched.controls.preset.currentData() == shown
 
 
 def test_a_preset_is_replaced_only_if_the_user_says_so(
@@ -185,3 +185,23 @@ def test_a_missing_preset_gives_a_sentence_and_leaves_the_list(
 def test_without_a_match_there_is_nothing_to_save(application: Application, user: User) -> None:
     application.presets.ask_to_save_match()
     assert user.message == "There is no match yet that could be saved."
+
+
+def test_a_changed_preset_is_named_until_another_scene_comes(
+    application: Application, user: User
+) -> None:
+    preset = application.controls.preset
+    application.presets.load("phone-68us")
+    assert preset.currentText() == "Phone, 68 µs"
+    application.store.change(iso=200.0)
+    application.store.change(distance=1.5)
+    assert preset.currentIndex() == -1
+    assert preset.placeholderText() == "Phone, 68 µs, changed"
+    application.store.undo_stack.undo()
+    application.store.undo_stack.undo()
+    assert preset.currentText() == "Phone, 68 µs"
+    application.store.change(iso=200.0)
+    other = occ.load_preset("tablet-61us").replace(iso=300.0)
+    application.store.put(other, "another scene")
+    assert preset.placeholderText() == "Choose a preset"
+    user.wait_until_idle()

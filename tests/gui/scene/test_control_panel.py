@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLineEdit, QSlider, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLabel, QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.scene.control_panel import MAIN, ControlPanel
@@ -122,15 +122,10 @@ def test_choosing_a_preset_tells_its_name(panel: ControlPanel, qtbot: QtBot) -> 
 
 def test_the_preset_shown_is_the_scenes_or_none(panel: ControlPanel) -> None:
     panel.show_preset("large")
-    assert panel.preset.currentText() == "large"
+    assert panel.preset.currentData() == "large"
     panel.show_preset(None)
     assert panel.preset.currentIndex() == -1
     assert panel.preset.placeholderText()
-
-
-def test_presets_are_explained_by_their_titles(panel: ControlPanel) -> None:
-    tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
-    assert tips == [title for _, title in PRESETS]
 
 
 def test_other_presets_replace_the_last_ones_without_a_signal(
@@ -139,7 +134,33 @@ def test_other_presets_replace_the_last_ones_without_a_signal(
     told: list[str] = []
     panel.preset_chosen.connect(told.append)
     panel.list_presets([("mine", "My own"), *PRESETS])
-    texts = [panel.preset.itemText(place) for place in range(panel.preset.count())]
+    texts = [panel.preset.itemData(place) for place in range(panel.preset.count())]
     assert texts == ["mine", "small", "large"]
     assert panel.preset.currentIndex() == -1
     assert told == []
+
+
+def test_presets_of_the_program_are_listed_by_their_titles(panel: ControlPanel) -> None:
+    panel.list_presets([("phone-68us", "Phone, 68 µs"), ("mine", "Measured")], own=["mine"])
+    texts = [panel.preset.itemText(place) for place in range(2)]
+    tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
+    assert texts == ["Phone, 68 µs", "mine"]
+    assert tips == ["phone-68us", "Measured"]
+
+
+def test_a_preset_that_was_changed_is_named_so(panel: ControlPanel) -> None:
+    panel.list_presets([("phone-68us", "Phone, 68 µs")])
+    panel.show_preset(None, "phone-68us")
+    assert panel.preset.currentIndex() == -1
+    assert panel.preset.placeholderText() == "Phone, 68 µs, changed"
+    panel.show_preset(None)
+    assert panel.preset.placeholderText() == "Choose a preset"
+
+
+def test_effects_have_a_heading_for_each_stage_of_the_light(qtbot: QtBot) -> None:
+    stages = {"edge_time": "light", "flicker_depth": "light", "full_well": "sensor"}
+    panel = ControlPanel([], list(stages), stages)
+    qtbot.addWidget(panel)
+    page = panel.panels["Effects"]
+    bold = [label for label in page.findChildren(QLabel) if label.font().bold()]
+    assert [label.text() for label in bold] == ["Light: LED and room", "Sensor"]

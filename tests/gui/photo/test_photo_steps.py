@@ -1,0 +1,73 @@
+"""Steps of a photo: each says whether it is done, is next or must wait."""
+
+import pytest
+from PySide6.QtGui import QAccessible
+from pytestqt.qtbot import QtBot
+
+from occ_gui.photo.photo_steps import STEPS, PhotoSteps
+from occ_gui.photo.photo_view import PhotoView
+from occ_model.photo.reading.load import Photo
+
+
+@pytest.fixture
+def steps(qtbot: QtBot) -> PhotoSteps:
+    made = PhotoSteps()
+    qtbot.addWidget(made)
+    return made
+
+
+def spoken(steps: PhotoSteps) -> list[str]:
+    """Give what a screen reader says of the steps."""
+    faces = [QAccessible.queryAccessibleInterface(button) for button in steps.buttons.values()]
+    return [face.text(QAccessible.Text.Name) for face in faces]
+
+
+@pytest.mark.parametrize(
+    ("has_photo", "match", "is_applied", "words"),
+    [
+        (False, "", False, ["Open: next step", "Sent?", "Match", "Apply"]),
+        (True, "", False, ["Open: done", "Sent?: next step", "Match", "Apply"]),
+        (True, "sure", False, ["Open: done", "Sent?: done", "Match: done", "Apply: next step"]),
+        (True, "sure", True, ["Open: done", "Sent?: done", "Match: done", "Apply: done"]),
+        (True, "doubtful", False, ["Open: done", "Sent?: done", "Match: doubtful", "Apply"]),
+    ],
+)  # fmt: skip
+def test_each_step_says_how_far_it_is(
+    steps: PhotoSteps, has_photo: bool, match: str, is_applied: bool, words: list[str]
+) -> None:
+    steps.show_state(has_photo=has_photo, match=match, is_applied=is_applied)
+    assert [said.removesuffix(": next step") for said in spoken(steps)] == [
+        word.removesuffix(": next step") for word in words
+    ]
+    enabled = [name for name, button in steps.buttons.items() if button.isEnabled()]
+    assert enabled == list(STEPS[: 1 if not has_photo else 4 if match else 3])
+
+
+def test_a_doubtful_match_has_no_tick(steps: PhotoSteps) -> None:
+    steps.show_state(has_photo=True, match="doubtful", is_applied=False)
+    assert steps.buttons["match"].text() == "? Match"
+
+
+def test_a_click_goes_to_its_step(steps: PhotoSteps) -> None:
+    told: list[str] = []
+    steps.chosen.connect(told.append)
+    steps.show_state(has_photo=True, match="sure", is_applied=False)
+    for button in steps.buttons.values():
+        button.click()
+    assert told == list(STEPS)
+
+
+def test_the_pane_leads_from_step_to_step(qtbot: QtBot, photo: Photo) -> None:
+    view = PhotoView()
+    qtbot.addWidget(view)
+    view.show()
+    with qtbot.waitSignal(view.open_asked):
+        view.steps.buttons["open"].click()
+    view.show_photo(photo)
+    assert spoken(view.steps)[1] == "Sent?: next step"
+    view.steps.buttons["sent"].click()
+    assert view.focusWidget() is view.form.sent
+    with qtbot.waitSignal(view.form.asked):
+        view.steps.buttons["match"].click()
+    view.show_photo(None)
+    assert spoken(view.steps)[0] == "Open: next step"

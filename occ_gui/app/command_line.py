@@ -50,8 +50,6 @@ OVERLAYS = ("beside", "blend", "split", "difference")
 THEMES = ("system", "light", "dark")
 """Names of the colour themes."""
 
-_NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
-
 _TURN_MS = 200
 
 _TURN_S = 0.001
@@ -134,6 +132,10 @@ def _size(text: str) -> tuple[int, int]:
 def _run(options: argparse.Namespace, begin: Start) -> int:
     _prepare(options)
     qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.preferences)
+    if not options.screenshot:
+        from occ_gui.app.display import first_place
+
+        application.window.setGeometry(first_place(qt.primaryScreen().availableGeometry()))
     begin.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.desktop.theme.choose(options.theme)
@@ -209,7 +211,9 @@ def start(
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would print several lines about it.
-        raise occ.OccError(_NO_DISPLAY)
+        from occ_gui.app.display import NO_DISPLAY
+
+        raise occ.OccError(NO_DISPLAY)
     gc.disable()  # from now on garbage is collected on this thread only
     # Importing Qt takes a quarter of a second, which --help and a wrong preset do not need.
     from PySide6.QtCore import QLocale
@@ -237,8 +241,11 @@ def start(
 
 
 def _end_without_display() -> NoReturn:
-    # The display is named but does not answer: Qt finds out, and would abort the process.
-    say("occ-gui", _NO_DISPLAY)
+    # The display is named but does not answer, or its plug-in cannot be loaded: Qt finds out, and
+    # would abort the process.
+    from occ_gui.app.display import reason_for_no_window
+
+    say("occ-gui", reason_for_no_window())
     os._exit(EXIT_MISUSE)
 
 

@@ -1,0 +1,72 @@
+"""Display: why no window can be opened, and the first size of one that can."""
+
+import ctypes
+import os
+import re
+from pathlib import Path
+
+from PySide6.QtCore import QLibraryInfo, QRect, QSize
+
+NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
+
+_MISSING = re.compile(r"^(\S+): cannot open shared object file")
+"""What the dynamic linker says of a library that it does not find."""
+
+_LARGEST, _LEAST = QSize(1680, 1050), QSize(1000, 700)
+_SHARE = 0.92
+"""Share of the screen that the first window takes: what lies behind it stays in sight."""
+
+
+def reason_for_no_window() -> str:
+    """Say why Qt cannot open a window: a library is missing, or there is no display."""
+    library = missing_library(platforms())
+    if library is None:
+        return NO_DISPLAY
+    return (
+        f"No window can be opened, because the shared library {library} is missing on this "
+        "system; install it, or use --screenshot FILE."
+    )
+
+
+def platforms() -> tuple[str, ...]:
+    """Name the kinds of display that are there, as Qt names its plug-ins for them."""
+    chosen = os.environ.get("QT_QPA_PLATFORM", "").split(";")[0].split(":")[0]
+    if chosen:
+        return (chosen,)
+    named = (("wayland", "WAYLAND_DISPLAY"), ("xcb", "DISPLAY"))
+    return tuple(platform for platform, name in named if os.environ.get(name))
+
+
+def missing_library(names: tuple[str, ...]) -> str | None:
+    """Return the first library that Qt's plug-in for a display lacks, None if it lacks none.
+
+    Parameters
+    ----------
+    names
+        The plug-ins, such as ``"xcb"``.
+    """
+    folder = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.PluginsPath), "platforms")
+    for name in names:
+        plugin = folder / f"libq{name}.so"
+        try:
+            if plugin.is_file():
+                ctypes.CDLL(str(plugin))
+        except OSError as error:
+            found = _MISSING.match(str(error))
+            if found:
+                return found[1]
+    return None
+
+
+def first_place(screen: QRect) -> QRect:
+    """Return where the first window opens: in the middle, whole on the screen.
+
+    Parameters
+    ----------
+    screen
+        The part of the screen that is free for windows.
+    """
+    wanted = (screen.size() * _SHARE).boundedTo(_LARGEST).expandedTo(_LEAST)
+    place = QRect(screen.topLeft(), wanted.boundedTo(screen.size()))
+    place.moveCenter(screen.center())
+    return place

@@ -1,0 +1,54 @@
+"""The display: a missing library is named, and the first window is whole on any screen."""
+
+import ctypes
+
+import pytest
+from PySide6.QtCore import QRect
+
+from occ_gui.app import display
+from occ_gui.app.display import first_place, missing_library, reason_for_no_window
+
+SCREENS = [(0, 0, 800, 600), (0, 28, 1024, 740), (0, 0, 1280, 800), (60, 0, 1920, 1080),
+           (0, 0, 2560, 1600), (-1920, 0, 1920, 1040)]  # fmt: skip
+
+
+def refuse(monkeypatch: pytest.MonkeyPatch, reason: str) -> None:
+    """Let no library be loaded, for this reason."""
+
+    def load(_path: str) -> None:
+        raise OSError(reason)
+
+    monkeypatch.setattr(ctypes, "CDLL", load)
+    monkeypatch.setenv("QT_QPA_PLATFORM", "xcb")
+
+
+def test_a_library_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    refuse(monkeypatch, "libxcb-cursor.so.0: cannot open shared object file: No such file")
+    assert missing_library(("xcb",)) == "libxcb-cursor.so.0"
+    assert "libxcb-cursor.so.0" in reason_for_no_window()
+
+
+def test_where_no_library_is_missing_there_is_no_display(monkeypatch: pytest.MonkeyPatch) -> None:
+    refuse(monkeypatch, "/x/libqxcb.so: invalid ELF header")
+    assert reason_for_no_window() == display.NO_DISPLAY
+
+
+def test_the_displays_are_those_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("QT_QPA_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    assert display.platforms() == ()
+    monkeypatch.setenv("DISPLAY", ":0")
+    monkeypatch.setenv("WAYLAND_DISPLAY", "wayland-0")
+    assert display.platforms() == ("wayland", "xcb")
+    monkeypatch.setenv("QT_QPA_PLATFORM", "xcb:option;wayland")
+    assert display.platforms() == ("xcb",)
+
+
+@pytest.mark.parametrize("screen", SCREENS, ids=str)
+def test_the_first_window_is_whole_and_in_the_middle(screen: tuple[int, int, int, int]) -> None:
+    free = QRect(*screen)
+    place = first_place(free)
+    assert free.contains(place)
+    assert (place.center() - free.center()).manhattanLength() <= 2
+    assert place.width() >= min(1000, free.width())
+    assert place.height() >= min(700, free.height())

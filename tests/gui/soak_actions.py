@@ -103,6 +103,8 @@ class Monkey:
             self.change_the_tolerance: 40,
             self.open_a_sample: 20,
             self.choose_a_mode: 60,
+            self.choose_a_task: 30,
+            self.press_a_tool: 40,
             self.lay_the_photo_over: 20,
             self.toggle_a_dock: 60,
             self.ask_for_what_cannot_be: 40,
@@ -212,6 +214,16 @@ class Monkey:
 
     def choose_a_mode(self) -> None:
         self._application.image.set_mode(self._random.choice(MODES))
+
+    def choose_a_task(self) -> None:
+        tabs = self._application.window.toolbar.modes
+        tabs.setCurrentIndex(self._random.randrange(tabs.count()))
+
+    def press_a_tool(self) -> None:
+        buttons = self._application.window.toolbar.buttons
+        # Those that open a menu or a dialog would wait for somebody.
+        quiet = [name for name, button in buttons.items() if button.menu() is None]
+        buttons[self._random.choice([name for name in quiet if name != "open_photo"])].click()
 
     def lay_the_photo_over(self) -> None:
         image = self._application.image

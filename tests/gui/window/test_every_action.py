@@ -204,6 +204,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
         [button.isEnabled() for button in window.findChildren(QAbstractButton)],
         len(dialogs.photos),
         image.mode.key(),
+        window.modes.mode,
         image.simulation.box.viewRange(),
         application.photos.reading,
         application.desktop.theme.theme,

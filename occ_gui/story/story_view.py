@@ -132,8 +132,7 @@ class StoryView(QWidget):
     def _size_by_page(self) -> None:
         """Let only the page that is shown need space."""
         kinds = QSizePolicy.Policy
-        for place in range(self._pages.count()):
-            page = self._pages.widget(place)
+        for page in (self.rows, self._picture):
             kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
             if page is not None:
                 page.setSizePolicy(kind, kind)

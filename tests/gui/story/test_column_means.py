@@ -37,6 +37,11 @@ def test_fine_stripes_become_grey_and_not_coarser_ones() -> None:
     assert np.ptp(stripes[:, edges[:-1].astype(int)].astype(int)) == 200
 
 
+def test_rows_are_averaged_too() -> None:
+    fine = np.tile(np.array([[0], [200]], dtype=np.uint8), (30, 10))
+    np.testing.assert_array_equal(resampled(fine, np.arange(11.0), 10), 100)
+
+
 def test_beyond_the_picture_its_last_column_goes_on() -> None:
     pixels = picture()
     found = resampled(pixels, np.array([-4.0, -2.0, 0.0, 40.0, 41.0, 43.0]), 3)

@@ -97,6 +97,8 @@ def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
 def test_columns_beside_the_panel_do_not_hide_the_threshold() -> None:
     frame, result = read()
     assert result.region is not None
+    assert result.signal is not None
+    assert result.threshold is not None
     profile = frame.profile.copy()
     first = result.region.first_column
     lit = first + np.flatnonzero(result.signal > result.threshold)

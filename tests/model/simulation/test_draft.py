@@ -92,7 +92,7 @@ def test_what_the_heartbeat_raises_ends_a_picture() -> None:
     scene = occ.load_preset("phone-68us").replace(rows=640, columns=500)
     beats: list[int] = []
     render_with(scene, SimulationSettings(), heartbeat=lambda: beats.append(1))
-    # One a band, of at most 64 rows: the panel's first row begins one, and so does the one below it.
+    # One a band of at most 64 rows: the panel begins a band, and so do the rows below it.
     bands = len(beats)
     assert bands == 12
 

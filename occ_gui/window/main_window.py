@@ -183,7 +183,11 @@ class MainWindow(QMainWindow):
         """Set the style sheet in the colours of the present theme."""
         sheet = style_sheet(QApplication.palette())
         if sheet != self.styleSheet():
+            size = self.size()
             self.setStyleSheet(sheet)
+            # Panes ask for more while their parts are styled one after the other.
+            if self.isVisible() and not self.isMaximized():
+                QTimer.singleShot(0, self, lambda: self.resize(size))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         """Accept what may be files."""

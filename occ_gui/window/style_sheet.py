@@ -11,7 +11,7 @@ from PySide6.QtGui import QPalette
 from occ_model.files.resources import resource_path
 
 _SHEET = """
-QToolBar { border: none; border-bottom: 1px solid palette(midlight); padding: 4px; spacing: 4px; }
+QToolBar { border: none; border-bottom: 1px solid palette(midlight); padding: 2px 4px; spacing: 4px; }
 QToolBar::separator { background: palette(midlight); width: 1px; margin: 6px 4px; }
 QToolBar QToolButton {
     padding: 5px; border: 1px solid transparent; border-radius: 6px; background: transparent;
@@ -50,14 +50,14 @@ QPushButton#step:focus { border: 2px solid palette(window-text); padding: 3px 3p
 
 QLineEdit, QAbstractSpinBox, QComboBox {
     border: 1px solid palette(mid); border-radius: 4px; background: palette(base);
-    padding: 2px 6px; min-height: 18px; selection-background-color: palette(highlight);
+    padding: 1px 6px; selection-background-color: palette(highlight);
 }
-QAbstractSpinBox { padding: 2px 0px 2px 4px; }
+QAbstractSpinBox { padding: 1px 0px 1px 4px; }
 QAbstractSpinBox QLineEdit, QComboBox QLineEdit { border: none; padding: 0px; }
 QLineEdit:focus, QAbstractSpinBox:focus, QComboBox:focus {
-    border: 2px solid palette(accent); padding: 1px 5px;
+    border: 2px solid palette(accent); padding: 0px 5px;
 }
-QAbstractSpinBox:focus { padding: 1px 0px 1px 3px; }
+QAbstractSpinBox:focus { padding: 0px 0px 0px 3px; }
 QAbstractSpinBox QLineEdit:focus { border: none; padding: 0px; }
 QLineEdit:disabled, QAbstractSpinBox:disabled, QComboBox:disabled {
     border-color: palette(midlight); background: palette(window);
@@ -106,7 +106,7 @@ QSlider::sub-page:horizontal:disabled, QSlider::handle:horizontal:disabled {
 QDockWidget {
     titlebar-close-icon: url("{icons}/close.svg"); titlebar-normal-icon: url("{icons}/float.svg");
 }
-QDockWidget::title { padding: 6px 8px; background: palette(window); text-align: left; }
+QDockWidget::title { padding: 4px 8px; background: palette(window); text-align: left; }
 QDockWidget::close-button, QDockWidget::float-button { border: none; icon-size: 14px; }
 QDockWidget QAbstractButton#qt_dockwidget_closebutton:focus,
 QDockWidget QAbstractButton#qt_dockwidget_floatbutton:focus { border: 2px solid palette(accent); }

@@ -11,8 +11,8 @@ from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, witho
 import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
 from occ_gui.help.pages import CONTENTS, heading_id, pages
-from occ_model.commands import read_command_line
 from occ_model.commands.codes import framing_table, line_code_table
+from occ_model.commands.command_line import read_command_line
 from occ_model.commands.listing import parameter_table
 from occ_model.effects.registry import EFFECTS
 from occ_model.receiver.decoder import Decoder

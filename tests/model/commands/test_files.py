@@ -11,7 +11,8 @@ import pytest
 import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_window_command_line
 from occ_model.cli import main
-from occ_model.commands import files, read_command_line
+from occ_model.commands import files
+from occ_model.commands.command_line import read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
 from occ_model.files.writing import write_image
 

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from occ_model.cli import main
-from occ_model.commands import read_command_line
+from occ_model.commands.command_line import read_command_line
 from occ_model.commands.options import number, simulation_settings_of, whole_number
 
 

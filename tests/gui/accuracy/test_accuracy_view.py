@@ -192,7 +192,7 @@ def test_behind_another_pane_no_study_is_made(
     monkeypatch.setattr(controller, "IDLE_MS", 1)
     application.window.bring_to_front("accuracy")
     qtbot.waitUntil(lambda: application.study.runner.is_running)
-    application.window.bring_to_front("profile")
+    application.window.modes.switch("explore")
     qtbot.waitUntil(lambda: application.study.is_idle)
     application.store.change(iso=200.0)
     qtbot.waitUntil(lambda: application.is_idle)

@@ -6,7 +6,7 @@ import pytest
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.study.observation import decode_profile
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES, point_scene
@@ -77,7 +77,7 @@ def test_the_papers_scenes_need_sensor_noise_alone(preset: str) -> None:
 
 
 @pytest.mark.parametrize("light", [{}, {"edge_time": 2e-6, "flicker_depth": 0.3}])
-@pytest.mark.parametrize("decoder", DECODERS)
+@pytest.mark.parametrize("decoder", QUICK_DECODERS)
 @pytest.mark.parametrize("exposure", ["phone-68us", "phone-136us"])
 def test_profile_and_image_paths_decode_alike_on_the_whole_grid(
     exposure: str, decoder: str, light: dict[str, float]

@@ -14,8 +14,9 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
-from occ_model.results import Trial
+from occ_model.results import Limits, Trial
 from occ_model.results.advice import Advice, EndFacts, RangeFacts
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study.advice import advice_of
@@ -90,7 +91,20 @@ def sentences(advice: Advice) -> list[str]:
         *_on_range(f"At {frequency} and {distance} {reads}", advice.exposure),
         f"Each of these values was tried with {found.images} images, seed {found.seed}; the "
         "intervals hold the rate in 95 of 100 cases if bits err independently of each other.",
+        *_bits_a_second(found),
         *_by_theory(advice),
+    ]
+
+
+def _bits_a_second(found: Limits) -> list[str]:
+    """Say what the scene's payload is a second, where it is read."""
+    if not found.highest_frequency:
+        return []
+    bits = found.scene.transmitter.payload_length
+    a_second = bits * FRAMES_A_SECOND * found.rate / 100.0
+    return [
+        f"Where it does, {bits} bits in each of {FRAMES_A_SECOND:g} pictures a second are at least "
+        f"{a_second:g} right bits a second; occ-model most-bits looks for more."
     ]
 
 

@@ -375,6 +375,8 @@ def test_the_command_answers_in_sentences(capsys: pytest.CaptureFixture[str]) ->
     )
     assert " of 20 bits (" in lines[2]
     assert "below it was not searched" in lines[4]
+    assert lines[-4].startswith("Where it does, 10 bits in each of 30 pictures a second are at ")
+    assert "270 right bits a second" in lines[-4]
     assert lines[-3].startswith("By theory the band model ends at 7.353 kHz and an alternating")
     assert lines[-1] == "  from an exposure of 1.17 ms what is lit throughout is white."
 

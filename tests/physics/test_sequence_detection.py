@@ -200,3 +200,29 @@ def test_codes_given_in_heavy_noise_are_right() -> None:
         right += read == code
     assert 10 <= given < 40
     assert right == given
+
+
+def test_a_readout_time_a_little_off_is_brought_nearer() -> None:
+    random = np.random.default_rng(6)
+    for wrong in (-0.003, 0.001, 0.003):
+        code = int(random.integers(1024))
+        scene = occ.load_preset("phone-136us").replace(
+            rows=60, switching_frequency=20e3, code=code, enhancement="none"
+        )
+        signal = occ.render(scene).signal[:1730]  # 277 chips: off by most of a chip at the end
+        off = scene.replace(readout_time=scene.camera.readout_time * (1.0 + wrong))
+        result = occ.decode(signal, off, "sequence")
+        assert result.code == code
+        assert result.chip_length is not None
+        assert abs(result.chip_length - 6.25) < 0.5 * abs(6.25 / (1.0 + wrong) - 6.25)
+
+
+def test_a_readout_time_far_off_gives_no_code() -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        rows=60, switching_frequency=20e3, enhancement="none"
+    )
+    signal = occ.render(scene).signal
+    off = scene.replace(readout_time=scene.camera.readout_time * 1.01)
+    result = occ.decode(signal, off, "sequence")
+    assert result.code is None
+    assert "readout time is another one" in (result.failure or "")

@@ -134,7 +134,8 @@ def _fit(
         rows = replace(rows, light=light.values)
         before, fit = fit, detect(rows, *improve(rows, fit), words)
         same = np.array_equal(fit.chips.values, before.chips.values)
-        if (same and not light.is_estimated) or fit.noise > _SETTLED * before.noise:
+        settled = (same and not light.is_estimated) or fit.noise > _SETTLED * before.noise
+        if settled and fit.unexplained() <= _MOST_UNEXPLAINED:
             break
     return fit, light
 

@@ -31,7 +31,7 @@ _ROUNDED = 20.0
 _GRID = 38
 _WIDTH, _THIN = 2.0, 1.2
 _CROWDED = 2
-"""Columns a pixel from which a curve is drawn as its extremes, one pixel wide."""
+"""Columns a pixel of the screen from which a curve is drawn thinner."""
 
 
 class ProfileRow(StoryRow):
@@ -147,7 +147,7 @@ class ProfileRow(StoryRow):
         dash: tuple[float, float] | None = None,
         width: float = _WIDTH,
     ) -> None:
-        cells = round(area.width())
+        cells = round(area.width() * self.devicePixelRatioF())
         crowded = self.axis.span > _CROWDED * cells
         columns, levels = envelope(columns, levels, self.axis.first, self.axis.last, cells)
         if len(columns) < 2:
@@ -155,8 +155,8 @@ class ProfileRow(StoryRow):
         xs = self.xs_of(columns)
         inner = area.adjusted(0, 8, 0, -8)
         ys = inner.bottom() - levels / self._top * inner.height()
-        pen = QPen(seen_on(self.palette(), colour), 1.0 if crowded else width)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, not crowded)
+        pen = QPen(seen_on(self.palette(), colour), _THIN if crowded else width)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if dash is not None:
             pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         painter.setPen(pen)

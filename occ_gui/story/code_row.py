@@ -8,6 +8,7 @@ from occ_gui.decoding.verdict import wrong_places
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.bit_cells import draw_field, header_texts
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
+from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.plot import SIMULATION
@@ -15,7 +16,6 @@ from occ_gui.widgets.state_look import State
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
-from occ_model.teaching.packet_fields import PacketField, received_edges, received_fields
 
 _CHIPS, _BITS = 20, 22
 _GAP = 3

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.bit_cells import draw_field, header_texts
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
+from occ_gui.story.column_facts import light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_digits
@@ -22,8 +23,6 @@ from occ_gui.widgets.state_look import is_dark
 from occ_model.results.teaching import LightCurve
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
-from occ_model.teaching.light_over_columns import light_over_columns
-from occ_model.teaching.packet_fields import packet_fields
 
 _GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
 """Colours of the light, in the light and the dark theme."""

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
+from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.column_means import envelope
 from occ_gui.story.curve_lines import DASH, lines_of
 from occ_gui.story.story_row import StoryRow
@@ -18,7 +19,6 @@ from occ_gui.widgets.plot import BAND, PHOTO, SIMULATION, THRESHOLD
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
-from occ_model.teaching.packet_fields import threshold_levels
 
 _LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)

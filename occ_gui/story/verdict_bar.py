@@ -6,12 +6,12 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
 from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.column_facts import chips_in_exposure
 from occ_gui.story.state_chips import ChipRow, chips_of, computing
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.state_look import State, StateIcon, colours_of
 from occ_model.scene.units import SECOND
-from occ_model.teaching.light_over_columns import chips_in_exposure
 
 _ICON = 32
 _LARGER = 1.25

@@ -22,6 +22,7 @@ PHYSICS = (
 """The modules and packages of the model that compute, or read and write files."""
 
 MAY_COMPUTE = (
+    "column_facts",
     "controller",
     "figures",
     "jobs",

@@ -26,6 +26,10 @@ from occ_model.simulation.render import observe
 SCENES = 200
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)
 
+CODING = frozenset({"line_code", "framing", "error_correction", "equalizer"})
+"""How bits become chips and are read, of which some refuse each other: half of the scenes send any
+chips at all."""
+
 NOTHING: dict[str, dict[str, ParameterValue]] = {
     "led-edges": {"edge_time": 0.0},
     "flicker": {"flicker_depth": 0.0},
@@ -54,7 +58,7 @@ def draw(random: np.random.Generator) -> tuple[Scene, frozenset[str]]:
     for name, declared in PARAMETERS.items():
         if isinstance(declared, Quantity):
             values[name] = declared.at(float(random.random()))
-        elif isinstance(declared, Choice):
+        elif isinstance(declared, Choice) and name not in CODING:
             values[name] = str(random.choice(declared.choices))
     bits = int(random.integers(2, 17))
     chips = random.choice(["0", "1"], int(random.integers(1, 25)))

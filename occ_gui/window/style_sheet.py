@@ -11,7 +11,9 @@ from PySide6.QtGui import QPalette
 from occ_model.files.resources import resource_path
 
 _SHEET = """
-QToolBar { border: none; border-bottom: 1px solid palette(midlight); padding: 2px 4px; spacing: 4px; }
+QToolBar {
+    border: none; border-bottom: 1px solid palette(midlight); padding: 2px 4px; spacing: 4px;
+}
 QToolBar::separator { background: palette(midlight); width: 1px; margin: 6px 4px; }
 QToolBar QToolButton {
     padding: 5px; border: 1px solid transparent; border-radius: 6px; background: transparent;

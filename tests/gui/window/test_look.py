@@ -112,7 +112,7 @@ def test_a_pane_larger_than_the_screen_is_made_smaller() -> None:
 
 @pytest.mark.qt_log_ignore("This plugin does not support")
 def test_a_floated_pane_lands_beside_its_place(application: Application, qtbot: QtBot) -> None:
-    dock = application.window.docks["decode"]
+    dock = application.window.docks["controls"]
     place = QRect(dock.mapToGlobal(QPoint()), dock.size())
     dock.setFloating(True)
     screen = dock.screen().availableGeometry()

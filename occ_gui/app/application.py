@@ -26,6 +26,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.forced_effects import forced_text
+from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
@@ -75,6 +76,7 @@ class Application(QObject):
         self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.story = StoryView(self.image, [*DECODERS])
         self.detection = MapView(QUICK_DECODERS)
+        self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(
             self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,

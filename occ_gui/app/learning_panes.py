@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from occ_gui.lessons.lesson_view import LessonView
     from occ_gui.lessons.wiring import LessonWiring
     from occ_gui.pins.compare_view import CompareView
+    from occ_gui.spectrum.controller import SpectrumController
     from occ_gui.spectrum.spectrum_view import SpectrumView
 
 
@@ -122,10 +123,18 @@ class LearningPanes(QObject):
         from occ_gui.spectrum.spectrum_view import SpectrumView
 
         view = SpectrumView()
-        if self._snapshot is not None:
-            view.show_snapshot(self._snapshot)
         self.exposure_made.emit(view)
         return view
+
+    @cached_property
+    def spectrum_controller(self) -> "SpectrumController":
+        """The controller of the spectrum, connected with its pane."""
+        from occ_gui.spectrum.controller import SpectrumController
+
+        controller = SpectrumController(self.spectrum)
+        if self._snapshot is not None:
+            controller.show_snapshot(self._snapshot)
+        return controller
 
     @cached_property
     def lessons_pane(self) -> "LessonView":
@@ -172,8 +181,8 @@ class LearningPanes(QObject):
         self.pins.show_snapshot(snapshot)
         if "explanation" in vars(self):
             self.explanation.show_snapshot(snapshot)
-        if "spectrum" in vars(self):
-            self.spectrum.show_snapshot(snapshot)
+        if "spectrum_controller" in vars(self):
+            self.spectrum_controller.show_snapshot(snapshot)
 
     def show_pinned(self, pinned: Pinned) -> None:
         """Show the pinned states in the comparison, if that pane has been created."""
@@ -203,7 +212,7 @@ class LearningPanes(QObject):
         return self.compare, self.compare.set_seen
 
     def _analyse(self) -> PaneContent:
-        return self.spectrum, self.spectrum.set_seen
+        return self.spectrum, self.spectrum_controller.set_seen
 
     def _learn(self) -> PaneContent:
         return self.lessons_pane, self.lessons.controller.set_seen

@@ -15,7 +15,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
-from occ_model.teaching.rolling_shutter import RollingShutter
+from occ_model.results.teaching import RollingShutter
 
 _LOOP_MS = 9000
 _TURN_MS = 33

@@ -13,7 +13,6 @@ from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.lessons import CheckedAnswer, Lesson
 from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.teaching.quantities import QUANTITIES
 
 LEAST = QSize(200, 160)
 """Smallest size in pixels: then a question with its text scrolls."""
@@ -130,7 +129,7 @@ class StepPage(QWidget):
         label = PARAMETERS[step.control].label if step.control else ""
         self.control.setText(self.tr("Change: {control}").format(control=label))
         self.control.setVisible(bool(step.control))
-        unit = QUANTITIES[step.check.quantity].asked_in if step.check else ""
+        unit = step.check.asked_in if step.check else ""
         self.answer_field.begin(unit, step.check is not None, before)
         self._has_equation = bool(step.equation)
         self.reveal.setChecked(False)

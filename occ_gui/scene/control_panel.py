@@ -23,6 +23,7 @@ from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
+from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 
@@ -169,6 +170,11 @@ class ControlPanel(QWidget):
         self.code.show_scene(scene)
         for panel in self.panels.values():
             panel.show_scene(scene)
+
+    def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
+        """Show marks at values of a parameter, if its slider has a scale."""
+        for panel in self.panels.values():
+            panel.show_marks(name, marks)
 
     def show_refusal(self, sentence: str, names: Iterable[str]) -> None:
         """Show, at the fields of some parameters, why their values were refused."""

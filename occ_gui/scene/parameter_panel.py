@@ -1,6 +1,6 @@
 """Parameter panel: a form of parameter rows with their labels."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from PySide6.QtCore import Qt
@@ -10,10 +10,10 @@ from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row
 from occ_gui.scene.play_button import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
 from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.teaching.marked_values import marked_values
 
 
 class ParameterPanel(QWidget):
@@ -76,8 +76,11 @@ class ParameterPanel(QWidget):
             value = scene.value(name)
             if value != row.value:
                 row.show_value(value)
-        for name, scale in self._scales.items():
-            scale.show_marks(marked_values(scene, name))
+
+    def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
+        """Show marks at values of a parameter, if its slider has a scale."""
+        if name in self._scales:
+            self._scales[name].show_marks(marks)
 
 
 def _heading(text: str) -> QLabel:

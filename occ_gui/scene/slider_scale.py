@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QSizePolicy, QSlider, QToolTip, QWidget
 
 from occ_gui.scene.slider_travel import slider_travel
 from occ_gui.widgets.guarded_paint import guarded
+from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
-from occ_model.teaching.marked_values import MarkedValue
 
 _SMALLER = 0.85
 _TICK, _GAP = 4.0, 4.0

@@ -5,14 +5,11 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
-from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.contrast import pen_on, seen_on
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.plot import BAND, SIMULATION, new_plot, thin
-from occ_model.errors import ParameterError
+from occ_model.results.spectrum import LevelHistogram, Spectrum
 from occ_model.scene.units import HERTZ
-from occ_model.study.level_histogram import LevelHistogram, level_histogram
-from occ_model.study.spectrum import Spectrum, profile_spectrum
 
 _KILO = 1e-3
 _HEADROOM = 1.15
@@ -20,15 +17,10 @@ _LEAST_TOP = 1.0
 
 
 class SpectrumView(QWidget):
-    """The profile's spectrum with the response of the exposure, and a histogram below it.
-
-    What is shown follows the simulation while the pane is visible.
-    """
+    """The profile's spectrum with the response of the exposure, and a histogram beside it."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._snapshot: Snapshot | None = None
-        self._seen = False
         self._make_spectrum()
         self._make_histogram()
         self.sentence = QLabel()
@@ -76,30 +68,13 @@ class SpectrumView(QWidget):
         )
         self.histogram.setXRange(-2, 257, padding=0)
 
-    def set_seen(self, seen: bool) -> None:
-        """Follow the simulation while visible."""
-        self._seen = seen
-        if seen:
-            self._show()
-
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show the spectrum and the histogram of these results."""
-        self._snapshot = snapshot
-        if self._seen:
-            self._show()
-
-    def _show(self) -> None:
-        snapshot = self._snapshot
-        if snapshot is None:
+    def show_spectrum(self, spectrum: Spectrum | None) -> None:
+        """Show the spectrum of a profile, None where it has none."""
+        if spectrum is not None:
+            self._draw_spectrum(spectrum)
             return
-        left, top = (int(value) for value in np.maximum(snapshot.corners.min(axis=0), 0.0))
-        right, bottom = (int(value) + 1 for value in np.maximum(snapshot.corners.max(axis=0), 0.0))
-        try:
-            self._draw_spectrum(profile_spectrum(snapshot.profile[left:right], snapshot.scene))
-        except ParameterError:  # too few columns show the panel
-            self.amplitudes.setData([], [])
-            self.response.setData([], [])
-        self._draw_histogram(level_histogram(snapshot.frame.camera_image[top:bottom, left:right]))
+        for curve in (self.amplitudes, self.response):
+            curve.setData([], [])
 
     def _draw_spectrum(self, found: Spectrum) -> None:
         frequencies = found.frequencies * _KILO
@@ -122,7 +97,8 @@ class SpectrumView(QWidget):
             )
         )
 
-    def _draw_histogram(self, found: LevelHistogram) -> None:
+    def show_histogram(self, found: LevelHistogram) -> None:
+        """Show the grey levels of the panel's pixels, and whether light is lost."""
         self.bars.setOpts(height=100.0 * found.shares)
         self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.shares.max()), 1.0))
         if found.is_saturated:

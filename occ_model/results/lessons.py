@@ -18,6 +18,8 @@ class Check:
     ----------
     quantity
         Name of what is asked for, one of ``occ_model.teaching.quantities.QUANTITIES``.
+    asked_in
+        The unit of an answer that is a number alone; empty for a pure number.
     tolerance
         Largest difference that is right, as a fraction of the model's value.
     scene
@@ -25,6 +27,7 @@ class Check:
     """
 
     quantity: str
+    asked_in: str
     tolerance: float
     scene: Scene
 

@@ -144,3 +144,55 @@ class LightCurve:
         integral = np.concatenate([[0.0], np.cumsum(areas)])
         at_first, at_last = np.interp([first, last], self.columns, integral)
         return float(at_last - at_first) / (last - first)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RollingShutter:
+    """Exposures of evenly chosen columns, in time from the first column's start.
+
+    Parameters
+    ----------
+    columns : ndarray of int, shape (shown,)
+        The columns.
+    starts : ndarray of float64, shape (shown,)
+        When the exposure of each begins, in seconds.
+    exposure_time
+        How long each lasts, in seconds.
+    lit_fraction : ndarray of float64, shape (shown,)
+        Share of each exposure for which the LED is on.
+    edges : ndarray of float64, shape (chips + 1,)
+        When each chip begins, and when the last one ends, in seconds.
+    lit : ndarray of uint8, shape (chips,)
+        Whether the LED is on in each.
+    """
+
+    columns: IndexArray
+    starts: FloatArray
+    exposure_time: float
+    lit_fraction: FloatArray
+    edges: FloatArray
+    lit: ByteArray
+
+    @property
+    def duration(self) -> float:
+        """Time from the first start to the last end, in seconds."""
+        return float(self.starts[-1]) + self.exposure_time
+
+
+@dataclass(frozen=True, slots=True)
+class MarkedValue:
+    """A value of a parameter that is worth a mark.
+
+    Parameters
+    ----------
+    value
+        The value, in SI units.
+    label
+        A short name; an index follows an underscore.
+    meaning
+        What happens there, in a sentence.
+    """
+
+    value: float
+    label: str
+    meaning: str

@@ -1,37 +1,14 @@
 """Spectrum of a profile, beside the response of the exposure that shaped it."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
+from occ_model.results.spectrum import Spectrum
 from occ_model.scene.scene import Scene, check_scene
 
 _FEWEST = 8
 _MOST_NULLS = 100
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Spectrum:
-    """The amplitudes of a profile's frequencies.
-
-    Parameters
-    ----------
-    frequencies : ndarray of float64, shape (n,)
-        In Hz, from 0 to half the rate of the columns, 1 / (2 t_r).
-    amplitudes : ndarray of float64, shape (n,)
-        Of a sine of each frequency, in grey levels.
-    response : ndarray of float64, shape (n,)
-        What the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|.
-    nulls
-        Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one.
-    """
-
-    frequencies: FloatArray
-    amplitudes: FloatArray
-    response: FloatArray
-    nulls: tuple[float, ...]
 
 
 def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:

@@ -1,28 +1,8 @@
 """Give the values of a parameter at which the picture changes in kind, to mark on its slider."""
 
-from dataclasses import dataclass
-
+from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.theory import band_model_frequency, null_frequency
-
-
-@dataclass(frozen=True, slots=True)
-class MarkedValue:
-    """A value of a parameter that is worth a mark.
-
-    Parameters
-    ----------
-    value
-        The value, in SI units.
-    label
-        A short name; an index follows an underscore.
-    meaning
-        What happens there, in a sentence.
-    """
-
-    value: float
-    label: str
-    meaning: str
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:

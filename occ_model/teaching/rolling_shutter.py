@@ -1,11 +1,9 @@
 """Give some columns' exposures on the LED's waveform: how a rolling shutter makes stripes."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.exposure import on_time
+from occ_model.results.teaching import RollingShutter
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
@@ -14,39 +12,6 @@ _CHIPS = 4
 
 _MOST_CHIPS = 400
 """Largest number of chips that a drawing resolves; of a longer exposure only these are given."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class RollingShutter:
-    """Exposures of evenly chosen columns, in time from the first column's start.
-
-    Parameters
-    ----------
-    columns : ndarray of int, shape (shown,)
-        The columns.
-    starts : ndarray of float64, shape (shown,)
-        When the exposure of each begins, in seconds.
-    exposure_time
-        How long each lasts, in seconds.
-    lit_fraction : ndarray of float64, shape (shown,)
-        Share of each exposure for which the LED is on.
-    edges : ndarray of float64, shape (chips + 1,)
-        When each chip begins, and when the last one ends, in seconds.
-    lit : ndarray of uint8, shape (chips,)
-        Whether the LED is on in each.
-    """
-
-    columns: IndexArray
-    starts: FloatArray
-    exposure_time: float
-    lit_fraction: FloatArray
-    edges: FloatArray
-    lit: ByteArray
-
-    @property
-    def duration(self) -> float:
-        """Time from the first start to the last end, in seconds."""
-        return float(self.starts[-1]) + self.exposure_time
 
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:

@@ -22,11 +22,15 @@ PHYSICS = (
 """The modules and packages of the model that compute, or read and write files."""
 
 MAY_COMPUTE = (
+    "animation",
+    "answers",
     "column_facts",
     "controller",
     "figures",
     "jobs",
     "match_request",
+    "measurement",
+    "report",
     "schedule",
     "sweep_table",
     "wiring",

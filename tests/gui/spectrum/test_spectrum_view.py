@@ -9,6 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.spectrum.controller import SpectrumController
 from occ_gui.spectrum.spectrum_view import SpectrumView
 
 
@@ -18,14 +19,19 @@ def view(qtbot: QtBot) -> SpectrumView:
     qtbot.addWidget(view)
     view.resize(500, 400)
     view.show()
-    view.set_seen(True)
     return view
+
+
+def measured(view: SpectrumView, snapshot: Snapshot) -> None:
+    controller = SpectrumController(view)
+    controller.set_seen(True)
+    controller.show_snapshot(snapshot)
 
 
 def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     view: SpectrumView, snapshot_of: Callable[..., Snapshot]
 ) -> None:
-    view.show_snapshot(snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
+    measured(view, snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
     frequencies, amplitudes = view.amplitudes.getData()
     assert frequencies[amplitudes.argmax()] == pytest.approx(4.0, rel=0.05)
     assert "first null of the exposure: 20 kHz" in view.spectrum.accessibleDescription()
@@ -35,9 +41,9 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
 def test_a_bright_panel_is_told_to_lose_light(
     view: SpectrumView, snapshot_of: Callable[..., Snapshot]
 ) -> None:
-    view.show_snapshot(snapshot_of(iso=100.0))
+    measured(view, snapshot_of(iso=100.0))
     assert "0.0 % are white" in view.sentence.text()
-    view.show_snapshot(snapshot_of(iso=6400.0, f_number=1.0))
+    measured(view, snapshot_of(iso=6400.0, f_number=1.0))
     assert view.sentence.text().startswith("⚠")
     assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)
 

@@ -1,0 +1,63 @@
+"""Results of measuring a picture: the spectrum of its profile, the histogram of its levels."""
+
+from dataclasses import dataclass
+
+from occ_model.arrays import FloatArray
+
+_WHITE = 255
+
+LEVELS = _WHITE + 1
+"""Grey levels of a picture."""
+
+SATURATED_FROM = 0.01
+"""Share of white pixels from which light is said to be lost."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Spectrum:
+    """The amplitudes of a profile's frequencies.
+
+    Parameters
+    ----------
+    frequencies : ndarray of float64, shape (n,)
+        In Hz, from 0 to half the rate of the columns, 1 / (2 t_r).
+    amplitudes : ndarray of float64, shape (n,)
+        Of a sine of each frequency, in grey levels.
+    response : ndarray of float64, shape (n,)
+        What the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|.
+    nulls
+        Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one.
+    """
+
+    frequencies: FloatArray
+    amplitudes: FloatArray
+    response: FloatArray
+    nulls: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LevelHistogram:
+    """How often each grey level occurs.
+
+    Parameters
+    ----------
+    shares : ndarray of float64, shape (256,)
+        Share of the pixels at each level; they add up to 1.
+    """
+
+    shares: FloatArray
+
+    @property
+    def white(self) -> float:
+        """Share of pixels that are white."""
+        return float(self.shares[_WHITE])
+
+    @property
+    def black(self) -> float:
+        """Share of pixels that are black."""
+        return float(self.shares[0])
+
+    @property
+    def is_saturated(self) -> bool:
+        """Whether so many pixels are white that light is lost."""
+        return self.white >= SATURATED_FROM

@@ -103,7 +103,6 @@ class MainWindow(QMainWindow):
         accuracy: QWidget,
         detection: QWidget,
     ) -> dict[str, Dock]:
-        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
         decoding = ScrollPane(decode, _LEAST_DECODING)
         return {
             "controls": self._dock("controls", self.tr("Scene"), controls),

@@ -25,6 +25,8 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -
     """
     for dock in docks.values():
         window.removeDockWidget(dock)
+    corner = _AREA.BottomDockWidgetArea if mode.is_bottom_wide else _AREA.LeftDockWidgetArea
+    window.setCorner(Qt.Corner.BottomLeftCorner, corner)
     for area, groups in (
         (_AREA.LeftDockWidgetArea, mode.left),
         (_AREA.RightDockWidgetArea, mode.right),

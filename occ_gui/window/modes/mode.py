@@ -23,6 +23,8 @@ class Mode:
         The panes of the three areas.
     main
         The pane that the mode is about, or PICTURE.
+    is_bottom_wide
+        Whether the panes at the bottom reach below those at the left.
     widths, heights
         First sizes in pixels by pane, of those whose size matters.
     """
@@ -32,6 +34,7 @@ class Mode:
     left: Groups = ()
     right: Groups = ()
     bottom: Groups = ()
+    is_bottom_wide: bool = False
     widths: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
     heights: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
 
@@ -55,6 +58,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             main="photo",
             left=(("photo", "controls"),),
             bottom=(("profile",),),
+            is_bottom_wide=True,
             widths={"photo": 360},
             heights={"profile": 210},
         ),

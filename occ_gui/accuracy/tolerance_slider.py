@@ -2,7 +2,7 @@
 
 import math
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
 
 from occ_gui.scene.parameter_rows import explain
@@ -68,6 +68,15 @@ class ToleranceSlider(QWidget):
         layout.addWidget(QLabel(self.tr("exact")))
         layout.addWidget(self.field)
         self.show_value(TOLERANCE.default)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a height at which a style's frame leaves the field's text whole."""
+        least = super().minimumSizeHint()
+        return least.expandedTo(QSize(0, self.field.minimumSizeHint().height()))
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a size that is not lower."""
+        return super().sizeHint().expandedTo(QSize(0, self.minimumSizeHint().height()))
 
     def show_value(self, tolerance: float) -> None:
         """Show a tolerance without emitting a signal."""

@@ -14,6 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
+from occ_model.photo.fit.other_starts import APART_CHIPS, other_starts
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results import Stripes
@@ -28,19 +29,20 @@ _HOPELESS = 60.0
 _AS_LIKELY, _RATIO = 9.0, 1.3
 """Excess of the misfit, three deviations, and its ratio, to which another exposure is as likely."""
 
-_APART_CHIPS = 0.04
-"""Difference in chips from which two exposures are different ones."""
-
 _TRUSTED = 6.0
 """Differences of the misfit are divided by it: the residual is no mere noise."""
 
-_UNKNOWN_BLUR = 0.25
-"""Standard deviation in columns of blur that the model's does not describe: a pixel gathers light
-over its own width, a box whose standard deviation is 0.29 columns where it fills it."""
+_UNKNOWN_BLUR = 0.29
+"""Standard deviation in columns of blur that the model's does not describe: that of the box over
+which a pixel gathers light."""
 
 _UNKNOWN_RAMP = 0.005
 """Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
 change a ramp's shape."""
+
+_TOO_SURE = 1.7
+"""Ratio of an exposure's errors to its fit's deviation, on simulated photographs: no tone curve or
+blur of a camera is exactly one of the model's."""
 
 _LEAST_EDGES = 0.3
 """Share of the edges' columns that must be seen without clipping."""
@@ -54,9 +56,6 @@ _CONTRADICTION = (
     "errors may not hold."
 )
 
-_MOST_STARTS = 3
-_LONGEST = 4.2
-
 _BLURRED = 12.0
 """Columns up to which an exposure may be mistaken for blur."""
 
@@ -64,6 +63,10 @@ _BLURS = (0.2, 0.7, 1.1, 1.5)
 """Standard deviations of blur, in columns, that are tried then."""
 
 _FIXED_BLUR = (7,)
+_KNOWN_BLUR = 0.1
+"""Standard deviation of a fitted blur, in columns, below which no other is likely."""
+
+_LAST_ROUNDS = 10
 _SHORTEST = 0.2
 """Shortest exposure in columns to start from."""
 
@@ -148,13 +151,13 @@ def _modes(models: Sequence[JointModel], explanation: Explanation) -> list[Joint
         model.take_noise(first)
     groups = [_possible(models, usual.values)]
     least = min(one.fit.misfit for one in groups[0])
-    for start in _other_starts(explanation, best):
+    for start in other_starts(explanation, best):
         other = first.fit(first.start(start))
         exposures = [one.fit.exposure for group in groups for one in group]
         if other.misfit < least + _HOPELESS and all(
-            abs(other.exposure - exposure) > _APART_CHIPS for exposure in exposures
+            abs(other.exposure - exposure) > APART_CHIPS for exposure in exposures
         ):
-            groups.append([_Possible(first, other, ())])
+            groups.append([_Possible(first, other)])
     likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
     likely.model.estimate_noise(likely.fit.values)
     for model in models:
@@ -162,10 +165,9 @@ def _modes(models: Sequence[JointModel], explanation: Explanation) -> list[Joint
     means = []
     for group in groups:
         most = min(one.fit.misfit for one in group) + _HOPELESS
-        means.append(_averaged([one.again() for one in group if one.fit.misfit <= most]))
-    # Fits of other exposures choose their blur freely: to compare, this one's best does, too.
-    free = first.fit(usual.values, rounds=2).misfit
-    means[0] = replace(means[0], misfit=min(means[0].misfit, free))
+        means.append(
+            _averaged([fit for one in group if one.fit.misfit <= most for fit in one.again()])
+        )
     least = min(fit.misfit for fit in means)
     most = _RATIO * least + _AS_LIKELY * _TRUSTED
     # The first one stays: its stripes are those of the others, to the last column.
@@ -175,29 +177,43 @@ def _modes(models: Sequence[JointModel], explanation: Explanation) -> list[Joint
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Possible:
-    """A model's fit, some of its parameters having been held fixed."""
+    """A model's fit, its steps once the noise is known, and what is held fixed."""
 
     model: JointModel
     fit: JointFit
-    fixed: tuple[int, ...]
+    rounds: int = 1
+    fixed: tuple[int, ...] = ()
 
-    def again(self) -> JointFit:
-        """Fit again, the noise having been estimated."""
-        return self.model.fit(self.fit.values, self.fixed, rounds=1)
+    def again(self) -> list[JointFit]:
+        """Fit again, the noise having been estimated, also with each blur where all are likely."""
+        free = self.model.fit(self.fit.values, self.fixed, self.rounds)
+        short = free.values[1] < _BLURRED * free.values[0]
+        if self.fixed or not short or free.covariance[7, 7] < _KNOWN_BLUR**2:
+            return [free]
+        others = [_with_blur(free.values, blur) for blur in _BLURS]
+        return [free, *(self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others)]
 
 
 def _possible(models: Sequence[JointModel], values: FloatArray) -> list[_Possible]:
     """Fit each model near an exposure; a short one with every blur, which it may be taken for."""
     columns = float(values[1] / values[0])
     if columns > _BLURRED:
-        return [_Possible(one, one.fit(one.adapted(values)), ()) for one in models]
+        return [_Possible(one, one.fit(one.adapted(values))) for one in models]
     found = []
     for model in models:
         here = model.adapted(values)
-        for blur in _BLURS:
-            fit = model.fit(_with_blur(here, blur), _FIXED_BLUR, rounds=3)
-            found.append(_Possible(model, fit, _FIXED_BLUR))
-            here = fit.values
+        if model.is_wide:
+            # Gamma is asked for: it must not start anew from what is usual.
+            for blur in _BLURS:
+                fit = model.fit(_with_blur(here, blur), _FIXED_BLUR, rounds=3)
+                found.append(_Possible(model, fit, fixed=_FIXED_BLUR))
+                here = fit.values
+            continue
+        # Each blur starts from what is usual of all else: tone and switching can make up for it.
+        starts = [here, *(model.with_usual(_with_blur(here, blur)) for blur in _BLURS)]
+        fits = [model.fit(start, rounds=5) for start in starts]
+        best = min(fits, key=lambda fit: fit.misfit)
+        found.append(_Possible(model, best, _LAST_ROUNDS))
     return found
 
 
@@ -209,26 +225,6 @@ def _with_blur(values: FloatArray, blur: float) -> FloatArray:
     values[1] = step * math.sqrt(max(float(width), _SHORTEST**2))
     values[7] = blur
     return values
-
-
-def _other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
-    """Give further exposures to start from: for a square wave, those that look the same."""
-    starts = [one for one in explanation.starts if one is not best]
-    if len(explanation.chips) == 2:
-        t = best.exposure
-        alike = [2.0 * turns + sign * t for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
-        # From one such exposure to the next the stripes are turned about.
-        return [
-            replace(best, exposure=other, middle=best.middle + _turned(t, other))
-            for other in alike
-            if 0.0 < other < _LONGEST and abs(other - t) > _APART_CHIPS
-        ]
-    return starts[:_MOST_STARTS]
-
-
-def _turned(one: float, other: float) -> float:
-    """Give the chips by which a square wave's stripes are shifted between two exposures."""
-    return float((math.floor(one / 2.0) + math.floor(other / 2.0)) % 2)
 
 
 def _averaged(fits: Sequence[JointFit]) -> JointFit:
@@ -259,6 +255,8 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
     covariance = np.zeros((4, 4))
     covariance[:3, :3] = mode.covariance[:3, :3]
     unknown = math.hypot(_UNKNOWN_RAMP * values[1], _blur_deviation(values))
+    covariance[1] *= _TOO_SURE
+    covariance[:, 1] *= _TOO_SURE
     covariance[1, 1] += unknown**2
     if with_gamma:
         gamma *= math.exp(float(values[3]))

@@ -30,11 +30,16 @@ USUAL = {
     "contrast": (0.0, 0.35),
     "blur": (0.5, 0.5),
     "longer": (0.0, 0.02),
-    "tails": (0.0, 0.6),
 }
 """Mean and standard deviation of what is usual: the logarithm of gamma over the scene's gamma, the
-tone curve's bends, the blur in columns, the chips by which the LED is on longer, and the blur's
-excess kurtosis, which is -1.2 for a box."""
+tone curve's bends, the blur in columns, and the chips by which the LED is on longer."""
+
+_TAILS = 1.5
+"""Standard deviation of the blur's excess kurtosis: a box has -1.2, exponential tails have 3. It is
+not fitted, since what the model leaves unexplained would be taken for it."""
+
+_KURTOSIS = 0.2
+"""Change of the excess kurtosis for finite differences."""
 
 _ANY_GAMMA = 0.5
 """Standard deviation of gamma's logarithm where nothing is known of it."""
@@ -52,8 +57,8 @@ _EDGE = 0.05
 """Share of the swing from which a column is on an edge."""
 
 _SHORTEST = 1e-3
-_LOW = np.array([0.5, _SHORTEST, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3, -2.0])
-_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3, 2.0])
+_LOW = np.array([0.5, _SHORTEST, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3])
+_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3])
 """Bounds of the parameters; that of the step is a ratio."""
 
 
@@ -63,9 +68,9 @@ class JointFit:
 
     Parameters
     ----------
-    values : ndarray of float64, shape (10,)
-        Step, exposure and middle as of a timing, and the seven unknowns in the order of ``USUAL``.
-    covariance : ndarray of float64, shape (10, 10)
+    values : ndarray of float64, shape (9,)
+        Step, exposure and middle as of a timing, and the six unknowns in the order of ``USUAL``.
+    covariance : ndarray of float64, shape (9, 9)
         Theirs; 0 for what is not fitted.
     misfit
         Twice the negative logarithm of the posterior density, less a constant.
@@ -136,7 +141,7 @@ class JointModel:
         if wide:
             self._deviation[0] = _ANY_GAMMA
         self._free = np.array(
-            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True, True]
+            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
         )
         self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
         # A fit's slopes change the timing, or the tone curve: what stays need not be found again.
@@ -155,6 +160,18 @@ class JointModel:
         step, exposure, middle = values[:3].tolist()
         usual = self.start(Timing(step, exposure, middle, self._gamma))
         return np.where(self._free, values, usual)
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether gamma may be any."""
+        return bool(self._deviation[0] == _ANY_GAMMA)
+
+    def with_usual(self, values: FloatArray) -> FloatArray:
+        """Keep the timing and the blur of parameters, and let all else be as usual."""
+        step, exposure, middle = values[:3].tolist()
+        usual = self.start(Timing(step, exposure, middle, self._gamma))
+        usual[7] = values[7]
+        return usual
 
     def take_noise(self, other: "JointModel") -> None:
         """Take the noise that another model of the same profiles found."""
@@ -184,19 +201,25 @@ class JointModel:
         )
         values = values_of(found)
         scale = np.where(index == 1, scale * values[1], scale)
-        covariance = np.zeros((10, 10))
-        covariance[np.ix_(index, index)] = self._covariance(slopes, residual) * np.outer(
+        covariance = np.zeros((9, 9))
+        tails = (self._residual(values, _KURTOSIS) - residual) * (_TAILS / _KURTOSIS)
+        covariance[np.ix_(index, index)] = self._covariance(slopes, residual, tails) * np.outer(
             scale, scale
         )
         return JointFit(values, covariance, float(residual @ residual))
 
-    def _covariance(self, slopes: FloatArray, residual: FloatArray) -> FloatArray:
+    def _covariance(
+        self, slopes: FloatArray, residual: FloatArray, tails: FloatArray
+    ) -> FloatArray:
         """Give the parameters' covariance, the residual being correlated and no mere noise.
 
         Of two estimates the larger one is taken: the inverse of the information, and the sandwich
         with the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and
         West, Econometrica 55:703, 1987). All profiles show the same stripes, compressed alike: a
-        block holds the columns of all of them.
+        block holds the columns of all of them. Added to it is what one standard deviation of the
+        blur's tails, which change the residual by ``tails``, changes the estimates (a parameter
+        that is considered, and not estimated: Jazwinski, Stochastic Processes and Filtering Theory,
+        8.4).
         """
         information = slopes.T @ slopes
         information[np.diag_indices_from(information)] += 1e-9
@@ -208,7 +231,8 @@ class JointModel:
         prior = slopes[data:].T @ slopes[data:]
         sandwich = inverse @ (scores.T @ scores + prior) @ inverse
         ratio = np.sqrt(np.maximum(np.diag(sandwich) / np.diag(inverse), 1.0))
-        return np.asarray(inverse * np.outer(ratio, ratio))
+        moved = inverse @ (slopes.T @ tails)
+        return np.asarray(inverse * np.outer(ratio, ratio) + np.outer(moved, moved))
 
     def estimate_noise(self, values: FloatArray) -> None:
         """Take a fit's residual as the noise of each profile, neighbours being correlated."""
@@ -230,8 +254,8 @@ class JointModel:
         count = max(1, int(edges.sum()))
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
-    def _seen(self, values: FloatArray) -> "Seen":
-        step, exposure, middle, *bends, blur, longer, tails = values.tolist()
+    def _seen(self, values: FloatArray, tails: float = 0.0) -> Seen:
+        step, exposure, middle, *bends, blur, longer = values.tolist()
         gamma, offset, shoulder, contrast = bends
         timing = Timing(step, exposure, middle, self._gamma)
         sharp = None
@@ -244,9 +268,9 @@ class JointModel:
             blur_kernel(blur, tails),
         )
 
-    def _residual(self, values: FloatArray) -> FloatArray:
+    def _residual(self, values: FloatArray, tails: float = 0.0) -> FloatArray:
         self._check()
-        seen = self._seen(values)
+        seen = self._seen(values, tails)
         parts = [
             part.residual(seen) / noise
             for part, noise in zip(self._parts, self._noise, strict=True)

@@ -3,6 +3,7 @@
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
+from shiboken6 import isValid
 
 from occ_gui.widgets.icons import icon
 from occ_gui.widgets.plain_text import in_tool_tip, plain
@@ -47,6 +48,8 @@ class ToolButton(QToolButton):
     def _follow(self) -> None:
         """Take over name, keys and state of the action."""
         action = self.shown
+        if not isValid(action):  # Qt tells of changes while it deletes the window
+            return
         name = plain(action.text()).rstrip("…")
         keys = action.shortcut().toString(_NATIVE)
         self.setAccessibleName(name)

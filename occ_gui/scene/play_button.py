@@ -4,6 +4,7 @@ from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import QToolButton, QWidget
 
+from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.icons import icon
 
 _ICON = 12
@@ -60,6 +61,7 @@ class PlayButton(QToolButton):
         self.setIcon(icon(name, self.palette(), _ICON, self.devicePixelRatioF()))
         self._is_drawn = True
 
+    @guarded
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Draw the icon when it is first seen, not with the program."""
         if not self._is_drawn:

@@ -97,6 +97,7 @@ def test_an_exception_while_a_picture_is_painted_is_a_sentence(
 ) -> None:
     with monkeypatch.context() as patched:
         patched.setattr(AveragedImage, "_averaged", broken)
+        application.story.show_whole_picture(True)
         application.image.simulation.fit()
         application.store.change(iso=222.0)
         user.wait_until_idle()
@@ -112,6 +113,7 @@ def test_an_exception_while_a_widget_is_painted_is_a_sentence(
 ) -> None:
     with monkeypatch.context() as patched:
         patched.setattr(BitStrip, "_draw_bit", broken)
+        application.window.bring_to_front("decode")
         application.window.grab()
         assert STILL_THERE in user.message
     application.window.grab()

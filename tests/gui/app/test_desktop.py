@@ -62,6 +62,9 @@ def lightness_of_the_plots(application: Application) -> set[bool]:
 
 def test_the_theme_changes_everything_that_is_drawn(application: Application, user: User) -> None:
     themes = application.desktop.theme
+    for pane in ("spectrum", "equations"):
+        application.window.bring_to_front(pane)
+        user.wait_until_idle()
     before = QApplication.palette().color(QPalette.ColorRole.Window)
     for theme, is_light in (("dark", False), ("light", True), ("dark", False)):
         user.choose({"dark": "&Dark", "light": "&Light"}[theme])
@@ -168,6 +171,8 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     levels = [int(image[row, column]) for image in (frame.camera_image, frame.image)]
     expected = "Simulation: column {}, row {}, camera level {}, receiver level {}"
     qtbot.waitUntil(lambda: told.toolTip() == expected.format(column, row, *levels))
+    application.window.bring_to_front("profile")
+    QApplication.processEvents()
     plot = application.profile.plot
     place = plot.mapFromScene(plot.getViewBox().sceneBoundingRect().center())
     qtbot.mouseMove(plot.viewport(), QPoint(place))

@@ -26,6 +26,7 @@ class AnswerField(QWidget):
         self.field = QLineEdit()
         self.field.setMaxLength(_LONGEST)
         self.field.setAccessibleName(self.tr("Your answer"))
+        self.field.setToolTip(self.tr("Type your answer here before you look at the explanation."))
         leave_undo_to_window(self.field)
         self.unit = QLabel()
         self.check = button(self.tr("Check"), self.tr("Compare it with the model (Enter)."))

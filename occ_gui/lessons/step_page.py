@@ -52,6 +52,7 @@ class StepPage(QWidget):
         self.control = button(
             "", self.tr("Show the control that this step is about, with all others dimmed.")
         )
+        self.control.setAccessibleName(self.tr("Show the control of this step"))
         self.control.clicked.connect(self.control_asked)
         self.answer_field = AnswerField()
         self.answer_field.checked.connect(self.answer_given)

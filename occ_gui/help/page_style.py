@@ -29,6 +29,7 @@ def style_page(document: QTextDocument, palette: QPalette) -> None:
     """
     ground, line = palette.alternateBase(), palette.mid().color()
     tables: set[int] = set()
+    document.pageCount()  # lays out all: of a page changed before that Qt leaves out paragraphs
     block = document.begin()
     while block.isValid():
         cursor = QTextCursor(block)
@@ -52,9 +53,10 @@ def _heading_format() -> QTextBlockFormat:
 
 
 def _code_format(block: QTextBlock) -> QTextBlockFormat:
-    """Indent a line of code, and keep the lines of a block together."""
+    """Indent a line of code, keep the lines of a block together, and let a long one wrap."""
     changes = QTextBlockFormat()
     changes.setLeftMargin(_CODE_MARGIN)
+    changes.setNonBreakableLines(False)
     if not block.previous().blockFormat().hasProperty(_CODE):
         changes.setTopMargin(_CELL_PADDING)
     if not block.next().blockFormat().hasProperty(_CODE):

@@ -88,4 +88,5 @@ class DetectionMapWiring(QObject):
     def stop(self) -> None:
         """Stop measuring and end the processes."""
         self._start.stop()
+        self.advisor.cancel()  # it would look for progress in a pane that is gone
         self.queue.stop()

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
@@ -180,26 +181,29 @@ def test_a_refusal_of_the_model_is_shown(
     assert "A raw pattern holds no code" in advised.detection.advice.state.toolTip()
 
 
+class Never:
+    """Workers that come to no end."""
+
+    count = 2
+    lost_by = (BrokenExecutor,)
+
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        return Future()
+
+    def abandon(self, channel: int, run: int) -> None:
+        pass
+
+    def counted(self, counter: int) -> int:
+        return 0
+
+    def close(self) -> None:
+        pass
+
+
 @pytest.mark.parametrize("how", ["cancel", "change"])
 def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch, how: str
 ) -> None:
-    class Never:
-        count = 2
-        lost_by = (BrokenExecutor,)
-
-        def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
-            return Future()
-
-        def abandon(self, channel: int, run: int) -> None:
-            pass
-
-        def counted(self, counter: int) -> int:
-            return 0
-
-        def close(self) -> None:
-            pass
-
     monkeypatch.setattr(wiring, "new_workers", Never)
     monkeypatch.setattr(module, "_LOOK_MS", 5)
     application.detection.advise.click()
@@ -212,6 +216,17 @@ def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
     assert application.detection_map.advisor.is_idle
     messages = {"cancel": "Cancelled.", "change": "The scene has changed; ask again."}
     assert advice.state.toolTip() == messages[how]
+
+
+def test_closing_the_window_during_a_search_ends_the_look_at_it(
+    application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(wiring, "new_workers", Never)
+    application.detection.advise.click()
+    looks = application.detection_map.advisor.findChildren(QTimer)
+    assert any(look.isActive() for look in looks)
+    application.window.close()
+    assert not any(look.isActive() for look in looks)
 
 
 def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:

@@ -59,5 +59,5 @@ class EquationController(QObject):
         changed = frozenset[str]()
         if last is not None:
             changed = frozenset(n for n in _NAMES if last.value(n) != scene.value(n))
-        chosen = [e for e in equations(scene) if self._only in ("", e.name)]
+        chosen = tuple(e for e in equations(scene) if self._only in ("", e.name))
         self._pane.show_equations(chosen, changed)

@@ -220,6 +220,8 @@ def test_the_profiles_mark_stays_while_the_exposure_is_visible(
 ) -> None:
     picker: ColumnPicker = seen.learning.explanation.picker
     assert picker.marker.isVisible()
+    docks = seen.window.docks
+    seen.window.tabifyDockWidget(docks["equations"], docks["decode"])
     seen.window.bring_to_front("decode")
     qtbot.waitUntil(lambda: not picker.marker.isVisible())
     messages = seen.learning.explanation.pane.exposure.sentence.text()

@@ -107,9 +107,7 @@ class AccuracyController(QObject):
         self.forecasts: LatestWins[ForecastRequest, _Predicted] = LatestWins(
             _predict, "forecast of costs"
         )
-        self.forecasts.finished.connect(
-            lambda found: self._pane.show_forecast(found.request, found.expected)
-        )
+        self.forecasts.finished.connect(self._show_forecast)
         for store in (scenes, settings):
             store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
@@ -156,6 +154,9 @@ class AccuracyController(QObject):
         times = TimeShares.of(snapshot.frame)
         costs = MeasuredCosts(times) if self._costs is None else self._costs.of(request, times)
         self.forecasts.submit(ForecastRequest(request, costs))
+
+    def _show_forecast(self, found: _Predicted) -> None:
+        self._pane.show_forecast(found.request, found.expected)
 
     def _wait_until_idle(self) -> None:
         if self._seen and not self.runner.is_running and self._done is None:

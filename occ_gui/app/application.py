@@ -20,6 +20,7 @@ from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
+from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
@@ -195,9 +196,7 @@ class Application(QObject):
             self.window.actions_by_name[name].triggered.connect(slot)
         menus = self.window.menus
         menus.scan_axes.triggered.connect(lambda action: self.photos.scan_along(action.data()))
-        self.photos.reading_changed.connect(
-            lambda reading: menus.show_choice(menus.scan_axes, reading.scan_axis)
-        )
+        self.photos.reading_changed.connect(self._show_scan_axis)
         menus.overlays.triggered.connect(lambda action: self.image.set_mode(action.data()))
         self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.overlays, mode))
 
@@ -241,6 +240,9 @@ class Application(QObject):
         """Show the photo beside the simulated picture or over it, by one of MODES."""
         self.image.set_mode(mode)
         self.window.menus.show_choice(self.window.menus.overlays, mode)
+
+    def _show_scan_axis(self, reading: PhotoReading) -> None:
+        self.window.menus.show_choice(self.window.menus.scan_axes, reading.scan_axis)
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")

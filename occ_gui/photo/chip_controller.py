@@ -54,7 +54,7 @@ class ChipController(QObject):
         self._wanted: Request | None = None
         self.runner: LatestWins[Request, ReadPhoto] = LatestWins(read, "reading of chips")
         self.runner.finished.connect(self._take)
-        self.runner.failed.connect(lambda _sentence: pane.show_chips(None))
+        self.runner.failed.connect(self._show_none)
 
     def show_photo(self, photo: Photo | None) -> None:
         """Read the chips of this photo; those of the previous one are put away."""
@@ -74,6 +74,9 @@ class ChipController(QObject):
     def _take(self, found: ReadPhoto) -> None:
         if found.request is self._wanted:  # not of one that was closed meanwhile
             self._pane.show_chips(found.reading)
+
+    def _show_none(self, _sentence: str) -> None:
+        self._pane.show_chips(None)
 
     def stop(self) -> None:
         """Stop reading."""

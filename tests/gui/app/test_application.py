@@ -137,6 +137,9 @@ def test_about_tells_the_version(
 def open_and_close(qtbot: QtBot, scene: Scene) -> None:
     application = Application(scene)
     application.window.show()
+    for pane in application.window.docks:  # some are made when they are first seen
+        application.window.bring_to_front(pane)
+        QApplication.processEvents()
     qtbot.waitUntil(lambda: application.is_idle)
     application.window.close()
     application.window.deleteLater()

@@ -1,14 +1,17 @@
 """A desktop program: titles, themes, keys, the palette, the pointer, and held brightness."""
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from gui.user import User
+from numpy.typing import NDArray
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -60,7 +63,9 @@ def lightness_of_the_plots(application: Application) -> set[bool]:
     return {plot.backgroundBrush().color().lightness() > 128 for plot in plots}
 
 
-def test_the_theme_changes_everything_that_is_drawn(application: Application, user: User) -> None:
+def test_the_theme_changes_everything_that_is_drawn(
+    application: Application, user: User, grey_picture: Callable[[QWidget], NDArray[np.uint8]]
+) -> None:
     themes = application.desktop.theme
     for pane in ("spectrum", "equations"):
         application.window.bring_to_front(pane)
@@ -73,6 +78,9 @@ def test_the_theme_changes_everything_that_is_drawn(application: Application, us
         assert lightness_of_the_plots(application) == {is_light}
         window = application.window.palette().color(QPalette.ColorRole.Window)
         assert (window.lightness() > 128) == is_light
+        rows = application.story.rows
+        for row in (rows.light, rows.profile, rows.columns):
+            assert (np.median(grey_picture(row)) > 128) == is_light
         axis = application.profile.plot.getAxis("left").textPen().color()
         assert (axis.lightness() < 128) == is_light
         ring = application.accuracy.plot.rings.opts["pen"].color()

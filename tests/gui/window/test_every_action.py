@@ -96,7 +96,7 @@ def test_each_control_has_a_name_for_those_who_do_not_see_it(with_photo: Applica
 
 def test_the_walk_sees_the_controls_of_panes_that_are_made_late(with_photo: Application) -> None:
     names = {name_of(control) for control in controls_of(with_photo.window)}
-    assert {"Pin A", "Show the answer", "Column whose exposure is shown"} <= names
+    assert {"Pin A", "Show the explanation", "Column whose exposure is shown"} <= names
 
 
 def test_each_control_says_what_it_does(with_photo: Application) -> None:

@@ -104,7 +104,7 @@ class CompareView(QWidget):
         self.plot = new_plot(
             self.tr("The camera's column profiles of A and B, before enhancement"),
             self.tr("column, before enhancement"),
-            self.tr("camera's level"),
+            self.tr("level"),
             self.palette(),
         )
         self.plot.setDownsampling(auto=True, mode="peak")

@@ -10,8 +10,9 @@ from typing import Protocol
 # Before Qt is imported anywhere: no test opens a window on a real screen.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-# No test sees or touches the presets of whoever runs it.
+# No test sees or touches the presets or lessons of whoever runs it.
 os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
+os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 
 # Nor the session that they have left; what a window stores ends with the tests.
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
@@ -20,7 +21,10 @@ import pytest
 from hard_cases import laws
 from hypothesis import settings
 
-settings.register_profile("everyday", deadline=None, print_blob=True)
+# The same examples at each run of CI: others are looked for wherever people work.
+settings.register_profile(
+    "everyday", deadline=None, print_blob=True, derandomize="CI" in os.environ
+)
 settings.load_profile("everyday")
 
 _PHOTOS = Path(__file__).parents[2] / "shared" / "photos"

@@ -3,7 +3,7 @@
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QBrush, QColor
+from PySide6.QtGui import QBrush, QColor, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -51,12 +51,23 @@ class ExposurePlot(QWidget):
         row.addWidget(self.column)
         row.addWidget(self.hold)
         row.addStretch(1)
-        layout = QVBoxLayout(self)
+        layout = self._layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 2, 4, 4)
         layout.setSpacing(2)
         layout.addLayout(row)
         layout.addWidget(self.sentence)
         layout.addWidget(self.plot, 1)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Fit the least height to the new width."""
+        super().resizeEvent(event)
+        if event.size().width() != event.oldSize().width():
+            self._fit_height()
+
+    def _fit_height(self) -> None:
+        """Ask for the height of all lines of the sentence: a splitter counts too few of them."""
+        needed = self._layout.minimumHeightForWidth(self.width())
+        self.setMinimumHeight(max(needed, 0))  # -1 without a sentence
 
     def _make_plot(self) -> None:
         self.plot = new_plot(
@@ -136,6 +147,7 @@ class ExposurePlot(QWidget):
                 chips=len(window.lit)
             )
         self.sentence.setText(text)
+        self._fit_height()
         self.plot.setAccessibleDescription(text)
 
 

@@ -7,7 +7,7 @@ import pytest
 from gui.user import User
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -52,6 +52,21 @@ def test_chips_window_and_time_on_are_drawn_in_microseconds(
     assert plot.sentence.text() == f"{messages} → 42.2 grey levels"
     first, last = plot.plot.getViewBox().viewRange()[0]
     assert first <= 0.0 < x[-1] <= last
+
+
+def test_the_plot_is_whole_in_a_narrow_pane(qtbot: QtBot, small_scene: Scene) -> None:
+    plot = ExposurePlot()
+    panes, above = QSplitter(Qt.Orientation.Vertical), QWidget()
+    qtbot.addWidget(panes)
+    panes.addWidget(above)
+    panes.addWidget(plot)
+    panes.resize(190, 400)
+    panes.show()
+    plot.show_window(exposure_window(small_scene, 1003), 42.25)
+    panes.setSizes([1000, 0])
+    qtbot.wait(1)
+    assert plot.sentence.height() >= plot.sentence.heightForWidth(plot.sentence.width())
+    assert plot.rect().contains(plot.plot.geometry())
 
 
 def test_a_column_in_the_dark_has_no_time_on(plot: ExposurePlot, small_scene: Scene) -> None:

@@ -111,6 +111,11 @@ def axis_labels_cut_off(window: QWidget) -> list[str]:
     ]
 
 
+def plots_cut_off(window: QWidget) -> list[str]:
+    plots = [plot for plot in window.findChildren(pg.PlotWidget) if plot.isVisible()]
+    return [describe(plot) for plot in plots if not behind(plot) and cut_off(plot.viewport())]
+
+
 def assert_faultless(qtbot: QtBot, window: QWidget, what: object) -> None:
     """Let the layout come to rest, and see that it came to rest without a fault."""
 
@@ -189,6 +194,7 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
         application.image.before.chosen.setChecked(True)
         assert_faultless(qtbot, window, changes)
         assert axis_labels_cut_off(window) == []
+        assert plots_cut_off(window) == []
     window.bring_to_front("lessons")
     assert_faultless(qtbot, window, "list of lessons")
     for place in (0, 2):

@@ -48,6 +48,8 @@ class ProfileRow(StoryRow):
         self._whose = "camera"
         self._drawn_from: tuple[object, ...] = ()
         self._top = 255.0
+        self.threshold: tuple[float, float] | None = None
+        """The levels between which the decoder's threshold lies; None where it has none."""
 
     def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
         """Show this reading, and the threshold of one decoder's result."""
@@ -92,9 +94,8 @@ class ProfileRow(StoryRow):
         levels = photo.comparison.photo
         return photo.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels
 
-    @property
-    def threshold(self) -> tuple[float, float] | None:
-        """The levels between which the decoder's threshold lies; None where it has none."""
+    def _find_threshold(self) -> tuple[float, float] | None:
+        """Place the decoder's threshold among the levels that are shown."""
         levels, decoded = self.levels, self._decoded
         if levels is None or decoded is None or decoded.threshold is None:
             return None
@@ -105,6 +106,8 @@ class ProfileRow(StoryRow):
 
     def _fit(self) -> None:
         """Show from black to the largest level."""
+        # Once for a reading: the legend and each drawing ask for it.
+        self.threshold = self._find_threshold()
         photo = self.photo
         curves = (self.levels, self.band, None if photo is None else photo[1])
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)

@@ -30,6 +30,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         PresetError as PresetError,
         ProjectionError as ProjectionError,
         SceneFileError as SceneFileError,
+        VideoError as VideoError,
     )
     from occ_model.photo.chips.read import read_chips as read_chips
     from occ_model.photo.comparison import compare as compare
@@ -63,12 +64,18 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Region as Region,
         Stripes as Stripes,
         SweepTable as SweepTable,
+        Video as Video,
+        VideoFrame as VideoFrame,
     )
     from occ_model.scene.presets import (
         delete_preset as delete_preset,
         load_preset as load_preset,
         presets as presets,
         save_preset as save_preset,
+    )
+    from occ_model.scene.recording import (
+        Recording as Recording,
+        Waypoint as Waypoint,
     )
     from occ_model.scene.scene import Scene as Scene
     from occ_model.scene.simulation_settings import SimulationSettings as SimulationSettings
@@ -100,6 +107,8 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Scheme as Scheme,
         scheme_of as scheme_of,
     )
+    from occ_model.video.load import load_video as load_video
+    from occ_model.video.render import render_video as render_video
 
 # isort: on
 
@@ -134,6 +143,7 @@ _MODULES = {
     "PluginError": "errors",
     "PresetError": "errors",
     "ProjectionError": "errors",
+    "Recording": "scene.recording",
     "Region": "results",
     "Scene": "scene.scene",
     "SceneFileError": "errors",
@@ -141,6 +151,10 @@ _MODULES = {
     "SimulationSettings": "scene.simulation_settings",
     "Stripes": "results",
     "SweepTable": "results",
+    "Video": "results",
+    "VideoError": "errors",
+    "VideoFrame": "results",
+    "Waypoint": "scene.recording",
     "accuracy": "study.accuracy",
     "band_lengths": "simulation.band_model",
     "band_profile": "simulation.band_model",
@@ -157,6 +171,7 @@ _MODULES = {
     "line_codes": "transmitter.line_codes.registry",
     "load_photo": "photo.reading.load",
     "load_preset": "scene.presets",
+    "load_video": "video.load",
     "match_lamps": "photo.lamps.match",
     "match_photo": "photo.match",
     "match_photos": "photo.many.match_photos",
@@ -169,6 +184,7 @@ _MODULES = {
     "read_chips": "photo.chips.read",
     "read_payload": "receiver.read_payload",
     "render": "simulation.render",
+    "render_video": "video.render",
     "save_preset": "scene.presets",
     "scheme_of": "transmitter.scheme",
     "success_rate": "study.success_rate",

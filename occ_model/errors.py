@@ -58,6 +58,10 @@ class PhotoError(OccError):
     """A photo cannot be read."""
 
 
+class VideoError(OccError):
+    """A film cannot be read or made."""
+
+
 class MatchError(OccError):
     """A photo's stripes cannot be found, or no scene explains them.
 

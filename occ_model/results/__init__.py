@@ -25,6 +25,7 @@ from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
+from occ_model.results.video import Video, VideoFrame
 
 __all__ = [
     "ACCURACY_PARTS",
@@ -65,5 +66,7 @@ __all__ = [
     "SweepTable",
     "TimeShares",
     "Trial",
+    "Video",
+    "VideoFrame",
     "WorkingRange",
 ]

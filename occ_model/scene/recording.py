@@ -1,0 +1,240 @@
+"""How a film is recorded: frame rate, jitter, drift of the clocks, motion, exposure times."""
+
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Literal, Self, TypeAlias
+
+from occ_model.errors import ParameterError, shown
+from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters.pose_receiver_model import POSE
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, PPM, SECOND
+
+FrameTimes: TypeAlias = Literal["measured", "nominal"]
+"""What a film states as the times of its frames: when they started, or equal steps."""
+
+FRAME_TIMES: tuple[FrameTimes, ...] = ("measured", "nominal")
+
+# fmt: off
+FRAME_RATE = Quantity(
+    "frame_rate", "Frame rate", "", "Frames a second, by the camera's own clock.",
+    unit=HERTZ, low=1e-3, high=1e5, slider=(24.0, 240.0), scale="log", default=30.0,
+)
+FRAME_JITTER = Quantity(
+    "frame_jitter", "Frame jitter", "",
+    "Standard deviation of a frame's start from its nominal time.",
+    unit=SECOND, low=0.0, high=1.0, slider=(0.0, 1e-4), scale="linear", default=0.0,
+)
+CAMERA_DRIFT = Quantity(
+    "camera_drift", "Camera's clock", "", "How much the camera's clock runs too fast.",
+    unit=PPM, low=-1e-2, high=1e-2, slider=(-1e-4, 1e-4), scale="linear", default=0.0,
+)
+TRANSMITTER_DRIFT = Quantity(
+    "transmitter_drift", "LED's clock", "", "How much the LED's clock runs too fast.",
+    unit=PPM, low=-1e-2, high=1e-2, slider=(-1e-4, 1e-4), scale="linear", default=0.0,
+)
+# fmt: on
+
+DECLARED: tuple[Quantity, ...] = (FRAME_RATE, FRAME_JITTER, CAMERA_DRIFT, TRANSMITTER_DRIFT)
+"""The quantities of a recording, each declared once: unit, range, slider, default."""
+
+_MOTIONS = tuple(parameter.name for parameter in POSE)
+
+_MOST_JITTER = 6
+"""The gap holds three standard deviations of jitter on either side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Waypoint:
+    """A place on a path: a time, and how much the panel has moved from where the scene has it.
+
+    The panel's motion and that of the hand that holds the camera are one: the panel as the camera
+    sees it.
+
+    Parameters
+    ----------
+    time
+        In seconds by the camera's clock, 0 for the film's first frame.
+    distance, offset_x, offset_y, yaw, pitch, roll
+        Added to the scene's parameters, in metres and radians.
+    """
+
+    time: float
+    distance: float = 0.0
+    offset_x: float = 0.0
+    offset_y: float = 0.0
+    yaw: float = 0.0
+    pitch: float = 0.0
+    roll: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recording:
+    """How a film of a scene is recorded.
+
+    The camera's clock sets the frames' times, the exposure time and the readout time; the LED's
+    clock sets the switching frequency. A clock that is too fast by d makes its times shorter by
+    1 / (1 + d) and its frequencies higher by 1 + d.
+
+    Parameters
+    ----------
+    frame_rate
+        Frames a second by the camera's clock, in Hz.
+    frame_jitter
+        Standard deviation of a frame's start from its nominal time, in seconds. Starts deviate by
+        at most half a gap, so that frames do not overlap.
+    camera_drift, transmitter_drift
+        How much each clock is too fast: 1e-6 is one part in a million (ppm).
+    path
+        Where the panel is, from waypoint to waypoint along straight lines; before the first and
+        after the last it stands still. It stands still within a frame too, where it is when the
+        frame starts. None: where the scene has it.
+    exposure_times
+        Exposure times of the frames in seconds, in turn and repeatedly; none: the scene's.
+    frame_times
+        The times that the frames state: ``"measured"``, when each started, or ``"nominal"``, equal
+        steps whatever the jitter.
+
+    Raises
+    ------
+    ParameterError
+        A value is not of its kind or out of range, or the waypoints are not in the order of time.
+    """
+
+    frame_rate: float = FRAME_RATE.default
+    frame_jitter: float = FRAME_JITTER.default
+    camera_drift: float = CAMERA_DRIFT.default
+    transmitter_drift: float = TRANSMITTER_DRIFT.default
+    path: tuple[Waypoint, ...] = ()
+    exposure_times: tuple[float, ...] = ()
+    frame_times: FrameTimes = "measured"
+
+    def __post_init__(self) -> None:
+        for declared in DECLARED:
+            object.__setattr__(self, declared.name, declared.check(getattr(self, declared.name)))
+        check_choice("frame_times", self.frame_times, FRAME_TIMES)
+        object.__setattr__(self, "path", _checked_path(self.path))
+        object.__setattr__(self, "exposure_times", _checked_exposures(self.exposure_times))
+
+    def replace(self, **changes: object) -> Self:
+        """Return the recording with some settings changed.
+
+        Raises
+        ------
+        ParameterError
+            There is no such setting, or a value is out of range.
+        """
+        known = [each.name for each in fields(self)]
+        for name in changes:
+            check_choice("setting of a recording", name, known)
+        return replace(self, **changes)  # type: ignore[arg-type]
+
+    @property
+    def frame_period(self) -> float:
+        """Time from one frame's start to the next one's, in seconds by the camera's clock."""
+        return 1.0 / self.frame_rate
+
+    def gap(self, scene: Scene) -> float:
+        """Return the time in which no column starts, from one frame to the next, in seconds.
+
+        The frame period less columns times readout time, all by the camera's clock. Below 0 the
+        frames would overlap.
+        """
+        read = scene.camera.columns * Fraction(scene.camera.readout_time)
+        return float(1 / Fraction(self.frame_rate) - read)
+
+    def gap_ratio(self, scene: Scene) -> float:
+        """Return the share of the frame period that the gap takes."""
+        return self.gap(scene) * self.frame_rate
+
+    def check(self, scene: Scene) -> None:
+        """Refuse a scene that cannot be recorded so.
+
+        Raises
+        ------
+        ParameterError
+            Reading out a frame takes longer than a frame period, an exposure does, or the jitter
+            would let frames overlap.
+        """
+        period, gap = self.frame_period, self.gap(scene)
+        camera = scene.camera
+        if gap < 0.0:
+            raise ParameterError(
+                f"Reading out {camera.columns} columns at {SECOND.format(camera.readout_time)} "
+                f"takes {SECOND.format(camera.columns * camera.readout_time)}; allowed at "
+                f"{HERTZ.format(self.frame_rate)}: up to the frame period, "
+                f"{SECOND.format(period)}.",
+                parameters=("readout_time", "columns"),
+            )
+        longest = max(self.exposure_times or (camera.exposure_time,))
+        if longest > period:
+            raise ParameterError(
+                f"exposure_time is {SECOND.format(longest)}; allowed in a film of "
+                f"{HERTZ.format(self.frame_rate)}: up to the frame period, "
+                f"{SECOND.format(period)}.",
+                parameters=("exposure_time",),
+            )
+        if self.frame_jitter > gap / _MOST_JITTER:
+            raise ParameterError(
+                f"frame_jitter is {SECOND.format(self.frame_jitter)}; allowed with a gap of "
+                f"{SECOND.format(gap)} between frames: up to a sixth of it, "
+                f"{SECOND.format(gap / _MOST_JITTER)}."
+            )
+
+    def exposure_time(self, scene: Scene, index: int) -> float:
+        """Return the exposure time of a frame, in seconds by the camera's clock."""
+        if not self.exposure_times:
+            return scene.camera.exposure_time
+        return self.exposure_times[index % len(self.exposure_times)]
+
+    def motion(self, time: float) -> dict[str, float]:
+        """Return how much the pose's parameters have changed at a time, by name."""
+        if not self.path:
+            return {}
+        after = bisect_right([point.time for point in self.path], time)
+        if after in (0, len(self.path)):
+            point = self.path[max(after - 1, 0)]
+            return {name: getattr(point, name) for name in _MOTIONS}
+        first, second = self.path[after - 1], self.path[after]
+        share = (time - first.time) / (second.time - first.time)
+        return {
+            name: (1.0 - share) * getattr(first, name) + share * getattr(second, name)
+            for name in _MOTIONS
+        }
+
+
+def _checked_path(path: object) -> tuple[Waypoint, ...]:
+    """Return waypoints as a tuple of floats, or refuse them."""
+    if not isinstance(path, Sequence) or not all(isinstance(point, Waypoint) for point in path):
+        raise ParameterError(f"path is {shown(path)}; allowed: Waypoints, in the order of time.")
+    points = tuple(_checked_waypoint(point) for point in path)
+    for before, after in pairwise(points):
+        if after.time <= before.time:
+            raise ParameterError(
+                f"path goes from the time {SECOND.format(before.time)} to "
+                f"{SECOND.format(after.time)}; allowed: waypoints in the order of time."
+            )
+    return points
+
+
+def _checked_waypoint(point: Waypoint) -> Waypoint:
+    values: Mapping[str, float] = {each.name: getattr(point, each.name) for each in fields(point)}
+    for name, value in values.items():
+        # Infinity and NaN are out of this range too.
+        if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= 1e9:
+            raise ParameterError(
+                f"A waypoint's {name} is {shown(value)}; allowed: numbers from -1e9 to 1e9."
+            )
+    return Waypoint(**{name: float(value) for name, value in values.items()})
+
+
+def _checked_exposures(times: object) -> tuple[float, ...]:
+    if isinstance(times, str) or not isinstance(times, Sequence):
+        raise ParameterError(f"exposure_times is {shown(times)}; allowed: times in seconds.")
+    declared = PARAMETERS["exposure_time"]
+    return tuple(float(declared.check(time)) for time in times)

@@ -1,0 +1,1 @@
+"""Films: simulate them frame by frame, write them to files, open files."""

@@ -1,0 +1,68 @@
+"""Recognize the kind of a film's file by its first bytes, never by its name.
+
+FFmpeg also understands playlists and lists of files, which name further files and network
+addresses to open. Only files that hold their own pictures are let through to it.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from occ_model.errors import VideoError, one_line
+
+
+@dataclass(frozen=True, slots=True)
+class Container:
+    """A kind of file that holds a film.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    reader
+        What reads it: OpenCV with its FFmpeg, or Pillow.
+    time_step
+        The frames' times are whole multiples of this, in seconds; None where each file has a step
+        of its own.
+    """
+
+    name: str
+    reader: Literal["opencv", "pillow"]
+    time_step: float | None = None
+
+
+_MP4 = Container("MP4 or MOV", "opencv")
+_AVI = Container("AVI", "opencv")
+_MATROSKA = Container("MKV or WebM", "opencv", 1e-3)
+_GIF = Container("GIF", "pillow", 1e-2)
+_PNG = Container("animated PNG", "pillow")
+
+_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")
+"""Boxes that MP4 and MOV files begin with, after four bytes of length."""
+
+FIRST_BYTES = 16
+"""Bytes that tell the kind."""
+
+
+def container_of(path: Path, start: bytes) -> Container:
+    """Recognize a film by the first bytes of its file.
+
+    Raises
+    ------
+    VideoError
+        It is none of the kinds that are read.
+    """
+    if start[4:8] in _BOXES:
+        return _MP4
+    if start[:4] == b"RIFF" and start[8:12] == b"AVI ":
+        return _AVI
+    if start[:4] == b"\x1aE\xdf\xa3":
+        return _MATROSKA
+    if start[:6] in (b"GIF87a", b"GIF89a"):
+        return _GIF
+    if start[:8] == b"\x89PNG\r\n\x1a\n":
+        return _PNG
+    raise VideoError(
+        f"{one_line(str(path))} is no film that can be read; allowed: MP4, MOV, AVI, MKV, WebM, "
+        "GIF and animated PNG."
+    )

@@ -1,0 +1,200 @@
+"""Simulate a film: the pictures that a camera takes of a scene one after the other."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.camera.projection import check_size
+from occ_model.effects.registry import NAMES
+from occ_model.errors import ParameterError
+from occ_model.results.video import Video, VideoFrame
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.recording import Recording
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.render import render_with
+from occ_model.transmitter.packet import sent_chips
+
+MOST_FRAMES = 100_000_000
+"""Most frames of a film: days even at hundreds a second."""
+
+_JITTER, _PICTURE = 0, 1
+"""Which of a frame's own streams of random numbers is for what."""
+
+
+def render_video(
+    scene: Scene,
+    frames: int | None = None,
+    recording: Recording | None = None,
+    *,
+    settings: SimulationSettings | None = None,
+    rows_step: int = 1,
+) -> "SimulatedVideo":
+    """Simulate the film that the scene's camera takes.
+
+    Frames are simulated one by one as they are asked for; only the one at hand is kept.
+
+    Parameters
+    ----------
+    scene
+        The scene; its start time is that of the first frame.
+    frames
+        How many frames; None: without end.
+    recording
+        Frame rate, jitter, clocks, motion and exposure times; by default 30 frames a second of the
+        scene as it is.
+    settings
+        The settings of the simulation, those of :func:`occ_model.render` by default. Each frame has
+        its own stream of random numbers from their seed, except that what belongs to the camera
+        itself stays from frame to frame.
+    rows_step
+        From 2 on frames are drafts: every ``rows_step``-th row of each and no other.
+
+    Returns
+    -------
+    SimulatedVideo
+
+    Raises
+    ------
+    ParameterError
+        ``frames`` is no whole number from 1, a setting is out of range, or the scene cannot be
+        recorded so: see :meth:`occ_model.Recording.check`.
+    ProjectionError
+        The image would be too large.
+    """
+    check_scene(scene)
+    if frames is not None:
+        check_count("frames", frames, 1, MOST_FRAMES)
+    check_count("rows_step", rows_step, 1, scene.camera.rows)
+    settings = (settings or SimulationSettings()).checked(NAMES)
+    recording = recording or Recording()
+    recording.check(scene)
+    check_size(scene.camera)
+    return SimulatedVideo(scene, frames, recording, settings, rows_step)
+
+
+class SimulatedVideo(Video):
+    """A film that is simulated as its frames are asked for: see :func:`render_video`."""
+
+    scene: Scene
+    recording: Recording
+
+    def __init__(
+        self,
+        scene: Scene,
+        frames: int | None,
+        recording: Recording,
+        settings: SimulationSettings,
+        rows_step: int = 1,
+    ) -> None:
+        self.title = "Simulated film"
+        self.scene = scene
+        self.recording = recording
+        self.settings = settings
+        self.frame_count = frames
+        self.frame_rate = recording.frame_rate
+        rows = len(range(0, scene.camera.rows, rows_step))
+        self.shape = (rows, scene.camera.columns)
+        self._rows_step = rows_step
+        self._clocks = _with_drift(scene, recording)
+
+    def frames(self, first: int = 0) -> Iterator[VideoFrame]:
+        """Simulate the frames in order, from the one with the number ``first``."""
+        check_count("first", first, 0)
+        index = int(first)
+        while self.frame_count is None or index < self.frame_count:
+            yield self.frame(index)
+            index += 1
+
+    def frame(self, index: int) -> VideoFrame:
+        """Simulate one frame."""
+        last = None if self.frame_count is None else self.frame_count - 1
+        check_count("index", index, 0, last)
+        index = int(index)
+        scene = self.scene_of(index)
+        settings = replace(self.settings, seed=self.seed_of(index))
+        picture = render_with(scene, settings, self._rows_step).camera_image
+        return VideoFrame(
+            index=index,
+            time=self.time_of(index),
+            image=picture,
+            exposure_time=self.recording.exposure_time(self.scene, index),
+            scene=scene,
+            start=self.start_of(index),
+        )
+
+    def seed_of(self, index: int) -> int:
+        """Return the seed of one frame's picture, spawned from that of the film."""
+        words = _spawned(self.settings.seed, index, _PICTURE).generate_state(2, np.uint64)
+        return int(words[0]) << 64 | int(words[1])
+
+    def start_of(self, index: int) -> Fraction:
+        """Return the exact time in the real world when a frame starts, in seconds."""
+        start = Fraction(self.scene.model.start_time)
+        return start + self._clock(index) / (1 + Fraction(self.recording.camera_drift))
+
+    def time_of(self, index: int) -> float:
+        """Return the time that the film states for a frame, in seconds."""
+        if self.recording.frame_times == "nominal":
+            return float(index / Fraction(self.recording.frame_rate))
+        return float(self._clock(index) - self._clock(0))
+
+    def scene_of(self, index: int) -> Scene:
+        """Return the very scene that a frame shows: see :class:`occ_model.VideoFrame`.
+
+        Whole packets are taken off the start time, in exact arithmetic, so that its phase in the
+        packet is as exact after days as it is at once; the phase of the mains is kept.
+        """
+        scene, recording = self._clocks, self.recording
+        start = self.start_of(index)
+        chips = len(sent_chips(scene.transmitter))
+        packet = chips / Fraction(scene.transmitter.switching_frequency)
+        within = float(start % packet)
+        changes = {"start_time": within, **self._moved(index)}
+        if recording.exposure_times:
+            exposure = Fraction(recording.exposure_time(scene, index))
+            changes["exposure_time"] = float(exposure / (1 + Fraction(recording.camera_drift)))
+        if scene.surroundings.flicker_depth:
+            cycles = (start - Fraction(within)) * Fraction(scene.surroundings.flicker_frequency)
+            phase = scene.surroundings.flicker_phase + 2.0 * math.pi * float(cycles % 1)
+            changes["flicker_phase"] = math.remainder(phase, 2.0 * math.pi)
+        return scene.replace(**changes)
+
+    def _moved(self, index: int) -> dict[str, float]:
+        """Return the pose's parameters that the path changes."""
+        pose = self.scene.pose
+        motion = self.recording.motion(float(self._clock(index) - self._clock(0)))
+        changes = {name: getattr(pose, name) + moved for name, moved in motion.items()}
+        try:
+            self.scene.replace(**changes)
+        except ParameterError as error:
+            raise ParameterError(f"Frame {index} of the film: {error}") from None
+        return changes
+
+    def _clock(self, index: int) -> Fraction:
+        """Return when a frame starts by the camera's clock, counted from the nominal start."""
+        nominal = index / Fraction(self.recording.frame_rate)
+        jitter = self.recording.frame_jitter
+        if not jitter:
+            return nominal
+        random = np.random.default_rng(_spawned(self.settings.seed, index, _JITTER))
+        most = self.recording.gap(self.scene) / 2.0
+        return nominal + Fraction(min(max(jitter * random.standard_normal(), -most), most))
+
+
+def _spawned(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
+    """Return the source of one of a frame's own streams of random numbers."""
+    return np.random.SeedSequence(seed, spawn_key=(index, purpose))
+
+
+def _with_drift(scene: Scene, recording: Recording) -> Scene:
+    """Return a scene with its times and frequencies as they are in the real world."""
+    camera, led = 1 + Fraction(recording.camera_drift), 1 + Fraction(recording.transmitter_drift)
+    return scene.replace(
+        switching_frequency=float(Fraction(scene.transmitter.switching_frequency) * led),
+        exposure_time=float(Fraction(scene.camera.exposure_time) / camera),
+        readout_time=float(Fraction(scene.camera.readout_time) / camera),
+    )

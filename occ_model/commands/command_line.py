@@ -32,8 +32,8 @@ _COMMANDS = (
 )  # fmt: skip
 
 
-def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Parse a command line for :func:`run_command`."""
+def make_parser() -> Parser:
+    """Make the parser of all commands."""
     parser = Parser(
         prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
     )
@@ -41,7 +41,12 @@ def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in _COMMANDS:
         command.add_to(commands)
-    return parser.parse_args(arguments)
+    return parser
+
+
+def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Parse a command line for :func:`run_command`."""
+    return make_parser().parse_args(arguments)
 
 
 def run_command(options: argparse.Namespace) -> int:

@@ -43,6 +43,9 @@ class DockWindow(Protocol):
     def bring_to_front(self, name: str) -> None:
         """Show a pane in front of those that share its place."""
 
+    def bring_into_view(self, name: str) -> None:
+        """Show a pane in front, unless what it shows is seen already."""
+
 
 class LearningPanes(QObject):
     """The panes that explain and compare, with their controllers, in docks of a window.
@@ -152,7 +155,7 @@ class LearningPanes(QObject):
             self._scenes, self._photos, self.lessons_pane, self._controls, self._preferences
         )
         wiring.status_message.connect(self.status_message)
-        wiring.controller.pane_wanted.connect(self._window.bring_to_front)
+        wiring.controller.pane_wanted.connect(self._window.bring_into_view)
         return wiring
 
     def users_own(self) -> UserState | None:

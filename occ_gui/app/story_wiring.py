@@ -8,6 +8,8 @@ from PySide6.QtWidgets import QMenu
 
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
@@ -26,6 +28,8 @@ class Parts(Protocol):
     image: ImageView
     profile: ProfileView
     decode: DecodeView
+    photo: PhotoView
+    photos: PhotoController
 
 
 def tell_story(parts: Parts) -> None:
@@ -46,6 +50,7 @@ def tell_story(parts: Parts) -> None:
     image.picture_chosen.connect(story.choose_picture)
     story.picture_chosen.connect(image.choose_picture)
     _link_profiles(story, parts.profile)
+    _tell_verdicts_apart(parts)
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     image.before.chosen.toggled.connect(lambda on: _show_where_asked(story, on))
@@ -82,6 +87,23 @@ def _link_profiles(story: StoryView, profile: ProfileView) -> None:
 
     story.picture_chosen.connect(lambda whose: profile.enhanced.setChecked(whose == "receiver"))
     profile.photo_shown.connect(show_photo)
+
+
+def _tell_verdicts_apart(parts: Parts) -> None:
+    """Show first what the mode is about, and name the simulation where a photo is shown, too."""
+    story, photo, modes = parts.story, parts.photo.verdict, parts.window.modes
+    story.take_photo_verdict(photo)
+
+    def name_simulation(*_news: object) -> None:
+        is_about_photo = modes.mode == "photo"
+        story.be_about_photo(is_about_photo)
+        story.verdict.name_simulation(is_about_photo or parts.photo.has_photo)
+
+    modes.changed.connect(name_simulation)
+    parts.photos.opened.connect(name_simulation)
+    story.verdict.changed.connect(
+        lambda: photo.show_simulation(story.verdict.state, story.verdict.heading)
+    )
 
 
 def _show_where_asked(story: StoryView, asked: bool) -> None:

@@ -20,6 +20,7 @@ from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_facts import PhotoFacts
 from occ_gui.photo.photo_steps import PhotoSteps
+from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.picture.placement import Placement
@@ -52,6 +53,8 @@ class PhotoView(QWidget):
         self.lamps = LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.refusal = VerdictView()
+        self.verdict = PhotoVerdictBar()
+        """The verdict on the photo, for the place where it is first seen."""
         self.failure = QLabel()
         self.failure.setWordWrap(True)
         self.failure.setTextFormat(Qt.TextFormat.PlainText)
@@ -122,6 +125,7 @@ class PhotoView(QWidget):
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
         self._has_photo, self._match = photo is not None, None
+        self.verdict.show_photo(photo)
         self._show_page()
         self._show_steps()
         self._hide_failure()
@@ -132,6 +136,11 @@ class PhotoView(QWidget):
             self.form.forget_certain()
         if photo is not None:
             self.facts.show_photo(photo)
+
+    @property
+    def has_photo(self) -> bool:
+        """Whether a photo is open."""
+        return self._has_photo
 
     def _show_page(self) -> None:
         """Show the forms where there is a photo or a table of several, else the invitation."""
@@ -149,10 +158,12 @@ class PhotoView(QWidget):
 
     def _show_steps(self) -> None:
         match = self._match
+        is_applied = match is not None and match.scene == self._scene
+        self.verdict.show_applied(is_applied)
         self.steps.show_state(
             has_photo=self._has_photo,
             match="" if match is None else match.verdict,
-            is_applied=match is not None and match.scene == self._scene,
+            is_applied=is_applied,
         )
 
     def _go_to_step(self, step: str) -> None:
@@ -175,6 +186,7 @@ class PhotoView(QWidget):
         """Show that a match is running."""
         self._hide_failure()
         self.form.show_running(True)
+        self.verdict.show_begun()
 
     def show_progress(self, share: float) -> None:
         """Show the fraction of the work that is done, from 0 to 1."""
@@ -186,6 +198,7 @@ class PhotoView(QWidget):
         self._hide_failure()
         self.result.setVisible(match is not None)
         self._match = match
+        self.verdict.show_match(match)
         self._show_steps()
         if match is not None:
             self.result.show_match(match, self._noted)
@@ -195,6 +208,7 @@ class PhotoView(QWidget):
         """Show the reasons why no match was found, or none; the previous match stays."""
         self.form.show_running(False)
         self.refusal.setVisible(bool(reasons))
+        self.verdict.show_ended(reasons)
         if reasons:
             self.refusal.show_verdict(REFUSED, reasons)
             self._bring_into_view(self.refusal)
@@ -202,6 +216,7 @@ class PhotoView(QWidget):
     def show_match_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""
         self.result.show_outdated(why, usable)
+        self.verdict.show_outdated(why)
 
     def _hide_failure(self) -> None:
         self.failure.hide()
@@ -210,6 +225,7 @@ class PhotoView(QWidget):
     def show_match_failed(self, sentence: str) -> None:
         """Show why the match failed; the previous one stays."""
         self.form.show_running(False)
+        self.verdict.show_ended([sentence])
         self.failure.setText(sentence)
         self.failure.show()
         self._bring_into_view(self.failure)
@@ -217,6 +233,7 @@ class PhotoView(QWidget):
     def show_match_cancelled(self) -> None:
         """Show that the match was cancelled; the previous one stays."""
         self.form.show_running(False)
+        self.verdict.show_ended()
 
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, after the page has been laid out again."""

@@ -48,6 +48,8 @@ class StoryView(QWidget):
         super().__init__(parent)
         self._picture = picture
         self.verdict, self.rows = VerdictBar(), StoryRows()
+        self._photo_verdict: QWidget | None = None
+        self._is_about_photo = False
         self.rows.stripes.thumbnail.clicked.connect(lambda: self.show_whole_picture(True))
         self.rows.range_left.connect(lambda: self._mark_range(""))
         self.rows.range_kept.connect(lambda: self._mark_range(self.rows.range))
@@ -73,7 +75,7 @@ class StoryView(QWidget):
         line.addWidget(self.whole, 0, Qt.AlignmentFlag.AlignRight)
         for control in (self.whose, *self.ranges.values()):
             self.rows.controls.addWidget(control)
-        layout = QVBoxLayout(self)
+        layout = self._layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
         layout.setSpacing(4)
         layout.addWidget(self.verdict)
@@ -149,6 +151,24 @@ class StoryView(QWidget):
         self._size_by_page()
         self.whole.setText(self.tr("Back to the rows") if shown else self.tr("Whole picture"))
         self.readout.setVisible(not shown)
+        self._show_verdicts()
+
+    def take_photo_verdict(self, bar: QWidget) -> None:
+        """Take the verdict on a photo, which stands in place of that on the simulation."""
+        self._photo_verdict = bar
+        self._layout.insertWidget(0, bar)
+        self._show_verdicts()
+
+    def be_about_photo(self, about: bool) -> None:
+        """Show above the whole picture the verdict on the photo, or that on the simulation."""
+        self._is_about_photo = about
+        self._show_verdicts()
+
+    def _show_verdicts(self) -> None:
+        if self._photo_verdict is not None:
+            about = self._is_about_photo and self.shows_whole_picture
+            self._photo_verdict.setVisible(about)
+            self.verdict.setHidden(about)
 
     def rows_per_pixel(self) -> float:
         """Return how many rows of the picture share a pixel of the screen in the stripes."""

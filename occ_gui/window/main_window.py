@@ -23,7 +23,7 @@ from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.window.dock import Dock
 from occ_gui.window.menus import Menus
-from occ_gui.window.modes.mode import HOMES, PICTURE
+from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
 from occ_gui.window.modes.mode_switch import ModeSwitch
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
@@ -143,6 +143,13 @@ class MainWindow(QMainWindow):
         dock.show()
         # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, dock.raise_)
+
+    def bring_into_view(self, name: str) -> None:
+        """Show a pane in front, unless the story in the middle has a row of the same."""
+        if name == "profile" and MODES[self.modes.mode].centre:
+            self._story.show_whole_picture(False)
+            return
+        self.bring_to_front(name)
 
     def _show_page(self, page: str) -> None:
         """Show the story in the middle, the whole picture in its place, or neither."""

@@ -206,3 +206,28 @@ def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
     assert application.photo_wiring.placements.placement == Placement()
     told = application.profile.residual.numbers.toolTip()
     assert float(told.split("correlation ")[1].split()[0]) >= 0.99
+
+
+def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
+    matched: Application, user: User
+) -> None:
+    story, verdict = matched.story, matched.photo.verdict
+    assert matched.window.modes.mode == "photo"
+    assert verdict.isVisible()
+    assert not story.verdict.isVisible()
+    assert verdict.heading.startswith("Photo: the match is")
+    chips = {chip.key: chip for chip in verdict.chips.chips}
+    assert (chips["simulation"].text, chips["simulation"].state) == (
+        story.verdict.heading,
+        story.verdict.state,
+    )
+    assert story.verdict.heading.startswith("Simulation: ")
+    assert "applied" in chips
+    user.choose("&Apply to the scene")
+    assert "applied" not in {chip.key for chip in verdict.chips.chips}
+    matched.window.modes.switch("explore")
+    assert story.verdict.isVisible()
+    assert not verdict.isVisible()
+    assert story.verdict.heading.startswith("Simulation: ")
+    user.choose("&Close photo")
+    assert not story.verdict.heading.startswith("Simulation: ")

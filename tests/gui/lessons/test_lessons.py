@@ -64,9 +64,21 @@ def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
     assert guide.step.question.text() == step.question
     assert "step 1 of 3" in guide.step.place.text()
     assert not guide.step.back.isEnabled()
-    qtbot.waitUntil(lambda: in_front(application, step.pane))
+    # The row of the story shows the profile, and all the larger without another pane of it.
+    assert step.pane == "profile"
+    assert application.story.rows.profile.isVisible()
+    assert application.window.docks["profile"].isHidden()
     user.choose("&Undo")
     assert application.store.scene == small_scene
+
+
+def test_a_step_shows_the_pane_that_the_story_does_not_have(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    lesson = next(each for each in lessons().lessons if each.steps[0].pane == "decode")
+    guide.list.choices[lessons().lessons.index(lesson)].click()
+    user.wait_until_idle()
+    qtbot.waitUntil(lambda: in_front(application, "decode"))
 
 
 def test_the_answer_is_shown_on_demand_until_the_next_step(guide: LessonView, user: User) -> None:

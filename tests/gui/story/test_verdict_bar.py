@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.story.state_chips import ChipLabel
 from occ_gui.story.verdict_bar import VerdictBar
+from occ_gui.widgets.chip_row import ChipLabel
 from occ_gui.widgets.contrast import contrast
 from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.window.theme import palette_of
@@ -177,3 +177,28 @@ def test_text_on_each_state_can_be_read(theme: str) -> None:
     for state in State:
         colours = colours_of(state, palette_of(theme))
         assert contrast(colours.ink, colours.paper) >= 4.5
+
+
+def test_the_simulation_is_named_where_a_photo_is_shown_too(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    bar.show_reading(snapshot_of())
+    bar.name_simulation(True)
+    assert bar.heading == "Simulation: code 718 read, all bits right"
+    bar.show_outdated(True)
+    assert bar.heading == "Simulation of the earlier scene: code 718 read, all bits right"
+    bar.name_simulation(False)
+    assert bar.heading == "Earlier scene: Code 718 read, all bits right"
+
+
+def test_a_bar_that_is_narrow_says_the_same_in_fewer_words(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    bar.show()
+    bar.show_reading(snapshot_of())
+    whole = bar.accessibleDescription()
+    for width in (900, 600, 400):
+        bar.resize(width, 60)
+        assert "…" not in bar.sentence.text()
+    assert "2 chips a column" in bar.sentence.text()
+    assert bar.accessibleDescription() == whole

@@ -1,0 +1,123 @@
+"""Verdict bar of a photo: how far it is explained, first of all that is said in its mode."""
+
+from collections.abc import Sequence
+
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.photo.match_values import known_of, with_uncertainty
+from occ_gui.widgets.chip_row import Chip
+from occ_gui.widgets.state_bar import StateBar
+from occ_gui.widgets.state_look import State
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
+from occ_model.results.photo_table import SURE
+from occ_model.scene.parameters import quantity
+
+
+class PhotoVerdictBar(StateBar):
+    """Whether the open photo is matched, how sure that is, and what was found.
+
+    The verdict on the simulated picture, which may be another, is a chip beside it.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Verdict on the photo"))
+        self._photo: Photo | None = None
+        self._match: Match | None = None
+        self._is_running = False
+        self._why_not = self._outdated = ""
+        self._is_applied = True
+        self._simulation: tuple[Chip, ...] = ()
+        self._write()
+
+    def show_photo(self, photo: Photo | None) -> None:
+        """Show how far this photo is explained, or that none is open."""
+        self._photo, self._match = photo, None
+        self._why_not = self._outdated = ""
+        self._write()
+
+    def show_begun(self) -> None:
+        """Show that a match is running."""
+        self._is_running, self._why_not = True, ""
+        self._write()
+
+    def show_ended(self, why_not: Sequence[str] = ()) -> None:
+        """Show that no match is running, and the sentences that say why none was found."""
+        self._is_running, self._why_not = False, " ".join(why_not)
+        self._write()
+
+    def show_match(self, match: Match | None) -> None:
+        """Show this match in place of the previous one, or that there is none."""
+        self._match, self._outdated = match, ""
+        self.show_ended()
+
+    def show_outdated(self, why: str) -> None:
+        """Show why the match is not the present one, empty if it is."""
+        self._outdated = why
+        self._write()
+
+    def show_applied(self, applied: bool) -> None:
+        """Show whether the scene is the matched one."""
+        if applied != self._is_applied:
+            self._is_applied = applied
+            self._write()
+
+    def show_simulation(self, state: State, verdict: str) -> None:
+        """Show the verdict on the simulated picture beside that on the photo."""
+        meaning = self.tr("What is read from the simulated picture.")
+        chips = (Chip("simulation", verdict, meaning, state),)
+        if chips != self._simulation:
+            self._simulation = chips
+            self._write()
+
+    def _write(self) -> None:
+        state, (title, *sentences) = self._verdict()
+        chips = self._simulation
+        if self._match is not None and not self._is_applied:
+            meaning = self.tr("The simulation is of another scene. Apply takes the match over.")
+            chips = (Chip("applied", self.tr("not applied"), meaning, State.DOUBTFUL), *chips)
+        self.show_state(state, title, *sentences, chips=chips)
+
+    def _verdict(self) -> tuple[State, tuple[str, ...]]:
+        if self._is_running:
+            return State.WAITING, (self.tr("Photo: matching…"),)
+        if self._photo is None:
+            sentence = self.tr("Open one, say what was sent as far as you know, and match it.")
+            return State.NEUTRAL, (self.tr("No photo is open"), sentence)
+        if self._why_not:
+            return State.BAD, (self.tr("Photo: not matched"), self._why_not)
+        if self._match is None:
+            sentence = self.tr("Say what was sent as far as you know, and match it.")
+            return State.NEUTRAL, (self.tr("Photo: not matched yet"), sentence)
+        if self._outdated:
+            title = self.tr("Photo: an earlier match is shown")
+            why = self.tr("It is {why}.").format(why=self._outdated)
+            return State.WAITING, (title, why)
+        return self._worth(self._match)
+
+    def _worth(self, match: Match) -> tuple[State, tuple[str, ...]]:
+        found = self._found(match)
+        if match.verdict == SURE:
+            return State.GOOD, (self.tr("Photo: the match is sure"), found)
+        reason = " ".join(match.reasons[:1])
+        more = len(match.reasons) - 1
+        if more > 0:
+            reason += self.tr(" And {count} more.").format(count=more)
+        title = self.tr("Photo: the match is doubtful")
+        return State.DOUBTFUL, (title, f"{reason} {found}", reason)
+
+    def _found(self, match: Match) -> str:
+        """Return what was found, in one sentence."""
+        given = known_of(match)
+        estimated = next(name for name in ("readout_time", "switching_frequency") if name != given)
+        parts = []
+        for name in (estimated, "exposure_time"):
+            declared, spread = quantity(name), match.uncertainties.get(name)
+            value = with_uncertainty(declared, getattr(match, name), spread)
+            parts.append(f"{declared.label.lower()} {value}")
+        known = quantity(given)
+        condition = known.format(float(getattr(match, given)))
+        return self.tr("If {symbol} = {value}: {found}.").format(
+            symbol=known.symbol, value=condition, found=", ".join(parts)
+        )

@@ -1,0 +1,165 @@
+"""Row of chips: short rounded labels, each with the icon of its state."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent, QStaticText, QTextOption
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.plain_text import in_tool_tip
+from occ_gui.widgets.state_look import State, colours_of, draw_state
+
+_ICON = 14
+_GAP = 6
+_MORE_WIDTH = 40
+_PADDING = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Chip:
+    """A short label.
+
+    Parameters
+    ----------
+    key
+        What it is about.
+    text
+        A few words, as HTML with ``sub`` only.
+    meaning
+        A sentence.
+    state
+        Its colours and its icon; a neutral one has no icon.
+    """
+
+    key: str
+    text: str
+    meaning: str
+    state: State = State.NEUTRAL
+
+
+class ChipLabel(QWidget):
+    """A chip as a rounded label with the icon of its state."""
+
+    def __init__(self, chip: Chip, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.chip = chip
+        self._text = QStaticText(chip.text)
+        self._text.setTextFormat(Qt.TextFormat.RichText)
+        option = QTextOption()
+        option.setWrapMode(QTextOption.WrapMode.NoWrap)
+        self._text.setTextOption(option)
+        self._text.prepare(font=self.font())
+        self._left = _PADDING + (0 if chip.state is State.NEUTRAL else _ICON + 4)
+        self.setAccessibleName(plain_text_of(chip.text))
+        self.setAccessibleDescription(chip.meaning)
+        self.setToolTip(in_tool_tip(chip.meaning))
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of icon and text."""
+        size = self._text.size()
+        return QSize(math.ceil(self._left + size.width() + _PADDING), math.ceil(size.height()))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Measure the text in another font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._text.prepare(font=self.font())
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the rounded area, the icon and the text."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        colours = colours_of(self.chip.state, self.palette())
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(colours.paper)
+        place = QRectF(self.rect())
+        painter.drawRoundedRect(place, place.height() / 2, place.height() / 2)
+        if self.chip.state is not State.NEUTRAL:
+            top = (place.height() - _ICON) / 2
+            draw_state(painter, QRectF(_PADDING, top, _ICON, _ICON), self.chip.state, colours)
+        painter.setPen(colours.ink)
+        height = self._text.size().height()
+        painter.drawStaticText(QPointF(self._left, (place.height() - height) / 2), self._text)
+        painter.end()
+
+
+class ChipRow(QWidget):
+    """Chips in a row at the right; those that do not fit are counted by the last one."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.chips: tuple[Chip, ...] = ()
+        self._labels: list[ChipLabel] = []
+        self._more: ChipLabel | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def show_chips(self, chips: Sequence[Chip]) -> None:
+        """Show these chips in place of the previous ones."""
+        if tuple(chips) == self.chips:
+            return
+        self.chips = tuple(chips)
+        kept = {label.chip: label for label in self._labels}
+        self._labels = [
+            kept.pop(chip) if chip in kept else ChipLabel(chip, self) for chip in self.chips
+        ]
+        for label in kept.values():
+            _remove(label)
+        self._place()
+        self.updateGeometry()
+
+    def _place(self) -> None:
+        """Place the labels from the right, the last ones only where there is room for them."""
+        if self._more is not None:
+            _remove(self._more)
+            self._more = None
+        widths = [label.sizeHint().width() for label in self._labels]
+        fitting = len(widths)
+        if sum(widths) + _GAP * (fitting - 1) > self.width():
+            room = self.width() - _MORE_WIDTH
+            ends = accumulate(width + _GAP for width in widths)
+            fitting = sum(end <= room for end in ends)
+        hidden = self._labels[fitting:]
+        shown = self._labels[:fitting]
+        if hidden:
+            meaning = "\n".join(plain_text_of(label.chip.text) for label in hidden)
+            self._more = ChipLabel(Chip("more", f"+ {len(hidden)}", meaning), self)
+            shown = [*shown, self._more]
+        for label in hidden:
+            label.hide()
+        right = self.width()
+        for label in reversed(shown):
+            size = label.sizeHint()
+            label.setGeometry(right - size.width(), 0, size.width(), self.height())
+            label.show()
+            right -= size.width() + _GAP
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Show as many chips as fit."""
+        super().resizeEvent(event)
+        self._place()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size of all chips."""
+        hints = [label.sizeHint() for label in self._labels]
+        width = sum(hint.width() + _GAP for hint in hints)
+        return QSize(width, self.fontMetrics().height() + 6)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the width of the chip that counts the others."""
+        return QSize(_MORE_WIDTH, self.sizeHint().height())
+
+
+def plain_text_of(html: str) -> str:
+    """Return the text of a chip without its markup."""
+    return html.replace("<sub>", "_").replace("</sub>", "")
+
+
+def _remove(label: ChipLabel) -> None:
+    label.hide()
+    label.setParent(None)
+    label.deleteLater()

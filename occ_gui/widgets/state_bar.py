@@ -1,0 +1,143 @@
+"""State bar: a state in large letters, why it is so below, and chips at the right."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.widgets.chip_row import Chip, ChipRow
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.state_look import State, StateIcon, colours_of
+
+_ICON = 32
+_LARGER = 1.25
+_RADIUS = 8
+_PADDING, _MARGIN = 12, 5
+
+
+class StateBar(QWidget):
+    """A title in the colours and with the icon of its state, a sentence, and a row of chips."""
+
+    changed = Signal()
+    """It shows something else."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._title = ""
+        self._sentences: tuple[str, ...] = ("",)
+        self.icon = StateIcon(_ICON)
+        self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        font = self.title.font()
+        font.setBold(True)
+        font.setPointSizeF(_LARGER * font.pointSizeF())
+        self.title.setFont(font)
+        self.sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.chips = ChipRow()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        for part in (self.icon, self.title, self.sentence, self.chips):
+            part.setParent(self)
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of title and sentence."""
+        return QSize(400, self.minimumSizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the smallest size: the texts are shortened, the chips counted."""
+        return QSize(_ICON + 4 * _PADDING, self._heights()[0] + self._heights()[1] + 2 * _MARGIN)
+
+    def _heights(self) -> tuple[int, int]:
+        title = max(self.title.fontMetrics().height(), self.chips.sizeHint().height()) + 2
+        return title, self.sentence.fontMetrics().height() + 2
+
+    def _place(self) -> None:
+        """Give the title the width that it needs, and the chips what is left."""
+        first, second = self._heights()
+        left = 2 * _PADDING + _ICON
+        room = max(0, self.width() - left - _PADDING)
+        wanted = self.title.fontMetrics().horizontalAdvance(self._title) + 4
+        chips = self.chips.minimumSizeHint().width() if self.chips.chips else 0
+        title = max(0, min(wanted, room - _PADDING - chips))
+        self.icon.move(_PADDING, (self.height() - _ICON) // 2)
+        self.title.setGeometry(left, _MARGIN, title, first)
+        beside = left + title + _PADDING
+        height = self.chips.sizeHint().height()
+        top = _MARGIN + (first - height) // 2
+        self.chips.setGeometry(beside, top, max(0, left + room - beside), height)
+        self.sentence.setGeometry(left, _MARGIN + first, room, second)
+        # A widget that is not shown yet is not told of its size.
+        self.title.set_full_text(self._title)
+        self.sentence.set_full_text(self._fitting(room))
+
+    def _fitting(self, room: int) -> str:
+        """Return the longest of the sentences that fits, else the shortest."""
+        width = self.sentence.fontMetrics().horizontalAdvance
+        fitting = (text for text in self._sentences if width(text) <= room)
+        return next(fitting, self._sentences[-1])
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Place the parts anew."""
+        super().resizeEvent(event)
+        self._place()
+
+    @property
+    def heading(self) -> str:
+        """The title, however much of it fits."""
+        return self._title
+
+    @property
+    def state(self) -> State:
+        """The state that colour and icon show."""
+        return self.icon.state
+
+    def show_state(
+        self, state: State, title: str, *sentences: str, chips: Sequence[Chip] = ()
+    ) -> None:
+        """Show a state in place of the previous one.
+
+        Parameters
+        ----------
+        state
+            The state.
+        title
+            The state in a few words.
+        sentences
+            Why it is so; the same more briefly, where there is less room.
+        chips
+            What holds beside.
+        """
+        if state is not self.icon.state:
+            self.icon.show_state(state)
+            self._take_colours()
+        self._title, self._sentences = title, sentences or ("",)
+        self.chips.show_chips(chips)
+        self._place()
+        self.setAccessibleDescription(f"{title}. {self._sentences[0]}".strip())
+        self.changed.emit()
+
+    def _take_colours(self) -> None:
+        ink = colours_of(self.state, self.palette()).ink
+        for label in (self.title, self.sentence):
+            palette = QPalette()  # in which all other colours stay those of the theme
+            palette.setColor(QPalette.ColorRole.WindowText, ink)
+            label.setPalette(palette)
+        self.update()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "chips"):
+            self._take_colours()
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the coloured area, with a line of the same ink at its left."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        colours = colours_of(self.state, self.palette())
+        painter.setPen(colours.ink)
+        painter.setBrush(colours.paper)
+        place = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        painter.drawRoundedRect(place, _RADIUS, _RADIUS)
+        painter.end()

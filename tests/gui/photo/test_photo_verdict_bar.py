@@ -1,0 +1,94 @@
+"""The verdict on the photo says how far it is explained, apart from that on the simulation."""
+
+from dataclasses import replace
+
+import pytest
+
+import occ_model as occ
+from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
+from occ_gui.photo.photo_view import PhotoView
+from occ_gui.widgets.state_look import State
+from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
+
+REASONS = ("Only 2 periods of 24 chips are in view.", "The correlation is 0.85.")
+
+
+@pytest.fixture
+def bar(view: PhotoView) -> PhotoVerdictBar:
+    view.verdict.resize(1400, 60)
+    return view.verdict
+
+
+def chips(bar: PhotoVerdictBar) -> dict[str, str]:
+    return {chip.key: chip.text for chip in bar.chips.chips}
+
+
+def test_each_step_on_the_way_to_a_match_has_a_verdict(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    assert (bar.state, bar.heading) == (State.NEUTRAL, "No photo is open")
+    view.show_photo(photo)
+    assert (bar.state, bar.heading) == (State.NEUTRAL, "Photo: not matched yet")
+    view.show_match_begun()
+    assert (bar.state, bar.heading) == (State.WAITING, "Photo: matching…")
+    view.show_match_cancelled()
+    assert bar.state is State.NEUTRAL
+    view.show_match_begun()
+    view.show_match_refused(REASONS)
+    assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
+    assert REASONS[1] in bar.accessibleDescription()
+    view.show_match(match)
+    assert (bar.state, bar.heading) == (State.GOOD, "Photo: the match is sure")
+    view.show_photo(None)
+    assert bar.heading == "No photo is open"
+
+
+def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(match)
+    told = bar.accessibleDescription()
+    assert "readout time 14.57770 ± 0.00027 µs" in told
+    assert "exposure time 62.50 ± 0.21 µs" in told
+    assert "If f = 2 kHz" in told
+
+
+def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(replace(match, reasons=REASONS))
+    assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: the match is doubtful")
+    assert f"{REASONS[0]} And 1 more." in bar.accessibleDescription()
+
+
+def test_a_match_of_something_else_is_no_verdict_on_the_photo(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(match)
+    view.show_match_outdated("of another part of the photo: match again", usable=False)
+    assert bar.state is State.WAITING
+    assert "another part" in bar.accessibleDescription()
+    view.show_match_outdated("", usable=True)
+    assert bar.state is State.GOOD
+
+
+def test_a_match_that_the_scene_does_not_have_is_marked_as_not_applied(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_scene(match.scene)
+    view.show_match(match)
+    assert "applied" not in chips(bar)
+    view.show_scene(occ.Scene().replace(distance=2.0))
+    assert chips(bar)["applied"] == "not applied"
+
+
+def test_the_verdict_on_the_simulation_is_a_chip_beside_it(bar: PhotoVerdictBar) -> None:
+    bar.show_simulation(State.BAD, "Simulation: no code: no header found")
+    (chip,) = bar.chips.chips
+    assert (chip.state, chip.text) == (State.BAD, "Simulation: no code: no header found")
+    assert bar.state is State.NEUTRAL

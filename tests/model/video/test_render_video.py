@@ -1,0 +1,210 @@
+"""A simulated film: its frames one by one, their noise, times, motion and exposures."""
+
+import tracemalloc
+from itertools import islice, pairwise
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.scene.scene import Scene
+
+SCENE = Scene().replace(rows=120, columns=160, readout_time=1e-4, distance=0.8)
+PERIOD, READ = 1 / 30, 160e-4
+
+
+def test_a_film_can_be_gone_through_again_and_frame_by_frame() -> None:
+    film = occ.render_video(SCENE, frames=4)
+    once, again = ([frame.image for frame in film] for _ in range(2))
+    assert len(once) == film.frame_count == 4
+    for index, image in enumerate(once):
+        np.testing.assert_array_equal(again[index], image)
+        np.testing.assert_array_equal(film.frame(index).image, image)
+    assert [frame.index for frame in film.frames(2)] == [2, 3]
+    assert once[0].shape == film.shape == (120, 160)
+
+
+def test_a_film_without_end_has_no_count() -> None:
+    film = occ.render_video(SCENE)
+    assert film.frame_count is None
+    assert [frame.index for frame in islice(film.frames(10**6), 2)] == [10**6, 10**6 + 1]
+
+
+def test_each_frame_has_noise_of_its_own_and_the_camera_keeps_its_pattern() -> None:
+    # 20 packets a frame, and no frame's start in a chip differs from another's.
+    still = SCENE.replace(switching_frequency=24 * 30 * 20.0)
+    noisy = occ.SimulationSettings(force={"fixed-pattern": False, "sensor-noise": True})
+    film = occ.render_video(still, frames=3, settings=noisy)
+    first, second, third = (frame.image.astype(float) for frame in film)
+    assert np.ptp([frame.scene.model.start_time for frame in film if frame.scene]) < 1e-12
+    noise, other = first - second, second - third
+    assert noise.std() > 0.3
+    assert abs(np.corrcoef(noise.ravel(), (first - third).ravel())[0, 1] - 0.5) < 0.05
+    assert other.std() == pytest.approx(noise.std(), rel=0.05)
+    patterned = occ.SimulationSettings(force={"fixed-pattern": True, "sensor-noise": False})
+    one, two = occ.render_video(still.replace(gain_variation=0.05), frames=2, settings=patterned)
+    np.testing.assert_array_equal(one.image, two.image)
+
+
+def test_another_seed_gives_other_noise_and_the_same_seed_the_same() -> None:
+    films = [
+        occ.render_video(SCENE, settings=occ.SimulationSettings(seed=seed)) for seed in (1, 2, 1)
+    ]
+    first, other, same = (film.frame(7).image for film in films)
+    np.testing.assert_array_equal(first, same)
+    assert (first != other).any()
+    assert len({films[0].seed_of(index) for index in range(1000)}) == 1000
+
+
+def test_jitter_has_its_deviation_and_never_lets_frames_overlap() -> None:
+    recording = occ.Recording(frame_jitter=1e-3)
+    film = occ.render_video(SCENE, recording=recording)
+    starts = np.array([float(film.start_of(index)) for index in range(2000)])
+    moved = starts - np.arange(2000) * PERIOD
+    # A deviation from 2,000 numbers is within 5 % of the true one, at more than three sigma.
+    assert moved.std() == pytest.approx(1e-3, rel=0.05)
+    assert np.diff(starts).min() >= READ
+    assert np.abs(moved).max() <= recording.gap(SCENE) / 2
+    times = [film.time_of(index) for index in range(2000)]
+    assert times[0] == 0.0
+    np.testing.assert_allclose(times, starts - starts[0], atol=1e-12)
+    nominal = occ.render_video(SCENE, recording=recording.replace(frame_times="nominal"))
+    assert [nominal.time_of(index) for index in (0, 3, 300)] == [0.0, 0.1, 10.0]
+    assert nominal.start_of(5) == film.start_of(5)
+
+
+def test_the_panel_follows_the_path() -> None:
+    path = (occ.Waypoint(0.1), occ.Waypoint(0.2, offset_x=0.1, roll=0.2), occ.Waypoint(0.3))
+    film = occ.render_video(SCENE.replace(offset_x=0.05), recording=occ.Recording(path=path))
+    where = {index: film.scene_of(index).pose for index in (0, 3, 6, 90)}
+    assert [pose.offset_x for pose in where.values()] == pytest.approx([0.05, 0.05, 0.15, 0.05])
+    halfway = occ.render_video(SCENE, recording=occ.Recording(frame_rate=20.0, path=path)).scene_of(
+        3
+    )
+    assert (halfway.pose.offset_x, halfway.pose.roll) == pytest.approx((0.05, 0.1))
+    frame = film.frame(6)
+    assert frame.scene is not None
+    corners = occ.panel_corners(frame.scene)
+    level = frame.image[:, : int(corners[:, 0].min()) - 2].max()
+    assert frame.image[:, int(corners[:, 0].max()) - 20 :].max() > level + 50
+
+
+def test_exposure_times_come_in_turn() -> None:
+    recording = occ.Recording(exposure_times=(1e-4, 2e-4), camera_drift=1e-4)
+    frames = list(occ.render_video(SCENE, 3, recording))
+    assert [frame.exposure_time for frame in frames] == [1e-4, 2e-4, 1e-4]
+    actual = [frame.scene.camera.exposure_time for frame in frames if frame.scene]
+    assert actual == pytest.approx([1e-4 / 1.0001, 2e-4 / 1.0001, 1e-4 / 1.0001], rel=1e-15)
+
+
+def test_a_gap_is_what_reading_leaves_of_the_period() -> None:
+    recording = occ.Recording(frame_rate=30.0)
+    assert recording.gap(SCENE) == pytest.approx(PERIOD - READ)
+    assert recording.gap_ratio(SCENE) == pytest.approx(1 - 30 * READ)
+
+
+@pytest.mark.parametrize(
+    ("scene", "recording", "words"),
+    [
+        (SCENE, {"frame_rate": 100.0}, "160 columns at 100 µs takes 16 ms; allowed at 100 Hz"),
+        (SCENE, {"frame_jitter": 5e-3}, "frame_jitter is 5 ms; allowed with a gap of 17.3333 ms"),
+        (SCENE, {"exposure_times": (0.04,)}, "exposure_time is 40 ms; allowed in a film of 30 Hz"),
+        (SCENE.replace(exposure_time=0.05), {}, "exposure_time is 50 ms; allowed in a film"),
+    ],
+)
+def test_a_scene_that_cannot_be_recorded_is_refused(
+    scene: Scene, recording: dict[str, float], words: str
+) -> None:
+    with pytest.raises(occ.ParameterError) as refusal:
+        occ.render_video(scene, recording=occ.Recording(**recording))  # type: ignore[arg-type]
+    assert words in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"frame_rate": 0.0}, "frame_rate is 0 Hz; allowed: 0.001 Hz to 100 kHz."),
+        ({"frame_rate": "30"}, "frame_rate is '30', which is not a number"),
+        ({"camera_drift": 0.5}, "camera_drift is 500000 ppm; allowed: -10000 ppm to 10000 ppm."),
+        ({"frame_times": "late"}, "frame_times is 'late'; allowed: measured, nominal."),
+        ({"path": [(0.0, 1.0)]}, "allowed: Waypoints"),
+        ({"path": [occ.Waypoint(1.0), occ.Waypoint(1.0)]}, "from the time 1 s to 1 s"),
+        ({"path": [occ.Waypoint(float("nan"))]}, "A waypoint's time is nan"),
+        ({"path": [occ.Waypoint(0.0, yaw="x")]}, "A waypoint's yaw is 'x'"),  # type: ignore[arg-type]
+        ({"exposure_times": 1e-4}, "exposure_times is 0.0001; allowed: times in seconds."),
+        ({"exposure_times": (0.0,)}, "exposure_time is 0 s; allowed"),
+        ({"gap": 1.0}, "setting of a recording is 'gap'; allowed: frame_rate"),
+    ],
+)
+def test_a_setting_out_of_range_is_refused(changes: dict[str, object], words: str) -> None:
+    with pytest.raises(occ.ParameterError) as refusal:
+        occ.Recording().replace(**changes)
+    assert words in str(refusal.value)
+
+
+@pytest.mark.parametrize("frames", [0, -1, 2.5, True, 10**12])
+def test_a_number_of_frames_out_of_range_is_refused(frames: int) -> None:
+    with pytest.raises(occ.ParameterError, match=r"frames is .*; allowed: a whole number from 1"):
+        occ.render_video(SCENE, frames)
+
+
+@pytest.mark.parametrize("index", [-1, 3, 1.5])
+def test_a_frame_that_the_film_has_not_is_refused(index: int) -> None:
+    with pytest.raises(
+        occ.ParameterError, match=r"index is .*; allowed: a whole number from 0 to 2"
+    ):
+        occ.render_video(SCENE, 3).frame(index)
+
+
+def test_a_path_that_leads_out_of_range_is_refused_with_its_frame() -> None:
+    film = occ.render_video(
+        SCENE, recording=occ.Recording(path=(occ.Waypoint(0.0), occ.Waypoint(1.0, distance=-30.0)))
+    )
+    assert film.frame(0).image.any()
+    with pytest.raises(occ.ParameterError, match="Frame 5 of the film: distance is "):
+        film.frame(5)
+
+
+def test_the_memory_does_not_grow_with_the_film() -> None:
+    film = occ.render_video(SCENE.replace(rows=600, columns=300, readout_time=1e-5))
+    peaks = []
+    for frames in (10, 60):
+        tracemalloc.start()
+        for _ in islice(film, frames):
+            pass
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.1 * peaks[0]
+
+
+def test_frames_are_simulated_only_as_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    rendered: list[float] = []
+    from occ_model.video import render
+
+    usual = render.render_with
+
+    def noting(scene: Scene, *arguments: object) -> object:
+        rendered.append(scene.model.start_time)
+        return usual(scene, *arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(render, "render_with", noting)
+    frames = iter(occ.render_video(SCENE, 100))
+    assert not rendered
+    first, second = next(frames), next(frames)
+    assert len(rendered) == 2
+    assert first.time < second.time
+
+
+def test_times_and_starts_agree_on_every_frame_but_for_the_clock() -> None:
+    film = occ.render_video(SCENE, 5, occ.Recording(camera_drift=-5e-5, frame_jitter=1e-4))
+    frames = list(film)
+    for before, after in pairwise(frames):
+        assert before.start is not None
+        assert after.start is not None
+        true = float(after.start - before.start)
+        assert (after.time - before.time) / true == pytest.approx(1 - 5e-5, abs=1e-9)
+
+
+def test_a_draft_has_some_rows_of_the_frames() -> None:
+    film = occ.render_video(SCENE, 1, rows_step=8)
+    assert film.shape == film.frame(0).image.shape == (15, 160)

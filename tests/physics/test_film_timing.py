@@ -1,0 +1,109 @@
+"""Laws of a film's frames: each is exact at its own time, however long the film has run."""
+
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.effects.flicker import ambient_shares
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import sent_chips
+
+SMALL = Scene().replace(rows=24, columns=256, readout_time=1e-4, distance=0.8)
+
+
+def exact_on_time(scene: Scene, start: Fraction, column: int) -> float:
+    """Add up the lit chips in one column's exposure in exact arithmetic, chip by chip."""
+    chips = sent_chips(scene.transmitter)
+    frequency = Fraction(scene.transmitter.switching_frequency)
+    begin = (start + column * Fraction(scene.camera.readout_time)) * frequency % len(chips)
+    end = begin + Fraction(scene.camera.exposure_time) * frequency
+    lit = Fraction(0)
+    for chip in range(int(begin), int(end) + 1):
+        within = min(end, Fraction(chip + 1)) - max(begin, Fraction(chip))
+        lit += int(chips[chip % len(chips)]) * max(within, Fraction(0))
+    return float(lit / frequency)
+
+
+@given(
+    index=st.integers(0, 10_000_000),
+    rate=st.floats(24.0, 30.0),
+    frequency=st.floats(100.0, 1e5),
+    camera=st.floats(-1e-4, 1e-4),
+    led=st.floats(-1e-4, 1e-4),
+    column=st.integers(0, 255),
+)
+def test_a_frame_is_as_exact_after_days_as_at_once(
+    index: int, rate: float, frequency: float, camera: float, led: float, column: int
+) -> None:
+    recording = occ.Recording(frame_rate=rate, camera_drift=camera, transmitter_drift=led)
+    film = occ.render_video(SMALL.replace(switching_frequency=frequency), recording=recording)
+    scene = film.scene_of(index)
+    start = Fraction(SMALL.model.start_time) + index / Fraction(rate) / (1 + Fraction(camera))
+    assert film.start_of(index) == start
+    exact = exact_on_time(scene, start, column)
+    # A double's rounding of a time within one packet, counted in chips of which it has 24.
+    assert occ.on_time(scene)[column] * frequency == pytest.approx(exact * frequency, abs=2e-14)
+
+
+@pytest.mark.parametrize("index", [1, 2, 77])
+def test_a_frame_is_the_picture_of_the_scene_at_its_time(index: int) -> None:
+    scene = SMALL.replace(start_time=0.25)
+    # 32 frames a second: the times are exact as doubles, so that nothing need be reduced.
+    film = occ.render_video(scene, recording=occ.Recording(frame_rate=32.0))
+    later = scene.replace(start_time=0.25 + index / 32.0)
+    expected = occ.render(later, seed=film.seed_of(index))
+    np.testing.assert_array_equal(film.frame(index).image, expected.camera_image)
+
+
+def test_frames_begin_with_the_scene_itself() -> None:
+    assert occ.render_video(SMALL.replace(start_time=1e-4)).scene_of(0) == SMALL.replace(
+        start_time=1e-4
+    )
+
+
+@given(index=st.integers(0, 10_000_000), mains=st.floats(90.0, 130.0))
+def test_the_mains_keep_their_phase_however_long_the_film(index: int, mains: float) -> None:
+    scene = SMALL.replace(
+        flicker_depth=0.5, flicker_frequency=mains, flicker_phase=1.0, illuminance=3000.0
+    )
+    film = occ.render_video(scene, recording=occ.Recording(frame_rate=29.97))
+    seen = ambient_shares(film.scene_of(index))[100]
+    exposure = scene.camera.exposure_time
+    middle = index / Fraction(29.97) + 100 * Fraction(1e-4) + Fraction(exposure) / 2
+    with mpmath.workdps(50):
+        turn = mpmath.mpf(middle.numerator) / middle.denominator * mpmath.mpf(mains)
+        half = mpmath.pi * mains * mpmath.mpf(exposure)
+        swing = mpmath.sin(half) / half * mpmath.cos(2 * mpmath.pi * turn + 1)
+        expected = float(1 + mpmath.mpf(0.5) * swing)
+    assert seen == pytest.approx(expected, abs=1e-14)
+
+
+def test_a_clock_that_is_too_fast_has_shorter_times_and_higher_frequencies() -> None:
+    scene = SMALL.replace(switching_frequency=8e3)
+    camera = occ.render_video(scene, recording=occ.Recording(camera_drift=1e-4)).scene_of(30)
+    assert camera.camera.readout_time * (1 + 1e-4) == pytest.approx(1e-4, rel=1e-15)
+    assert camera.camera.exposure_time * (1 + 1e-4) == pytest.approx(136e-6, rel=1e-15)
+    assert camera.transmitter.switching_frequency == 8e3
+    led = occ.render_video(scene, recording=occ.Recording(transmitter_drift=1e-4)).scene_of(30)
+    assert led.transmitter.switching_frequency == pytest.approx(8000.8, rel=1e-15)
+    assert led.camera == scene.camera
+
+
+def test_clocks_that_drift_alike_show_the_same_stripes() -> None:
+    drift = {"camera_drift": 5e-5, "transmitter_drift": 5e-5}
+    still, drifting = (
+        occ.render_video(SMALL, recording=occ.Recording(frame_rate=25.0, **changes))
+        for changes in ({}, drift)
+    )
+    for index in (0, 1000):
+        lit, other = (
+            occ.on_time(film.scene_of(index)) / film.scene_of(index).camera.exposure_time
+            for film in (still, drifting)
+        )
+        # The rounded frequency and readout time differ by some 1e-16 of the chips gone by.
+        assert np.abs(lit - other).max() < 1e-9

@@ -8,33 +8,42 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, VideoError, one_line, shown
-from occ_model.photo.reading.scan_axis import SCAN_AXES, stripes_are_lines
+from occ_model.errors import ParameterError, SceneFileError, VideoError, one_line, shown
+from occ_model.files.reading import read_start
+from occ_model.photo.reading.scan_axis import SCAN_AXES, roughness_along
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
-from occ_model.video.containers import FIRST_BYTES, Container, container_of
-from occ_model.video.opencv_source import OpenCvSource
-from occ_model.video.pillow_source import PillowSource
-from occ_model.video.source import FrameSource, StoredFrame
+from occ_model.video.file.containers import FIRST_BYTES, container_of
+from occ_model.video.file.decoder_process import (
+    DecoderProcess,
+    DecoderStoppedError,
+    OpenedFilm,
+    put_back,
+    take_decoder,
+)
+from occ_model.video.file.source import CHANNELS, StoredFrame
 
-CHANNELS = ("luma", "red", "green", "blue")
-"""The channels of a film; most files keep the luma of each pixel, but colours of 2 x 2 pixels."""
+_LOOKED_AT = 5
+"""Frames at a film's start on which the scan axis is found."""
 
 
 def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "luma") -> "VideoFile":
     """Open a film.
 
-    Its frames are read as they are needed; only the one at hand is kept.
+    Its frames are read as they are needed, in a process apart that ends with this one; only the one
+    at hand is kept.
 
     Parameters
     ----------
     path
-        A file of one of the kinds in :mod:`occ_model.video.containers`.
+        A file of one of the kinds in :mod:`occ_model.video.file.containers`, told by its content.
+        Frames are turned upright, and their levels are 0 to 255 whatever range the file keeps.
     scan_axis
         ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found on the first frames, and used
         for all.
     channel
-        ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``.
+        ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``. Most files keep the luma of each pixel,
+        but the colours of four pixels together.
 
     Raises
     ------
@@ -55,33 +64,31 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
 
 
 class VideoFile(Video):
-    """A film in a file: see :func:`load_video`."""
+    """A film in a file: see :func:`load_video`.
+
+    Attributes
+    ----------
+    turned
+        Whether the film's lines became the columns.
+    """
 
     path: Path
 
     def __init__(self, path: Path, scan_axis: str, channel: str) -> None:
         self.path = path
         self.title = path.name
+        self._shown = one_line(str(path))
         self._channel = channel
-        self._container = _container(path)
+        try:
+            start = read_start(path, FIRST_BYTES)
+        except SceneFileError as error:  # worded for any file
+            raise VideoError(str(error)) from None
+        self._container = container_of(path, start)
         self.time_step = self._container.time_step
         self._problem: str | None = None
         self._times: list[float] = []
-        self._at_hand: tuple[Iterator[VideoFrame], VideoFrame] | None = None
-        source = self._opened()
-        try:
-            self.frame_rate, self.frame_count = source.frame_rate, source.frame_count
-            first = source.read()
-        finally:
-            source.close()
-        if first is None:
-            raise VideoError(f"{one_line(str(path))} cannot be read: it holds no frame.")
-        grey = _grey(first, channel)
-        self.turned = scan_axis == "lines" or (
-            scan_axis == "auto" and stripes_are_lines(grey, lying=False)
-        )
-        """Whether the film's lines became the columns."""
-        self.shape = grey.shape[::-1] if self.turned else grey.shape
+        self._stepping: _Stepping | None = None
+        self._look(scan_axis)
 
     @property
     def problem(self) -> str | None:
@@ -91,61 +98,153 @@ class VideoFile(Video):
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:
         """Read the frames in order, from the one with the number ``first``."""
         check_count("first", first, 0)
-        source = self._opened()
+        decoder, _ = self._opened()
+        index = int(first)
         try:
-            index, start = 0, 0.0
-            while (stored := source.read()) is not None:
-                start = stored.time if index == 0 else start
-                if index >= first:
-                    yield VideoFrame(index, stored.time - start, self._image(stored))
+            if decoder.skip(index) < index:
+                return
+            while (stored := self._next(decoder, index)) is not None:
+                yield self._frame(index, stored)
                 index += 1
+        except DecoderStoppedError as error:
+            self._problem = f"{self._shown} ends early: frame {index} cannot be read: {error}."
         finally:
-            source.close()
-        if self.frame_count is not None and index < self.frame_count:
-            self._problem = (
-                f"The film ended early: it holds {index} of the {self.frame_count} frames that "
-                "it states."
-            )
+            put_back(decoder)
+
+    def __del__(self) -> None:
+        """Give the decoder back."""
+        with suppress(AttributeError):  # a film that could not be opened has none
+            self.close()
 
     def frame(self, index: int) -> VideoFrame:
         """Read one frame."""
         check_count("index", index, 0)
-        if self._at_hand is None or self._at_hand[1].index > index:
-            self._at_hand = None
-            run = self.frames(index)
-        else:
-            run, frame = self._at_hand
-            if frame.index == index:
-                return frame
-        for frame in run:
-            if frame.index == index:
-                self._at_hand = run, frame
-                return frame
-        self._at_hand = None
-        raise ParameterError(f"index is {index}; allowed: a frame of {self.title}, which has none.")
+        index = int(index)
+        if self._stepping is not None and self._stepping.frame.index == index:
+            return self._stepping.frame
+        stored, decoder = self._at(index)
+        if stored is None:
+            put_back(decoder)
+            raise ParameterError(f"index is {index}; allowed: the number of a frame that is there.")
+        frame = self._frame(index, stored)
+        self._stepping = _Stepping(decoder, frame)
+        return frame
 
-    def _image(self, stored: StoredFrame) -> ByteArray:
-        """Return a frame's picture in grey levels, columns being the scan axis."""
-        grey = _grey(stored, self._channel)
-        return np.asarray(cv2.transpose(grey), np.uint8) if self.turned else grey
+    def close(self) -> None:
+        """Close the file; it is opened again when a frame is asked for."""
+        if self._stepping is not None:
+            put_back(self._stepping.decoder)
+            self._stepping = None
 
-    def _opened(self) -> FrameSource:
-        if self._container.reader == "pillow":
-            return PillowSource(self.path)
-        return OpenCvSource(self.path)
+    def _at(self, index: int) -> tuple[StoredFrame | None, DecoderProcess]:
+        """Find one frame: forward from the one at hand, else by its time, else from the start."""
+        stepping, self._stepping = self._stepping, None
+        try:
+            if stepping is not None and stepping.frame.index < index:
+                decoder = stepping.decoder
+                passed = index - stepping.frame.index - 1
+                if decoder.skip(passed) < passed:
+                    return None, decoder
+                return self._next(decoder, index), decoder
+            decoder = stepping.decoder if stepping is not None else self._opened()[0]
+            if index < len(self._times):
+                found = decoder.seek(index, self._times[index])
+                if found is not None:
+                    return found, decoder
+            self._open(decoder)
+            passed = decoder.skip(index)
+            return (self._next(decoder, index) if passed == index else None), decoder
+        except DecoderStoppedError as error:
+            raise VideoError(f"Frame {index} of {self._shown} cannot be read: {error}.") from None
+
+    def _next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
+        """Read the next frame, whose number this is; note its time, or how the film ends."""
+        try:
+            stored = decoder.read()
+        except VideoError as error:
+            self._problem = f"{self._shown} ends early: frame {index} cannot be read: {error}"
+            return None
+        if stored is None:
+            self._note_end(index)
+            return None
+        if stored.pixels.shape != self._stored_shape:
+            lines, columns = stored.pixels.shape
+            self._problem = (
+                f"{self._shown} ends early: frame {index} has {columns} x {lines} pixels, "
+                "another size than the first."
+            )
+            return None
+        if index == len(self._times):
+            self._times.append(stored.time)
+        return stored
+
+    def _note_end(self, frames: int) -> None:
+        stated = self.frame_count
+        if stated is not None and frames < stated:
+            self._problem = (
+                f"{self._shown} holds {frames} of the {stated} frames that it states: it may be "
+                "cut off or damaged."
+            )
+
+    def _look(self, scan_axis: str) -> None:
+        """Read the first frames: their size, their first time, and the scan axis."""
+        decoder, opened = self._opened()
+        self.frame_rate, self.frame_count = opened.frame_rate, opened.frame_count
+        try:
+            first = decoder.read()
+            if first is None:
+                raise VideoError("it holds no frame that can be decoded.")
+            self._stored_shape = first.pixels.shape
+            self._first_time = first.time
+            self.turned = scan_axis == "lines" or (
+                scan_axis == "auto" and self._stripes_are_lines(first, decoder)
+            )
+        except (VideoError, DecoderStoppedError) as error:
+            put_back(decoder)
+            ending = str(error) if isinstance(error, VideoError) else f"{error}."
+            raise VideoError(f"{self._shown} cannot be read: {ending}") from None
+        lines, columns = first.pixels.shape
+        self.shape = (columns, lines) if self.turned else (lines, columns)
+        put_back(decoder)
+
+    def _stripes_are_lines(self, first: StoredFrame, decoder: DecoderProcess) -> bool:
+        """Whether over the first frames the means of lines differ more than those of columns."""
+        columns = lines = 0.0
+        stored: StoredFrame | None = first
+        for _ in range(_LOOKED_AT):
+            if stored is None or stored.pixels.shape != first.pixels.shape:
+                break
+            columns += roughness_along(stored.pixels, 0)
+            lines += roughness_along(stored.pixels, 1)
+            try:
+                stored = decoder.read()
+            except (VideoError, DecoderStoppedError):
+                break
+        return lines > columns
+
+    def _frame(self, index: int, stored: StoredFrame) -> VideoFrame:
+        image: ByteArray = stored.pixels
+        if self.turned:
+            image = np.asarray(cv2.transpose(image), np.uint8)
+        return VideoFrame(index, stored.time - self._first_time, image)
+
+    def _opened(self) -> tuple[DecoderProcess, OpenedFilm]:
+        """Take a decoder, and open the film from its start."""
+        decoder = take_decoder()
+        return decoder, self._open(decoder)
+
+    def _open(self, decoder: DecoderProcess) -> OpenedFilm:
+        try:
+            return decoder.open(self.path, self._container.reader, self._channel)
+        except (VideoError, DecoderStoppedError) as error:
+            put_back(decoder)
+            ending = str(error) if isinstance(error, VideoError) else f"{error}."
+            raise VideoError(f"{self._shown} cannot be read: {ending}") from None
 
 
-def _container(path: Path) -> Container:
-    with suppress(OSError), path.open("rb") as file:
-        return container_of(path, file.read(FIRST_BYTES))
-    raise VideoError(f"{one_line(str(path))} cannot be read.")
+class _Stepping:
+    """The frame that was asked for last, and the decoder that stands behind it."""
 
-
-def _grey(stored: StoredFrame, channel: str) -> ByteArray:
-    """Take one channel of a frame."""
-    pixels = stored.pixels
-    if pixels.ndim == 2:
-        return pixels
-    if channel == "luma":
-        return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), np.uint8)
-    return np.asarray(cv2.extractChannel(pixels, ("blue", "green", "red").index(channel)), np.uint8)
+    def __init__(self, decoder: DecoderProcess, frame: VideoFrame) -> None:
+        self.decoder = decoder
+        self.frame = frame

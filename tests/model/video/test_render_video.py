@@ -179,15 +179,13 @@ def test_the_memory_does_not_grow_with_the_film() -> None:
 
 def test_frames_are_simulated_only_as_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     rendered: list[float] = []
-    from occ_model.video import render
-
-    usual = render.render_with
+    from occ_model.simulation.render import render_with as usual
 
     def noting(scene: Scene, *arguments: object) -> object:
         rendered.append(scene.model.start_time)
         return usual(scene, *arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(render, "render_with", noting)
+    monkeypatch.setattr("occ_model.video.render.render_with", noting)
     frames = iter(occ.render_video(SCENE, 100))
     assert not rendered
     first, second = next(frames), next(frames)

@@ -1,0 +1,163 @@
+"""The decoder's own process: opens a film and sends the frames that it is asked for.
+
+FFmpeg takes what memory and time a file makes it take: a small damaged film can declare a huge
+frame anywhere. Only a process of its own can be limited and ended, whatever is in a file; and its
+messages on the standard streams are nobody else's.
+"""
+
+import json
+import os
+import signal
+import struct
+import sys
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any
+
+MOST_MEMORY = 420_000_000
+"""Bytes of data that the process may have, where the system can limit it."""
+
+LONGEST = 4.0
+"""Seconds of processor time that one request may take."""
+
+TOOK_TOO_LONG = 21
+"""Exit code of a process that took too long."""
+
+HEADER = struct.Struct("<II")
+"""Before each answer: the bytes of its JSON part and those of its pixels."""
+
+_CHECK = 0.2
+"""Seconds between looks at the processor time."""
+
+
+_SPARE = 60.0
+"""Seconds that a process without a film waits for the next one."""
+
+
+class _Watch:
+    """Ends the process when a request takes too much processor time, or none comes any more."""
+
+    def __init__(self) -> None:
+        self._since: float | None = None
+        self._closed: float | None = None
+        threading.Thread(target=self._look, daemon=True).start()
+
+    def begin(self) -> None:
+        """Begin with a request."""
+        self._since, self._closed = time.process_time(), None
+
+    def end(self, has_film: bool) -> None:
+        """End with it, and say whether a film is open."""
+        self._since, self._closed = None, None if has_film else time.monotonic()
+
+    def _look(self) -> None:
+        while True:
+            time.sleep(_CHECK)
+            since = self._since
+            if since is not None and time.process_time() - since > LONGEST:
+                os._exit(TOOK_TOO_LONG)
+            closed = self._closed
+            if closed is not None and time.monotonic() - closed > _SPARE:
+                os._exit(0)
+
+
+def main() -> None:
+    """Answer requests, one JSON object a line, until standard input ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Nothing that a library prints may come among the answers.
+    answers = os.fdopen(os.dup(1), "wb", buffering=0)
+    with Path(os.devnull).open("r+b") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
+        os.dup2(nowhere.fileno(), 2)
+    from occ_model.video.file.opencv_source import OpenCvSource
+    from occ_model.video.file.pillow_source import PillowSource
+    from occ_model.video.file.source import FrameSource
+
+    _limit_memory()
+    kinds: dict[str, type[FrameSource]] = {"opencv": OpenCvSource, "pillow": PillowSource}
+    answering = _Answering(kinds)
+    watch = _Watch()
+    with suppress(BrokenPipeError):
+        for line in sys.stdin:
+            watch.begin()
+            answer, pixels = answering.answer(json.loads(line))
+            watch.end(answering.has_film)
+            _send(answers, answer, pixels)
+    # The decoders' own clean-up may wait for their threads.
+    os._exit(0)
+
+
+class _Answering:
+    """Answers requests about one film at a time."""
+
+    def __init__(self, kinds: dict[str, Any]) -> None:
+        self._kinds = kinds
+        self._source: Any = None
+
+    @property
+    def has_film(self) -> bool:
+        """Whether a film is open."""
+        return self._source is not None
+
+    def answer(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
+        """Give the answer and the pixels, if there are any."""
+        from occ_model.errors import VideoError
+
+        try:
+            return self._answered(request)
+        except VideoError as error:
+            return {"refused": str(error)}, None
+        except MemoryError:
+            return {"refused": "decoding it takes more memory than is allowed."}, None
+        except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files
+            return {"refused": f"decoding it failed ({type(error).__name__})."}, None
+
+    def _answered(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
+        if request["do"] in ("open", "close") and self._source is not None:
+            self._source.close()
+            self._source = None
+        if request["do"] == "close":
+            return {}, None
+        if request["do"] == "open":
+            kind = self._kinds[request["reader"]]
+            self._source = source = kind(Path(request["path"]), request["channel"])
+            return {"rate": source.frame_rate, "count": source.frame_count}, None
+        if request["do"] == "skip":
+            passed = 0
+            while passed < request["frames"] and self._source.skip():
+                passed += 1
+            return {"passed": passed}, None
+        if request["do"] == "seek":
+            frame = self._source.seek(request["index"], request["time"])
+        else:
+            frame = self._source.read()
+        if frame is None:
+            return {"end": True}, None
+        return {"time": frame.time, "shape": frame.pixels.shape}, frame.pixels
+
+
+def _send(answers: IO[bytes], answer: dict[str, Any], pixels: Any) -> None:
+    import numpy as np
+
+    text = json.dumps(answer).encode()
+    content = b"" if pixels is None else np.ascontiguousarray(pixels).data.cast("B")
+    _write(answers, HEADER.pack(len(text), len(content)) + text)
+    _write(answers, content)
+
+
+def _write(answers: IO[bytes], content: bytes | memoryview) -> None:
+    view = memoryview(content)
+    while view:
+        view = view[answers.write(view) :]
+
+
+def _limit_memory() -> None:
+    """Limit this process's memory; Windows has no such limit, and macOS does not hold to it."""
+    if sys.platform != "linux":
+        return
+    import resource
+
+    with suppress(OSError, ValueError):
+        resource.setrlimit(resource.RLIMIT_DATA, (MOST_MEMORY, MOST_MEMORY))

@@ -1,0 +1,90 @@
+"""What a film's file gives, whatever reads it: pictures with their times, in order."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray
+
+CHANNELS = ("luma", "red", "green", "blue")
+"""The channels of a film; most files keep the luma of each pixel, but colours of 2 x 2 pixels."""
+
+MAX_PIXELS = 36_000_000
+"""Largest frame that is read: 8K films have 35 million pixels."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StoredFrame:
+    """A frame as its file has it.
+
+    Parameters
+    ----------
+    time
+        In seconds, as the container states it.
+    pixels : ndarray of uint8, shape (lines, columns)
+        One channel, upright.
+    """
+
+    time: float
+    pixels: ByteArray
+
+
+class FrameSource(ABC):
+    """A film's file, opened: gives its frames in order, each once.
+
+    Attributes
+    ----------
+    frame_rate, frame_count
+        As the container states them; None where it does not.
+    """
+
+    frame_rate: float | None = None
+    frame_count: int | None = None
+
+    @abstractmethod
+    def __init__(self, path: Path, channel: str) -> None:
+        """Open a file; raise a VideoError where there is no film in it, or too large a one."""
+
+    @abstractmethod
+    def read(self) -> StoredFrame | None:
+        """Give the next frame, None after the last that can be decoded."""
+
+    @abstractmethod
+    def skip(self) -> bool:
+        """Pass over the next frame; tell whether there was one."""
+
+    def seek(self, index: int, time: float) -> StoredFrame | None:  # noqa: ARG002 - some cannot
+        """Give a frame anywhere in the film, None where this source cannot find it surely.
+
+        Parameters
+        ----------
+        index, time
+            Its number, and the time that it had when it was read before.
+        """
+        return None
+
+    @abstractmethod
+    def close(self) -> None:
+        """Free the file and the decoder."""
+
+
+def one_channel(pixels: ByteArray, channel: str) -> ByteArray:
+    """Take one channel of pixels of shape (lines, columns) or (lines, columns, 3): BGR."""
+    if pixels.ndim == 2:
+        return pixels
+    if channel == "luma":
+        return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), np.uint8)
+    return np.asarray(cv2.extractChannel(pixels, ("blue", "green", "red").index(channel)), np.uint8)
+
+
+def too_large(width: float, height: float) -> str | None:
+    """Say in a sentence's end that frames are too large, before any is decoded; None if not."""
+    if 0 < width * height <= MAX_PIXELS:
+        return None
+    return (
+        f"its frames have {width:,.0f} x {height:,.0f} pixels; allowed: from 1 to "
+        f"{MAX_PIXELS / 1e6:g} million of them."
+    )

@@ -1,0 +1,126 @@
+"""Films made for tests: moving stripes in many containers and codecs, whole and damaged."""
+
+import random
+import struct
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import ByteArray
+
+KINDS = (
+    ("mp4", "mp4v"), ("mov", "mp4v"), ("mov", "MJPG"), ("avi", "MJPG"), ("avi", "XVID"),
+    ("avi", "HFYU"), ("mkv", "mp4v"), ("mkv", "FFV1"), ("mkv", "MPNG"), ("mkv", "VP80"),
+    ("webm", "VP90"),
+)  # fmt: skip
+"""Endings and codecs that OpenCV writes everywhere."""
+
+RATE, LINES, COLUMNS = 30.0, 48, 64
+
+
+def stripes(number: int, lines: int = LINES, columns: int = COLUMNS) -> ByteArray:
+    """A picture of a film: stripes across the columns, which move on from frame to frame."""
+    lit = (np.arange(columns) + number) // 8 % 2
+    picture = np.broadcast_to(np.where(lit, 235, 20).astype(np.uint8), (lines, columns)).copy()
+    picture[: lines // 4] //= 4
+    return picture
+
+
+def write_film(
+    path: Path,
+    codec: str,
+    pictures: Iterable[ByteArray],
+    rate: float = RATE,
+    size: tuple[int, int] = (LINES, COLUMNS),
+) -> None:
+    """Write grey pictures of a size (lines, columns) to a film, by OpenCV alone."""
+    lines, columns = size
+    code = cv2.VideoWriter.fourcc(*codec)
+    writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, code, rate, (columns, lines))
+    assert writer.isOpened(), (path.suffix, codec)
+    for picture in pictures:
+        writer.write(cv2.cvtColor(picture, cv2.COLOR_GRAY2BGR))
+    writer.release()
+
+
+@lru_cache
+def film_bytes(ending: str, codec: str, frames: int = 20) -> bytes:
+    """The bytes of a film of stripes."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder, f"film.{ending}")
+        write_film(path, codec, [stripes(number) for number in range(frames)])
+        return path.read_bytes()
+
+
+def damaged_film(seed: int) -> tuple[str, bytes]:
+    """A film's ending and bytes, damaged at random: cut, changed, blanked, of a huge size."""
+    chance = random.Random(seed)
+    ending, codec = chance.choice(KINDS)
+    content = bytearray(film_bytes(ending, codec, chance.choice((0, 1, 20, 20, 20))))
+    damage = chance.choice((_cut, _changed, _changed_head, _enlarged, _blanked, _other_codec))
+    damage(content, chance)
+    return ending, bytes(content)
+
+
+def _cut(content: bytearray, chance: random.Random) -> None:
+    del content[chance.randrange(len(content)) :]
+
+
+def _changed(content: bytearray, chance: random.Random) -> None:
+    for _ in range(chance.choice((1, 5, 50, 500))):
+        content[chance.randrange(len(content))] = chance.randrange(256)
+
+
+def _changed_head(content: bytearray, chance: random.Random) -> None:
+    for _ in range(chance.choice((1, 3, 10))):
+        content[chance.randrange(min(400, len(content)))] = chance.randrange(256)
+
+
+def _blanked(content: bytearray, chance: random.Random) -> None:
+    first = chance.randrange(len(content))
+    last = min(len(content), first + chance.randrange(1, 2000))
+    content[first:last] = bytes(last - first)
+
+
+def _other_codec(content: bytearray, chance: random.Random) -> None:
+    codecs = (b"mp4v", b"MJPG", b"jpeg", b"XVID", b"FMP4", b"HFYU", b"FFV1", b"V_VP8", b"V_VP9")
+    for codec in codecs:
+        other = chance.choice((b"avc1\x00", b"hvc1\x00", b"png \x00", b"abcd\x00", b"apcn\x00"))
+        content[:] = content.replace(codec, other[: len(codec)])
+
+
+def _enlarged(content: bytearray, chance: random.Random) -> None:
+    """Declare a huge size wherever the film declares its own."""
+    width, height = (chance.choice((0, 16_383, 30_000, 65_535)) for _ in range(2))
+    for form, scale in ((">HH", 1), ("<HH", 1), ("<II", 1), (">II", 65_536)):
+        own = struct.pack(form, COLUMNS * scale, LINES * scale)
+        content[:] = content.replace(own, struct.pack(form, width * scale, height * scale))
+    # The sizes in Matroska files, as numbers of one byte.
+    content[:] = content.replace(bytes((0xB0, 0x81, COLUMNS)), bytes((0xB0, 0x81, 255)))
+
+
+def with_steps(film: bytes, steps: Sequence[int]) -> bytes:
+    """Change how far apart the frames of an MP4 film are, in units of its time scale."""
+    table = struct.pack(">I", len(steps)) + b"".join(struct.pack(">II", 1, step) for step in steps)
+    path = (b"moov", b"trak", b"mdia", b"minf", b"stbl")
+    places = [film.index(box) - 4 for box in path]
+    place = film.index(b"stts", places[-1]) - 4
+    (old,) = struct.unpack_from(">I", film, place)
+    new = struct.pack(">I", 12 + len(table)) + film[place + 4 : place + 12] + table
+    changed = bytearray(film[:place] + new + film[place + old :])
+    for outer in places:
+        (size,) = struct.unpack_from(">I", changed, outer)
+        struct.pack_into(">I", changed, outer, size + len(new) - old)
+    return bytes(changed)
+
+
+def turned_right(film: bytes) -> bytes:
+    """Let an MP4 film say that its pictures are to be turned to the right by a quarter."""
+    place = film.index(b"tkhd") + 4 + 40
+    one, whole = 1 << 16, 1 << 30
+    matrix = struct.pack(">9i", 0, one, 0, -one, 0, 0, 0, 0, whole)
+    return film[:place] + matrix + film[place + 36 :]

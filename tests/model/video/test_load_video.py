@@ -1,0 +1,325 @@
+"""A film from a file: its frames, times, levels and axes, whatever else is in the file."""
+
+import gc
+import os
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from films import (
+    COLUMNS,
+    KINDS,
+    LINES,
+    RATE,
+    damaged_film,
+    film_bytes,
+    stripes,
+    turned_right,
+    with_steps,
+    write_film,
+)
+from PIL import Image
+
+import occ_model as occ
+from occ_model.arrays import ByteArray
+
+
+def saved(folder: Path, content: bytes, ending: str = "mp4") -> Path:
+    path = folder / f"film.{ending}"
+    path.write_bytes(content)
+    return path
+
+
+def error_of(image: ByteArray, number: int) -> float:
+    """The root mean square of a frame's difference from the stripes that were written."""
+    return float(np.sqrt(np.mean((image.astype(float) - stripes(number)) ** 2)))
+
+
+@pytest.mark.parametrize(("ending", "codec"), KINDS)
+def test_every_kind_gives_its_frames_levels_and_times(
+    tmp_path: Path, ending: str, codec: str
+) -> None:
+    film = occ.load_video(saved(tmp_path, film_bytes(ending, codec), ending))
+    frames = list(film)
+    assert (len(frames), film.frame_count, film.frame_rate) == (20, 20, RATE)
+    assert (film.shape, film.problem, film.simulated) == ((LINES, COLUMNS), None, False)
+    step = film.time_step or 0.0
+    assert [frame.time for frame in frames] == pytest.approx(
+        [number / RATE for number in range(20)], abs=step / 2 + 1e-12
+    )
+    # Lossy codecs soften the stripes' edges; a film that keeps 16 to 235 is spread to 0 to 255.
+    assert max(error_of(frame.image, frame.index) for frame in frames) < 12
+    levels = [np.percentile(frame.image[LINES // 2 :], (25, 75)) for frame in frames]
+    np.testing.assert_allclose(levels, np.tile((20, 235), (20, 1)), atol=4)
+    film.close()
+
+
+@pytest.mark.parametrize(("ending", "codec"), [KINDS[0], KINDS[3], KINDS[9]])
+def test_any_frame_can_be_had_in_any_order(tmp_path: Path, ending: str, codec: str) -> None:
+    film = occ.load_video(saved(tmp_path, film_bytes(ending, codec), ending))
+    before = film.frame(17)  # before any time is known
+    frames = list(film)
+    np.testing.assert_array_equal(before.image, frames[17].image)
+    for index in (3, 4, 9, 2, 19, 0, 18, 17, 17):
+        frame = film.frame(index)
+        assert (frame.index, frame.time) == (index, frames[index].time)
+        np.testing.assert_array_equal(frame.image, frames[index].image)
+    assert [frame.index for frame in film.frames(18)] == [18, 19]
+    assert list(film.frames(20)) == []
+    for absent in (20, 1000, -1):
+        with pytest.raises(occ.ParameterError, match=f"index is {absent}; allowed: "):
+            film.frame(absent)
+
+
+def test_frames_can_be_far_apart_and_unequally(tmp_path: Path) -> None:
+    # A second is 15,360 units; the sum stays that of the film as it was.
+    steps = [512, 256, 768, 1024, *[480] * 16]
+    film = occ.load_video(saved(tmp_path, with_steps(film_bytes("mp4", "mp4v"), steps)))
+    frames = list(film)
+    expected = np.concatenate([[0], np.cumsum(steps)[:-1]]) / 15_360
+    assert [frame.time for frame in frames] == pytest.approx(expected, abs=1e-9)
+    assert film.problem is None
+    for index in (12, 2, 3, 19, 1):
+        np.testing.assert_array_equal(film.frame(index).image, frames[index].image)
+
+
+def test_a_turned_film_is_shown_upright(tmp_path: Path) -> None:
+    still = film_bytes("mp4", "mp4v")
+    film = occ.load_video(saved(tmp_path, turned_right(still)), scan_axis="columns")
+    upright = occ.load_video(saved(tmp_path / "..", still), scan_axis="columns").frame(0).image
+    assert film.shape == (COLUMNS, LINES)
+    np.testing.assert_array_equal(film.frame(0).image, np.rot90(upright, -1))
+
+
+def test_the_scan_axis_is_found_on_the_first_frames_and_kept(tmp_path: Path) -> None:
+    lying = [np.full((COLUMNS, LINES), 90, np.uint8), *(stripes(n).T for n in range(6))]
+    path = tmp_path / "film.avi"
+    write_film(path, "MJPG", lying, size=(COLUMNS, LINES))
+    film = occ.load_video(path)
+    assert film.turned
+    assert film.shape == (LINES, COLUMNS)
+    assert error_of(film.frame(3).image, 2) < 12
+    assert occ.load_video(path, scan_axis="columns").shape == (COLUMNS, LINES)
+
+
+@pytest.mark.parametrize("ending", ["gif", "png"])
+def test_animated_pictures_are_films_too(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"a.{ending}"
+    shown = [stripes(n, 45, 63) for n in range(5)]  # odd sizes
+    first, *others = [Image.fromarray(picture) for picture in shown]
+    steps = [100, 50, 30, 200, 40]
+    first.save(path, save_all=True, append_images=others, duration=steps, loop=0)
+    film = occ.load_video(path)
+    frames = list(film)
+    assert [frame.time for frame in frames] == pytest.approx([0, 0.1, 0.15, 0.18, 0.38])
+    assert (film.frame_count, film.shape, film.problem) == (5, (45, 63), None)
+    for frame, picture in zip(frames, shown, strict=True):
+        np.testing.assert_array_equal(frame.image, picture)
+    np.testing.assert_array_equal(film.frame(1).image, shown[1])
+
+
+def test_a_channel_can_be_chosen(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    colours = np.zeros((20, 30, 4), np.uint8)
+    colours[...] = (200, 100, 50, 255)
+    colours[:10, :, 3] = 0  # transparent: black
+    Image.fromarray(colours).save(path)
+    for channel, level in [("red", 200), ("green", 100), ("blue", 50), ("luma", 124)]:
+        image = occ.load_video(path, "columns", channel=channel).frame(0).image
+        assert {*image[:10].flat} == {0}
+        assert {*image[10:].flat} == {level}
+
+
+@pytest.mark.parametrize(("ending", "codec"), [KINDS[1], KINDS[3], KINDS[7]])
+def test_a_film_that_was_cut_off_gives_what_it_holds_and_says_so(
+    tmp_path: Path, ending: str, codec: str
+) -> None:
+    content = film_bytes(ending, codec)
+    if ending == "mov":  # whose table of frames is at its end
+        blanked = content.index(b"mdat") + 900
+        content = content[:blanked] + bytes(600) + content[blanked + 600 :]
+    else:
+        content = content[: len(content) // 2]
+    film = occ.load_video(saved(tmp_path, content, ending))
+    held = list(film)
+    if ending == "mov":  # the decoder fills in what is missing, or leaves a frame out
+        assert 15 <= len(held) <= 20
+    else:
+        assert 5 <= len(held) <= 15
+        assert film.problem == (
+            f"{film.path} holds {len(held)} of the 20 frames that it states: it may be cut off or "
+            "damaged."
+        )
+        assert max(error_of(frame.image, frame.index) for frame in held[:-1]) < 12
+
+
+ADDRESSES = [
+    ("film.mp4", b"#EXTM3U\n#EXTINF:1,\nhttp://127.0.0.1:9/a.ts\n#EXT-X-ENDLIST\n"),
+    ("film.mp4", b"ffconcat version 1.0\nfile other.mp4\n"),
+    ("film.m3u8", b"#EXTM3U\n#EXTINF:1,\nother.mp4\n#EXT-X-ENDLIST\n"),
+    ("film.sdp", b"v=0\no=- 0 0 IN IP4 127.0.0.1\nm=video 5004 RTP/AVP 96\n"),
+    ("film.mkv", b"a text"),
+]
+
+
+@pytest.mark.parametrize(("name", "content"), ADDRESSES)
+def test_a_list_of_other_files_or_addresses_is_no_film(
+    tmp_path: Path, name: str, content: bytes
+) -> None:
+    (tmp_path / "other.mp4").write_bytes(film_bytes("mp4", "mp4v"))
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(occ.VideoError, match="is no film that can be read; allowed: MP4, MOV"):
+        occ.load_video(path)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "http://127.0.0.1:9/film.mp4", "rtsp://127.0.0.1/film", "concat:film.mp4|film.mp4",
+        "file:film.mp4", "subfile,,start,0,end,9,,:film.mp4", "0", "/dev/video0", "",
+    ],
+)  # fmt: skip
+def test_an_address_is_no_file(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    saved(tmp_path, film_bytes("mp4", "mp4v"))
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(occ.VideoError, match=r"cannot be read"):
+        occ.load_video(name)
+
+
+@pytest.mark.parametrize("name", ["concat:a|b.mp4", "a%03d.mp4", "ä ;-.mp4", "-i.mp4"])
+def test_a_film_may_have_any_name(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_bytes(film_bytes("mp4", "mp4v"))
+    assert occ.load_video(name).frame(19).index == 19
+
+
+def test_what_is_no_regular_file_is_refused(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.mp4"
+    os.mkfifo(pipe)
+    for path in (pipe, tmp_path, tmp_path / "none.mp4", "a\0b.mp4"):
+        with pytest.raises(occ.VideoError, match="cannot be read"):
+            occ.load_video(path)
+    with pytest.raises(occ.VideoError, match="3 is not the path of a film"):
+        occ.load_video(3)  # type: ignore[arg-type]
+    with pytest.raises(occ.VideoError, match="is no film that can be read"):
+        occ.load_video(saved(tmp_path, b""))
+
+
+def test_words_that_are_not_known_are_refused(tmp_path: Path) -> None:
+    path = saved(tmp_path, film_bytes("mp4", "mp4v"))
+    with pytest.raises(occ.ParameterError, match="scan_axis is 'rows'; allowed: auto, columns"):
+        occ.load_video(path, "rows")
+    with pytest.raises(occ.ParameterError, match="channel is 'white'; allowed: luma, red"):
+        occ.load_video(path, channel="white")
+
+
+def test_a_huge_frame_is_refused_before_it_is_decoded(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    Image.new("1", (9000, 9000)).save(path)
+    with pytest.raises(occ.VideoError, match=r"9,000 x 9,000 pixels; allowed: from 1 to 36 mill"):
+        occ.load_video(path)
+
+
+def test_a_frame_that_grows_in_a_film_does_not_fill_the_memory(tmp_path: Path) -> None:
+    # Each key frame of VP8 has its own size; the container keeps the first one's.
+    content = film_bytes("mkv", "VP80")
+    own = b"\x9d\x01\x2a" + bytes((COLUMNS, 0, LINES, 0))
+    assert content.count(own) == 2
+    place = content.rindex(own)
+    huge = content[: place + 3] + b"\xff\x3f\xff\x3f" + content[place + 7 :]
+    film = occ.load_video(saved(tmp_path, huge, "mkv"))
+    assert 0 < len(list(film)) < 20
+    assert film.problem is not None
+
+
+def test_nothing_is_printed_and_the_environment_stays(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    content = bytearray(film_bytes("mp4", "mp4v"))
+    place = content.index(b"mdat")
+    content[place + 900 : place + 1500] = bytes(600)
+    before, level = dict(os.environ), cv2.getLogLevel() if hasattr(cv2, "getLogLevel") else None
+    list(occ.load_video(saved(tmp_path, bytes(content))))
+    with pytest.raises(occ.VideoError):
+        occ.load_video(saved(tmp_path, bytes(content[:60])))
+    assert capfd.readouterr() == ("", "")
+    assert dict(os.environ) == before
+    assert level == (cv2.getLogLevel() if hasattr(cv2, "getLogLevel") else None)
+
+
+def test_a_decoder_that_dies_ends_the_film_with_a_sentence_and_the_next_one_begins_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from occ_model.video.file.decoder_process import DecoderProcess
+
+    film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
+    usual, count = DecoderProcess.read, 0
+
+    def dying(self: DecoderProcess) -> object:
+        nonlocal count
+        count += 1
+        if count == 8:
+            self._process.kill()
+            self._process.wait()
+            self._ahead = False
+        return usual(self)
+
+    monkeypatch.setattr(DecoderProcess, "read", dying)
+    assert len(list(film)) == 7
+    assert film.problem == (f"{film.path} ends early: frame 7 cannot be read: the decoder failed.")
+    monkeypatch.undo()
+    assert len(list(film)) == 20
+
+
+def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) -> None:
+    path = saved(tmp_path, film_bytes("mp4", "mp4v"))
+    films = [occ.load_video(path) for _ in range(3)]
+    for film in films:
+        film.frame(4)
+    processes = [film._stepping.decoder._process for film in films if film._stepping]
+    assert [process.poll() for process in processes] == [None] * 3
+    del film, films
+    gc.collect()
+    assert [process.poll() for process in processes].count(None) == 1
+    frames = iter(occ.load_video(path))
+    next(frames)
+    del frames
+    assert [process.poll() for process in processes].count(None) == 1
+
+
+def damaged_films(seeds: range, folder: Path) -> None:
+    """Read damaged films: each gives frames, a sentence, or both."""
+    sentences: list[str] = []
+    for seed in seeds:
+        ending, content = damaged_film(seed)
+        try:
+            film = occ.load_video(saved(folder, content, ending))
+        except occ.VideoError as refusal:
+            sentences.append(str(refusal))
+            continue
+        frames = list(film)
+        assert {frame.image.shape for frame in frames} <= {film.shape}
+        assert [frame.index for frame in frames] == list(range(len(frames)))
+        sentences += [film.problem] if film.problem is not None else []
+        film.close()
+    assert [each for each in sentences if not each.startswith(f"{folder}/film.")] == []
+    assert [each for each in sentences if not each.endswith(".")] == []
+
+
+def test_damaged_films_give_what_they_hold_or_a_sentence(tmp_path: Path) -> None:
+    damaged_films(range(20), tmp_path)
+
+
+@pytest.mark.whole
+def test_a_thousand_damaged_films_do_too(tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
+    damaged_films(range(1000), tmp_path)
+    children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
+    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    # The largest decoder and this whole process of the tests together.
+    assert children < 420e6
+    assert children + own < 1200e6

@@ -12,6 +12,7 @@ from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
+from occ_gui.app.video_pane import VideoPane
 from occ_gui.app.welcome import Welcome
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
@@ -95,6 +96,8 @@ class Application(QObject):
             self.window, self.store, self.photos, self.image, self.profile,
             controls=self.controls, preferences=self.preferences,
         )  # fmt: skip
+        self.video = VideoPane(self.window, self.store, self.files.ask_for_film)
+        self.files.film_asked.connect(self.video.open)
         self.simulation.picture_ready.connect(self.image.show_picture)
         # The profile follows what is drawn in it: the results before, and the comparison.
         comparison = self.photo_wiring.comparison
@@ -146,7 +149,7 @@ class Application(QObject):
         self.simulation.snapshot_shown.connect(self._offer_plugins, once)
         self.simulation.failed_for.connect(self.messages.show_failure)
         self.simulation.failed.connect(self.learning.pins.give_up)
-        for speaker in (self.presets, self.files, self.present):
+        for speaker in (self.presets, self.files, self.present, self.video):
             speaker.status_message.connect(self.window.say)
         self.learning.status_message.connect(self.messages.show_note)
         self.window.closing.connect(self.stop)
@@ -214,6 +217,7 @@ class Application(QObject):
         """Whether all requested results are shown."""
         parts = (
             self.simulation, self.outdated, self.photo_wiring, self.desktop, self.learning,
+            self.video,
         )  # fmt: skip
         return all(part.is_idle for part in parts)
 
@@ -322,4 +326,5 @@ class Application(QObject):
         self.photo_wiring.stop()
         self.detection_map.stop()
         self.learning.stop()
+        self.video.stop()
         self.desktop.stop()

@@ -37,11 +37,11 @@ _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 
 PANES = (
     "controls", "decode", "photo", "profile", "accuracy", "map",
-    "equations", "spectrum", "compare", "lessons",
+    "equations", "spectrum", "compare", "lessons", "video",
 )  # fmt: skip
 """Names of the panes."""
 
-MODES = ("explore", "photo", "limits", "effects", "lessons")
+MODES = ("explore", "photo", "limits", "effects", "lessons", "video")
 """Names of the modes."""
 
 OVERLAYS = ("beside", "blend", "split", "difference")

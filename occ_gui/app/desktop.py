@@ -9,6 +9,7 @@ from PySide6.QtGui import QAction
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.learning_panes import LearningPanes
+from occ_gui.app.video_pane import VideoPane
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.export.animation import AnimationExport
@@ -59,6 +60,7 @@ class Parts(Protocol):
     photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
     learning: LearningPanes
+    video: VideoPane
     simulation: SimulationController
     present: PresentResults
     controls: ControlPanel
@@ -108,9 +110,10 @@ class Desktop(QObject):
         lamps = parts.photo_wiring.lamps
         self.autosave = Autosave(
             parts.store, parts.settings, self.document, lambda: self._photo,
-            parts.learning.users_own, lambda: lamps.rectangle,
+            parts.learning.users_own, lambda: lamps.rectangle, lambda: parts.video.path,
         )  # fmt: skip
         lamps.region_changed.connect(self.autosave.note_change)
+        parts.video.film_changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
         self.pointer = CursorReadout(parts.profile, parts.image)
         self._connect()

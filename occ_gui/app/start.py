@@ -67,6 +67,8 @@ class Start:
         application.desktop.error_reports.install()
         wins = self.scene_asked or self.fresh
         application.desktop.resume(self.session_file, self.session, wins, self.fresh)
+        if not wins and self.session.film is not None:
+            application.video.keep(self.session.film)
         if with_photo and not wins and self.session.photo is not None:
             if self.session.region is not None:
                 application.photo_wiring.lamps.keep(self.session.photo, self.session.region)

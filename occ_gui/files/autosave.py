@@ -32,6 +32,8 @@ class Autosave(QObject):
         Returns the path of the open photo, if any.
     region
         Returns the rectangle of the photo that was drawn by hand, if any.
+    film
+        Returns the path of the open film, if any.
     set_aside
         Returns what the user was working on, while a lesson shows something else.
     """
@@ -39,7 +41,7 @@ class Autosave(QObject):
     status_message = Signal(str)
     """What has been restored, or why the session cannot be written; the latter is not repeated."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0917 - one a part of the session
         self,
         store: SceneStore,
         settings: SettingsStore,
@@ -47,11 +49,12 @@ class Autosave(QObject):
         photo: Callable[[], Path | None],
         set_aside: Callable[[], UserState | None],
         region: Callable[[], Region | None] = lambda: None,
+        film: Callable[[], Path | None] = lambda: None,
     ) -> None:
         super().__init__()
         self._store, self._settings = store, settings
         self._document = document
-        self._photo, self._region = photo, region
+        self._photo, self._region, self._film = photo, region, film
         self._set_aside = set_aside
         self._file: SessionFile | None = None
         self._has_failed = False
@@ -115,7 +118,9 @@ class Autosave(QObject):
         aside = self._set_aside()
         own = aside or UserState(self._store.scene, self._settings.settings, self._photo())
         region = None if aside else self._region()
-        session = Session(own.scene, own.settings, self._document.path, own.photo, region)
+        session = Session(
+            own.scene, own.settings, self._document.path, own.photo, region, self._film()
+        )
         try:
             self._file.write(session, in_use)
         except OccError as error:

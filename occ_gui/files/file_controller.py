@@ -21,8 +21,13 @@ from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene
 from occ_model.scene.provenance import ENDINGS, scene_inside
 
 _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
+_FILMS = "*.mp4 *.mov *.m4v *.avi *.mkv *.webm *.gif *.png *.apng"
 _RAW = "*.dng *.nef *.cr2 *.cr3 *.arw *.raf *.rw2 *.orf *.pef"
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2 {_RAW}"
+
+_MOVING = (".gif", ".png", ".apng")
+"""Endings of pictures, and of films."""
+_FILM_ENDINGS = tuple(f".{name}" for name in ("mp4", "mov", "m4v", "avi", "mkv", "webm", "3gp"))
 
 
 def _has_scene(path: Path) -> bool:
@@ -35,6 +40,21 @@ def _has_scene(path: Path) -> bool:
     except OccError:
         return False
     return True
+
+
+def _is_film(path: Path) -> bool:
+    """Return whether a file is a film: by its name's ending, or where it has several pictures."""
+    ending = path.suffix.lower()
+    if ending not in _MOVING:
+        return ending in _FILM_ENDINGS
+    # Not at the start of the program.
+    from PIL import Image
+
+    try:
+        with Image.open(path) as picture:
+            return bool(getattr(picture, "is_animated", False))
+    except Exception:  # noqa: BLE001 - whoever opens it says what is wrong with it
+        return False
 
 
 def _is_file(path: Path) -> bool:
@@ -76,6 +96,9 @@ class FileController(QObject):
     several_opened = Signal(list)
     """The paths of the photos that were dropped together, of which the first is opened."""
 
+    film_asked = Signal(Path)
+    """The film that is to be opened."""
+
     scene_saved = Signal(Path)
     """The file that the scene has been saved to."""
 
@@ -111,6 +134,20 @@ class FileController(QObject):
         elif names:
             self.open_file(Path(names[0]))
 
+    def ask_for_film(self) -> None:
+        """Let the user choose a film and open it."""
+        kinds = self.tr("Films ({patterns});;All files (*)").format(patterns=_FILMS)
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, self.tr("Open film"), self._preferences.folder, kinds
+        )
+        if name:
+            self.open_film(Path(name))
+
+    def open_film(self, path: Path) -> None:
+        """Open a film, and remember it."""
+        self._preferences.add(path)
+        self.film_asked.emit(path)
+
     def ask_for_scene(self) -> None:
         """Let the user choose a scene file and open it."""
         kinds = self.tr("Scenes and figures ({patterns});;All files (*)").format(
@@ -123,9 +160,11 @@ class FileController(QObject):
             self.open_scene(Path(name))
 
     def open_file(self, path: Path) -> None:
-        """Open a scene file, an exported figure or a photo."""
+        """Open a scene file, an exported figure, a film or a photo."""
         if _has_scene(path):
             self.open_scene(path)
+        elif _is_film(path):
+            self.open_film(path)
         else:
             self._photos.open(path)
 
@@ -147,27 +186,31 @@ class FileController(QObject):
         self._photos.open(path)
 
     def open_dropped(self, paths: Sequence[Path]) -> None:
-        """Open the first scene of the dropped files and their photos: the first, or a table."""
+        """Open the first scene and film of the dropped files, and the first photo, or a table."""
         files = [path for path in paths if _is_file(path)]
         scenes = [path for path in files if _has_scene(path)]
-        photos = [path for path in files if path not in scenes]
+        films = [path for path in files if path not in scenes and _is_film(path)]
+        photos = [path for path in files if path not in (*scenes, *films)]
         if not files:
             what = (
                 self.tr("{path} is no file").format(path=one_line(str(paths[0]))) if paths else ""
             )
             what = what or self.tr("What was dropped is no file of this computer")
             self.status_message.emit(
-                self.tr("{what}; drop a photo or a scene (.toml).").format(what=what)
+                self.tr("{what}; drop a photo, a film or a scene (.toml).").format(what=what)
             )
             return
         for path in scenes[:1]:
             self.open_scene(path)
         for path in photos[:1]:
             self._photos.open(path)
+        for path in films[:1]:
+            self.open_film(path)
         if len(photos) > 1:
             self.several_opened.emit(photos)
-        opened = [one_line(path.name) for path in (*scenes[:1], *photos[:1])]
-        if len(paths) > len(scenes[:1]) + len(photos):
+        shown = (*scenes[:1], *photos[:1], *films[:1])
+        opened = [one_line(path.name) for path in shown]
+        if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):
             self.status_message.emit(
                 self.tr("Of {count} things that were dropped, only {names} can be shown.").format(
                     count=len(paths), names=self.tr(" and ").join(opened)

@@ -78,6 +78,8 @@ class Session:
         The photo that is open.
     region
         The rectangle of the photo that was drawn by hand.
+    film
+        The film that is open.
     """
 
     scene: Scene | None = None
@@ -85,6 +87,7 @@ class Session:
     scene_file: Path | None = None
     photo: Path | None = None
     region: Region | None = None
+    film: Path | None = None
 
 
 class SessionFile:
@@ -152,6 +155,7 @@ class SessionFile:
             scene_file=_file(record.get("scene_file")),
             photo=_file(record.get("photo")),
             region=_region(record.get("region")),
+            film=_file(record.get("film")),
         )
 
     def write(self, session: Session, in_use: bool) -> None:
@@ -179,6 +183,7 @@ class SessionFile:
             "settings": None if settings is None else asdict(settings),
             "scene_file": _text(session.scene_file),
             "photo": _text(session.photo),
+            "film": _text(session.film),
             "region": None if session.region is None else asdict(session.region),
         }
         write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))

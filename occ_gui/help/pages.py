@@ -22,6 +22,7 @@ PAGE_OF_PANE = {
     "equations": "model.md",
     "spectrum": "guide.md#measure",
     "compare": "guide.md#compare-two-states",
+    "video": "guide.md#watch-a-film",
     "lessons": "lessons.md#follow-a-lesson",
 }
 """Page and heading that explain a pane, by the pane's name."""

@@ -52,6 +52,7 @@ class Menus(QObject):
         self._make_help_menu()
         self.show_photo_open(False)
         self.show_match_found(False)
+        self.actions["close_film"].setEnabled(False)
 
     def _top(self, name: str, text: str) -> QMenu:
         self.tops[name] = self._bar.addMenu(text)
@@ -80,6 +81,8 @@ class Menus(QObject):
             submenu.setToolTipsVisible(True)
             submenu.setEnabled(False)
         self._add(menu, "close_photo", self.tr("&Close photo"))
+        self._add(menu, "open_film", self.tr("Open &film…"), self.tr("Ctrl+Alt+O"))
+        self._add(menu, "close_film", self.tr("C&lose film"))
         menu.addSeparator()
         self._add(menu, "open_scene", self.tr("Open sc&ene…"), self.tr("Ctrl+Shift+O"))
         self._add(menu, "save_scene", self.tr("&Save scene"), keys.Save)
@@ -175,6 +178,7 @@ class Menus(QObject):
             "limits": (self.tr("&Limits"), self.tr("How fast the code can be, and still be read.")),
             "effects": (self.tr("E&ffects"), self.tr("What accuracy costs in time.")),
             "lessons": (self.tr("Le&ssons"), self.tr("Learn step by step.")),
+            "video": (self.tr("&Video"), self.tr("Read films, and what a camera sees.")),
         }
         self.modes = QActionGroup(self)
         for place, name in enumerate(MODES, 1):

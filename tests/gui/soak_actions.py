@@ -3,10 +3,13 @@
 import random
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
 from gui.wheel import turn_wheel, views_of
+from PIL import Image
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
@@ -18,9 +21,12 @@ from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.scene.gesture import NO_GESTURE, new_gesture
 from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.video.frame_source import FilmSource
+from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
 from occ_model.results.lessons import LessonList
+from occ_model.results.video import VideoFrame
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.provenance import ENDINGS
@@ -54,6 +60,12 @@ def smaller_lessons() -> LessonList:
             for each in lessons().lessons
         )
     )
+
+
+@cache
+def short_film() -> list[VideoFrame]:
+    """Give a film of a few frames."""
+    return list(occ.render_video(smaller(occ.load_preset("phone-68us")), 4))
 
 
 class FileDialogs:
@@ -127,6 +139,13 @@ class Monkey:
             self.open_an_exported_figure: 10,
             self.close_the_photo: 20,
             self.reset_the_layout: 8,
+            self.open_a_film: 6,
+            self.read_or_stop: 10,
+            self.play_or_pause: 20,
+            self.seek_a_frame: 30,
+            self.record_otherwise: 10,
+            self.film_live: 6,
+            self.close_the_film: 10,
         }
         self._never_done = list(self._deeds)
 
@@ -153,6 +172,9 @@ class Monkey:
         self._application.store.put(scene, "home")
         self._show_a_photo_everywhere()
         self.close_the_photo()
+        self._films().live.stop_filming()
+        self._films().films.player.pause()
+        self._films().films.close()
         self.clear_the_pins()
         self.leave_the_lesson()
         self._application.desktop.theme.choose(THEMES[0])
@@ -235,6 +257,42 @@ class Monkey:
     def toggle_a_dock(self) -> None:
         docks = list(self._application.window.docks.values())
         self._random.choice(docks).toggleViewAction().trigger()
+
+    def _films(self) -> VideoWiring:
+        """Give the pane of the films, without waiting until it is shown."""
+        return self._application.video.wiring
+
+    def open_a_film(self) -> None:
+        path = self._folder / "film.gif"
+        if not path.exists():
+            pictures = [Image.fromarray(frame.image) for frame in short_film()]
+            pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=40)
+        self._dialogs.path = path
+        self._trigger("open_film")
+
+    def close_the_film(self) -> None:
+        self._trigger("close_film")
+        self._films().close()
+
+    def read_or_stop(self) -> None:
+        self._films().view.bar.read.click()
+
+    def play_or_pause(self) -> None:
+        self._films().view.transport.play.click()
+
+    def seek_a_frame(self) -> None:
+        keys = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Home, Qt.Key.Key_End)
+        self._qtbot.keyClick(self._films().view.timeline, self._random.choice(keys))
+
+    def record_otherwise(self) -> None:
+        form = self._films().view.form
+        form.count.setValue(self._random.randrange(2, 12))
+        form.fields["frame_rate"].edited.emit(self._random.choice([1.0, 24.0, 1000.0]))
+
+    def film_live(self) -> None:
+        films = self._films()
+        films.live.start(FilmSource(short_film() * 20, "Stand-in", in_real_time=False))
+        self._qtbot.wait(50)
 
     def reset_the_layout(self) -> None:
         self._trigger("reset_layout")

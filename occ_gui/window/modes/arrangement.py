@@ -14,6 +14,7 @@ _ELSEWHERE = {
     "photo": _AREA.RightDockWidgetArea,
     "equations": _AREA.RightDockWidgetArea,
     "lessons": _AREA.RightDockWidgetArea,
+    "video": _AREA.RightDockWidgetArea,
 }
 """Where a pane stands that the mode does not show; all others stand below."""
 

@@ -83,6 +83,13 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             right=(("lessons",),),
             widths={"controls": 320, "lessons": 340},
         ),
+        "video": Mode(
+            centre="",
+            main="video",
+            left=(("controls",),),
+            right=(("video",),),
+            widths={"controls": 340},
+        ),
     }
 )
 """The modes, in the order shown."""

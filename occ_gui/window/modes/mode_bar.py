@@ -1,7 +1,7 @@
 """Mode bar: a tab with an icon and a word for each mode."""
 
 from PySide6.QtCore import QSize
-from PySide6.QtGui import QActionGroup, QKeySequence
+from PySide6.QtGui import QActionGroup, QIcon, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import QTabBar, QWidget
 
 from occ_gui.widgets.icons import icon
@@ -25,6 +25,8 @@ class ModeBar(QTabBar):
     def __init__(self, modes: QActionGroup, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._actions = modes.actions()
+        self._icons: list[QIcon] = []
+        self._has_icons, self._whole = False, 0
         self.setObjectName("modes")
         self.setAccessibleName(self.tr("Mode"))
         self.setToolTip(self.tr("The task that the window is laid out for."))
@@ -52,6 +54,29 @@ class ModeBar(QTabBar):
 
     def draw(self) -> None:
         """Draw the icons in the present colours, for the present screen."""
-        for place, action in enumerate(self._actions):
-            found = icon(action.data(), self.palette(), ICON_SIZE, self.devicePixelRatioF())
-            self.setTabIcon(place, found)
+        ratio = self.devicePixelRatioF()
+        self._icons = [icon(a.data(), self.palette(), ICON_SIZE, ratio) for a in self._actions]
+        self._show_icons(True)
+        self._whole = super().sizeHint().width()
+        self.updateGeometry()
+        self._fit()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size with all icons, also while there is no room for them."""
+        hint = super().sizeHint()
+        return QSize(max(hint.width(), self._whole), hint.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Leave the icons out where the words have no room beside them."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        has_room = self.width() >= self._whole
+        if self._icons and has_room != self._has_icons:
+            self._show_icons(has_room)
+
+    def _show_icons(self, shown: bool) -> None:
+        self._has_icons = shown
+        for place, found in enumerate(self._icons):
+            self.setTabIcon(place, found if shown else QIcon())

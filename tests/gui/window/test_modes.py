@@ -48,11 +48,11 @@ def test_each_mode_has_an_icon() -> None:
     assert set(resource_names("icons", ".svg")) >= set(MODES)
 
 
-@pytest.mark.parametrize("place", range(5))
+@pytest.mark.parametrize("place", range(len(MODES)))
 def test_control_and_a_digit_choose_a_mode(
     application: Application, qtbot: QtBot, place: int
 ) -> None:
-    application.window.modes.switch(NAMES[(place + 1) % 5])
+    application.window.modes.switch(NAMES[(place + 1) % len(NAMES)])
     application.window.activateWindow()
     qtbot.keyClick(application.window, Qt.Key(Qt.Key.Key_1 + place), CONTROL)
     mode = NAMES[place]
@@ -73,10 +73,10 @@ def test_the_tabs_choose_a_mode_by_the_arrow_keys(application: Application, qtbo
 def test_a_screen_reader_hears_the_modes_and_the_active_one(application: Application) -> None:
     application.window.modes.switch("limits")
     face = QAccessible.queryAccessibleInterface(bar(application))
-    tabs = [face.child(place) for place in range(5)]
+    tabs = [face.child(place) for place in range(len(NAMES))]
     assert face.role() == QAccessible.Role.PageTabList
     words = [tab.text(QAccessible.Text.Name) for tab in tabs]
-    assert words == ["Explore", "Photo", "Limits", "Effects", "Lessons"]
+    assert words == ["Explore", "Photo", "Limits", "Effects", "Lessons", "Video"]
     assert [tab.state().selected for tab in tabs] == [name == "limits" for name in NAMES]
 
 

@@ -1,0 +1,172 @@
+"""Cameras of this computer: which there are, and the pictures of one of them."""
+
+import platform
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+
+import cv2
+import numpy as np
+
+from occ_gui.video.frame_source import LivePicture
+from occ_model.errors import VideoError, one_line
+
+_DEVICES = Path("/sys/class/video4linux")
+"""Where Linux lists video devices."""
+
+_IS_LINUX = platform.system() == "Linux"
+
+_MOST_PROBED = 4
+"""Cameras that are tried one by one where the system does not list them."""
+
+_WIDTH, _HEIGHT = 1920, 1080
+_MANUAL, _AUTOMATIC = 0.25, 0.75
+_V4L_MANUAL, _V4L_AUTOMATIC = 1.0, 3.0
+"""Modes of exposure as OpenCV's back ends count them; Video4Linux has its own numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class CameraDevice:
+    """A camera.
+
+    Parameters
+    ----------
+    number
+        Its number, as OpenCV counts.
+    name
+        Its name.
+    """
+
+    number: int
+    name: str
+
+
+def find_cameras(devices: Path = _DEVICES) -> tuple[CameraDevice, ...]:
+    """List the cameras; where the system has no list, each of the first is opened for a moment.
+
+    Parameters
+    ----------
+    devices
+        Where Linux lists video devices.
+    """
+    return tuple(_listed(devices) if _IS_LINUX else _probed())
+
+
+def _listed(devices: Path) -> Iterator[CameraDevice]:
+    """List the devices that film: the first of the nodes that each camera has."""
+    for number, folder in sorted(_numbered(devices)):
+        if _text_in(folder / "index") in ("", "0"):
+            yield CameraDevice(number, _text_in(folder / "name") or f"/dev/video{number}")
+
+
+def _numbered(devices: Path) -> Iterator[tuple[int, Path]]:
+    with suppress(OSError):
+        for folder in devices.iterdir():
+            digits = folder.name.removeprefix("video")
+            if digits.isascii() and digits.isdigit():
+                yield int(digits), folder
+
+
+def _text_in(file: Path) -> str:
+    try:
+        return one_line(file.read_text(encoding="utf-8", errors="replace").strip())
+    except OSError:
+        return ""
+
+
+def _probed() -> Iterator[CameraDevice]:
+    with quiet_opencv():
+        for number in range(_MOST_PROBED):
+            capture = cv2.VideoCapture(number)
+            if capture.isOpened():
+                yield CameraDevice(number, f"Camera {number + 1}")
+            capture.release()
+
+
+@contextmanager
+def quiet_opencv() -> Iterator[None]:
+    """Let OpenCV print nothing about devices that are not there."""
+    log = getattr(getattr(cv2, "utils", None), "logging", None)
+    if log is None:
+        yield
+        return
+    before = log.getLogLevel()
+    log.setLogLevel(log.LOG_LEVEL_SILENT)
+    try:
+        yield
+    finally:
+        log.setLogLevel(before)
+
+
+class CameraSource:
+    """The pictures of a camera.
+
+    Parameters
+    ----------
+    device
+        The camera.
+    """
+
+    def __init__(self, device: CameraDevice) -> None:
+        self.title, self.axis = device.name, "lines"
+        self._device = device
+        self._capture: cv2.VideoCapture | None = None
+        self._began = 0.0
+
+    def open(self) -> None:
+        """Open the camera at the size of a full-HD film, or the nearest that it has.
+
+        Raises
+        ------
+        VideoError
+            It is not there, or another program uses it.
+        """
+        self.close()
+        with quiet_opencv():
+            kind = cv2.CAP_V4L2 if _IS_LINUX else cv2.CAP_ANY
+            capture = cv2.VideoCapture(self._device.number, kind)
+            if not capture.isOpened():
+                capture.release()
+                raise VideoError(
+                    f"The camera {self.title} cannot be opened: it is not there any more, it is "
+                    "used by another program, or this program may not use it."
+                )
+            # Uncompressed, few cameras have so large a picture so often.
+            capture.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*"MJPG"))
+            capture.set(cv2.CAP_PROP_FRAME_WIDTH, _WIDTH)
+            capture.set(cv2.CAP_PROP_FRAME_HEIGHT, _HEIGHT)
+            capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
+        self._capture, self._began = capture, monotonic()
+
+    def read(self) -> LivePicture | None:
+        """Wait for the next picture; None where the camera gives none any more."""
+        if self._capture is None:
+            return None
+        is_there, pixels = self._capture.read()
+        if not is_there or pixels is None or pixels.dtype != np.uint8:
+            return None
+        return LivePicture(monotonic() - self._began, np.asarray(pixels, dtype=np.uint8))
+
+    def lock_exposure(self, on: bool) -> bool:
+        """Hold the exposure time of the moment, or let the camera choose it."""
+        capture = self._capture
+        if capture is None:
+            return False
+        is_v4l = capture.getBackendName() == "V4L2"
+        manual = _V4L_MANUAL if is_v4l else _MANUAL
+        automatic = _V4L_AUTOMATIC if is_v4l else _AUTOMATIC
+        before = capture.get(cv2.CAP_PROP_EXPOSURE)
+        wanted = manual if on else automatic
+        if not capture.set(cv2.CAP_PROP_AUTO_EXPOSURE, wanted):
+            return False
+        if on:
+            capture.set(cv2.CAP_PROP_EXPOSURE, before)
+        return abs(capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) - wanted) < 0.01
+
+    def close(self) -> None:
+        """Release the camera for other programs."""
+        if self._capture is not None:
+            self._capture.release()
+            self._capture = None

@@ -1,0 +1,99 @@
+"""Data of a film: the text read so far, rates, clocks, and what is not sure."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QTextCursor
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.video.film_reading import Figure, FilmReading
+from occ_gui.widgets.plain_text import in_tool_tip
+
+_MOST_TEXT = 200_000
+"""Most characters of the text that are kept on the screen: its end."""
+
+_LEAST_HEIGHT = 40
+
+
+class DataView(QWidget):
+    """The text as it comes in, beside the figures of the reading, and its sentences."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.text = QPlainTextEdit()
+        self.text.setReadOnly(True)
+        self.text.setMinimumHeight(_LEAST_HEIGHT)
+        self.text.setAccessibleName(self.tr("What was read"))
+        self.text.setPlaceholderText(self.tr("What is read of the film appears here."))
+        self.text.setTabChangesFocus(True)
+        self.sentences = QLabel()
+        self.sentences.setWordWrap(True)
+        self.sentences.setTextFormat(Qt.TextFormat.PlainText)
+        self.sentences.setAccessibleName(self.tr("What is not sure"))
+        self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self.labels: dict[str, QLabel] = {}
+        """The values of the figures, by what they are."""
+        self._names: dict[str, QLabel] = {}
+        self._grid = QGridLayout()
+        self._grid.setHorizontalSpacing(12)
+        self._grid.setVerticalSpacing(2)
+        self._grid.setRowStretch(100, 1)
+        line = QHBoxLayout()
+        line.setContentsMargins(0, 0, 0, 0)
+        line.setSpacing(12)
+        line.addWidget(self.text, 1)
+        line.addLayout(self._grid)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 6, 6, 4)
+        layout.addLayout(line, 1)
+        layout.addWidget(self.sentences)
+        self.show_reading(FilmReading.nothing())
+
+    def show_reading(self, reading: FilmReading) -> None:
+        """Show this reading in place of the previous one."""
+        self._show_text(reading.text[-_MOST_TEXT:])
+        self._show_figures(reading.figures)
+        self.sentences.setText("\n".join(reading.sentences))
+        self.sentences.setVisible(bool(reading.sentences))
+
+    def _show_text(self, text: str) -> None:
+        shown = self.text.toPlainText()
+        if text == shown:
+            return
+        bar = self.text.verticalScrollBar()
+        follows, place = bar.value() >= bar.maximum(), bar.value()
+        if shown and text.startswith(shown):  # what is selected stays so
+            cursor = QTextCursor(self.text.document())
+            cursor.movePosition(QTextCursor.MoveOperation.End)
+            cursor.insertText(text[len(shown) :])
+        else:
+            self.text.setPlainText(text)
+        bar.setValue(bar.maximum() if follows else place)
+
+    def _show_figures(self, figures: tuple[Figure, ...]) -> None:
+        for figure in figures:
+            if figure.label not in self.labels:
+                self._add(figure.label)
+            self.labels[figure.label].setText(figure.text)
+            for part in (self.labels[figure.label], self._names[figure.label]):
+                part.setToolTip(in_tool_tip(figure.meaning))
+        present = {figure.label for figure in figures}
+        for label, value in self.labels.items():
+            value.setVisible(label in present)
+            self._names[label].setVisible(label in present)
+
+    def _add(self, label: str) -> None:
+        name, value = QLabel(label), QLabel()
+        value.setTextFormat(Qt.TextFormat.PlainText)
+        value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        value.setAccessibleName(label)
+        row = len(self.labels)
+        self._grid.addWidget(name, row, 0)
+        self._grid.addWidget(value, row, 1)
+        self.labels[label], self._names[label] = value, name

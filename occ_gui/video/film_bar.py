@@ -1,0 +1,121 @@
+"""Bar of the film: opens a film, chooses a camera, begins to read, and says what is shown."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QMenu,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.video.camera import CameraDevice
+from occ_gui.video.live_video import AXES
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.plain_text import in_menu
+
+
+class FilmBar(QWidget):
+    """Buttons for the film, and below them what it is."""
+
+    open_asked = Signal()
+    """The user opens a film."""
+
+    close_asked = Signal()
+    """The user closes the film, or stops the camera."""
+
+    cameras_asked = Signal()
+    """The user wants to see which cameras there are."""
+
+    camera_chosen = Signal(object)
+    """The CameraDevice that is to be read."""
+
+    read_asked = Signal()
+    """The user begins to read the film, or stops it."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.open = QPushButton(self.tr("Open fil&m…"))
+        self.open.setToolTip(self.tr("Choose a film of a rolling-shutter camera."))
+        self.open.clicked.connect(self.open_asked)
+        self.camera = QPushButton(self.tr("Camera"))
+        self.camera.setToolTip(self.tr("Read what a camera of this computer sees, live."))
+        self.cameras = QMenu(self.camera)
+        self.camera.setMenu(self.cameras)
+        self.cameras.aboutToShow.connect(self.cameras_asked)
+        self.close_film = QPushButton(self.tr("Close"))
+        self.close_film.clicked.connect(self.close_asked)
+        self.axis = KeyedComboBox(
+            self.tr("What the camera scans"),
+            self.tr("Whether the camera's shutter scans its picture line by line or by columns."),
+            dict(zip(AXES, (self.tr("line by line"), self.tr("column by column")), strict=True)),
+        )
+        self.axis.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.axis.setSizeAdjustPolicy(KeyedComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.lock = QCheckBox(self.tr("Hold exposure"))
+        self.lock.setToolTip(self.tr("Keep the camera's exposure as it is now."))
+        self.read = QPushButton()
+        self.read.clicked.connect(self.read_asked)
+        self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.title.setAccessibleName(self.tr("Film"))
+        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        buttons = QHBoxLayout()
+        buttons.setContentsMargins(0, 0, 0, 0)
+        for part in (self.open, self.camera, self.axis, self.lock, self.close_film):
+            buttons.addWidget(part)
+        buttons.addStretch()
+        buttons.addWidget(self.read)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(buttons)
+        layout.addWidget(self.title)
+        self.show_film("", is_film=False, is_live=False)
+        self.show_reading(False)
+
+    def show_film(self, title: str, *, is_film: bool, is_live: bool) -> None:
+        """Show what is read: a film, a camera's picture, or the simulated film where neither is."""
+        self.title.set_full_text(title)
+        self.close_film.setVisible(is_film or is_live)
+        self.close_film.setText(self.tr("Stop camera") if is_live else self.tr("Close"))
+        self.close_film.setToolTip(
+            self.tr("Release the camera; the last picture stays.")
+            if is_live
+            else self.tr("Close the film, and show the simulated one.")
+        )
+        for part in (self.axis, self.lock):
+            part.setVisible(is_live)
+        self.read.setVisible(not is_live)
+
+    def show_reading(self, reading: bool, done: bool = False) -> None:
+        """Show whether the film is being read, or has been."""
+        self.read.setText(
+            self.tr("Stop reading")
+            if reading
+            else self.tr("Read again")
+            if done
+            else self.tr("Read the film")
+        )
+        self.read.setToolTip(
+            self.tr("Leave it at what has been read.")
+            if reading
+            else self.tr("Find the packets in all frames, and measure the camera's clock.")
+        )
+
+    def list_cameras(self, devices: Sequence[CameraDevice] | None) -> None:
+        """Offer these cameras; None while they are looked for."""
+        self.cameras.clear()
+        for device in devices or ():
+            action = self.cameras.addAction(in_menu(device.name))
+            action.triggered.connect(lambda _=False, device=device: self._choose(device))
+        if not devices:
+            words = self.tr("No camera was found") if devices is not None else self.tr("Looking…")
+            self.cameras.addAction(words).setEnabled(False)
+
+    def _choose(self, device: CameraDevice) -> None:
+        self.camera_chosen.emit(device)

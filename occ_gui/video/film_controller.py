@@ -1,0 +1,170 @@
+"""Controller of the film: opens it, and shows one of its frames beside the simulated one."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+import occ_model as occ
+from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.latest_wins import LatestWins
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
+from occ_gui.video.player import FilmPlayer
+from occ_gui.video.recording_form import RecordingForm
+from occ_model.results.video import Video, VideoFrame
+
+_DRAFT_STEP = 8
+"""A draft of the simulated frame shows one of so many rows, while a film plays."""
+
+
+def _open(path: Path, report: Report) -> Video:
+    report(0.0)
+    return occ.load_video(path)
+
+
+class FilmController(QObject):
+    """The film that is open, the frame that is shown of it, and the simulated film beside it.
+
+    Parameters
+    ----------
+    scenes
+        The scene that is simulated.
+    form
+        How it is recorded.
+    """
+
+    opened = Signal(object)
+    """The Video that is open now, None where there is only the simulated one."""
+
+    failed = Signal(str)
+    """Why a film cannot be opened; what was open stays."""
+
+    frame_shown = Signal(object)
+    """The ShownFrame that is shown from now on."""
+
+    frame_failed = Signal(str)
+    """Why a frame cannot be shown; the last one stays."""
+
+    def __init__(self, scenes: SceneStore, form: RecordingForm) -> None:
+        super().__init__()
+        self._scenes, self._form = scenes, form
+        self.film: Video | None = None
+        """The film that is open; None where there is only the simulated one."""
+        self.is_live = False
+        """Whether the film is a camera's, which keeps no frames."""
+        self.last_live: VideoFrame | None = None
+        """The last frame of a camera, which stays when the camera is gone."""
+        self._is_seen = False
+        self.player = FilmPlayer(self)
+        self.player.wanted.connect(self.show)
+        self.opener: Cancellable[Path, Video] = Cancellable(_open, "opening of the film")
+        self.opener.finished.connect(self.put)
+        self.opener.failed.connect(self.failed)
+        self.loader: LatestWins[FrameRequest, ShownFrame] = LatestWins(
+            shown_frame, "reading of a frame"
+        )
+        self.loader.finished.connect(self.frame_shown)
+        self.loader.failed.connect(self.frame_failed)
+        # The last one to be sent: at rest, the exact picture follows the draft.
+        self.player.playing_changed.connect(self._on_playing)
+        for store in (scenes, scenes.settings):
+            store.changed.connect(self._on_scene)
+        form.changed.connect(self._on_recording)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether the film is open and its frame shown."""
+        return not self.opener.is_running and self.loader.is_idle
+
+    @property
+    def count(self) -> int:
+        """How many frames there are, 0 where it is not known."""
+        if self.film is None:
+            return self._form.frames
+        return self.film.frame_count or 0
+
+    @property
+    def rate(self) -> float | None:
+        """Frames a second."""
+        return self._form.recording.frame_rate if self.film is None else self.film.frame_rate
+
+    def simulated(self) -> Video:
+        """Return the simulated film of the present scene.
+
+        Raises
+        ------
+        OccError
+            The scene cannot be recorded so.
+        """
+        return occ.render_video(
+            self._scenes.scene, self._form.frames, self._form.recording,
+            settings=self._scenes.settings.settings,
+        )  # fmt: skip
+
+    def set_seen(self, seen: bool) -> None:
+        """Simulate and read frames while the pane is visible."""
+        self._is_seen = seen
+        if seen:
+            self.show()
+        else:
+            self.player.pause()
+
+    def open(self, path: Path) -> None:
+        """Open a film; what is open stays until it can be shown."""
+        self.opener.start(path)
+
+    def put(self, film: Video | None, is_live: bool = False) -> None:
+        """Show this film from its first frame, or only the simulated one."""
+        self.opener.cancel()
+        self.film, self.is_live, self.last_live = film, is_live, None
+        self.player.set_film(0 if is_live else self.count, self.rate)
+        self.opened.emit(film)
+        self.show()
+
+    def close(self) -> None:
+        """Close the film: the simulated one stays."""
+        self.put(None)
+
+    def show_live(self, frame: VideoFrame) -> None:
+        """Show a frame of a camera."""
+        self.last_live = frame
+        if self.loader.is_idle:  # else the next one is shown
+            self.show()
+
+    def show(self) -> None:
+        """Show the frame that the player has come to, once the pane is seen."""
+        if not self._is_seen or (self.is_live and self.last_live is None):
+            return
+        is_fast = self.player.is_playing or self.is_live
+        self.loader.submit(
+            FrameRequest(
+                film=self.film,
+                live=self.last_live,
+                index=0 if self.is_live else self.player.index,
+                scene=self._scenes.scene,
+                settings=self._scenes.settings.settings,
+                recording=self._form.recording,
+                frames=self._form.frames,
+                draft_step=_DRAFT_STEP if is_fast else 1,
+            )
+        )
+
+    def _on_playing(self, playing: bool) -> None:
+        if not playing:
+            self.show()
+
+    def _on_scene(self) -> None:
+        self.show()
+
+    def _on_recording(self) -> None:
+        if self.film is None:
+            index = self.player.index
+            self.player.set_film(self.count, self.rate)
+            self.player.index = min(index, self.count - 1)
+        self.show()
+
+    def stop(self) -> None:
+        """Stop all work; nothing is shown any more."""
+        self.player.pause()
+        self.opener.stop()
+        self.loader.stop()

@@ -1,0 +1,103 @@
+"""Pictures of the frame that is shown: of the film, and as it is simulated, side by side."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
+
+from occ_gui.picture.picture_pane import PicturePane
+from occ_model.arrays import ByteArray
+from occ_model.results import Region
+
+_LEAST = QSize(140, 90)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ShownPicture:
+    """A picture of a frame, ready to be drawn.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (rows, columns)
+        The picture.
+    halves
+        The same at a half of its size, a quarter and so on.
+    region
+        What was read of it, None where nothing was found.
+    caption
+        What it shows, and of which time.
+    rows_step
+        Height of a row: more than 1 in a draft.
+    """
+
+    image: ByteArray
+    halves: tuple[ByteArray, ...]
+    region: Region | None
+    caption: str
+    rows_step: int = 1
+
+
+class _Side(QStackedWidget):
+    """A picture with its caption, or a sentence in its place."""
+
+    def __init__(self, name: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.pane = PicturePane(name)
+        self.instead = QLabel()
+        self.instead.setWordWrap(True)
+        self.instead.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.instead.setTextFormat(Qt.TextFormat.PlainText)
+        self.instead.setMargin(12)
+        self.instead.setAccessibleName(name)
+        self.addWidget(self.instead)
+        self.addWidget(self.pane)
+        self.setMinimumSize(_LEAST)
+
+    def show_picture(self, picture: ShownPicture | None, instead: str) -> None:
+        if picture is None:
+            self.instead.setText(instead)
+            self.setCurrentWidget(self.instead)
+            return
+        self.pane.caption.set_full_text(picture.caption)
+        self.pane.show_picture(picture.image, picture.halves, picture.rows_step)
+        self.pane.show_region(picture.region)
+        self.setCurrentWidget(self.pane)
+
+    @property
+    def is_shown(self) -> bool:
+        return self.currentWidget() is self.pane
+
+
+class FilmPictures(QWidget):
+    """The film's picture at the left, the simulated one at the right."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._film = _Side(self.tr("Film"))
+        self._simulated = _Side(self.tr("Simulated film"))
+        self.film, self.simulated = self._film.pane, self._simulated.pane
+        self.split = QSplitter(Qt.Orientation.Horizontal)
+        self.split.setChildrenCollapsible(False)
+        for side in (self._film, self._simulated):
+            self.split.addWidget(side)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.split)
+
+    def show_film(self, picture: ShownPicture | None, instead: str = "") -> None:
+        """Show a frame of the film, or a sentence in its place."""
+        self._film.show_picture(picture, instead)
+
+    def show_simulated(self, picture: ShownPicture | None, instead: str = "") -> None:
+        """Show the simulated frame, or a sentence in its place."""
+        self._simulated.show_picture(picture, instead)
+
+    @property
+    def shown(self) -> tuple[bool, bool]:
+        """Whether there is a picture of the film, and a simulated one."""
+        return self._film.is_shown, self._simulated.is_shown
+
+    def fit(self) -> None:
+        """Show the whole pictures."""
+        self.film.fit()
+        self.simulated.fit()

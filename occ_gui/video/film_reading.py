@@ -1,0 +1,60 @@
+"""Reading of a film, ready to be shown: marks of the timeline, text, figures and sentences."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from occ_gui.video.marks import Marks
+from occ_model.arrays import ByteArray, FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A figure of a reading.
+
+    Parameters
+    ----------
+    label
+        What it is.
+    text
+        Its value with unit and error.
+    meaning
+        What it means, in a sentence.
+    """
+
+    label: str
+    text: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FilmReading:
+    """What has been read of a film so far.
+
+    Parameters
+    ----------
+    times : ndarray of float64, shape (frames,)
+        When the frames that were looked at began, in seconds.
+    states : ndarray of uint8, shape (frames,)
+        A :class:`~occ_gui.video.marks.MarkState` each.
+    packets
+        The packets.
+    text
+        What was sent, as far as it was read.
+    figures
+        Rates, and what was measured of the clocks.
+    sentences
+        What is not sure, and why.
+    """
+
+    times: FloatArray
+    states: ByteArray
+    packets: Marks = field(default_factory=Marks)
+    text: str = ""
+    figures: tuple[Figure, ...] = ()
+    sentences: tuple[str, ...] = ()
+
+    @classmethod
+    def nothing(cls) -> "FilmReading":
+        """Return what has been read before the first frame."""
+        return cls(np.zeros(0, dtype=np.float64), np.zeros(0, dtype=np.uint8))

@@ -1,0 +1,213 @@
+"""Jobs of one frame: take it from the film, simulate it, read it, and make its pictures."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import occ_model as occ
+from occ_gui.simulation.preview import Picture, halved
+from occ_gui.simulation.snapshot import Reading, SimulationRequest
+from occ_gui.video.film_pictures import ShownPicture
+from occ_gui.video.frame_rows import FrameStory
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.errors import OccError
+from occ_model.receiver.signal import column_means
+from occ_model.results import DecodeResult, Frame, Plan, Region
+from occ_model.results.video import Video, VideoFrame
+from occ_model.scene.recording import Recording
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+_NO_PLAN = Plan(0.0, "image", (), 0.0, 1.0)
+_SMALLEST = 256
+"""Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
+
+_SMALL = 1_000_000
+"""Pixels of a picture up to which it is simulated as soon as a draft."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FrameRequest:
+    """A frame that is to be shown.
+
+    Parameters
+    ----------
+    film
+        The film, None where there is only the simulated one.
+    live
+        The frame of a live film, which keeps none.
+    index
+        The frame's number.
+    scene, settings
+        The scene and the settings of its simulation.
+    recording, frames
+        How the simulated film is recorded, and how many frames it has.
+    draft_step
+        A draft of the simulated frame shows one of so many rows; 1 for the exact picture.
+    """
+
+    film: Video | None
+    live: VideoFrame | None
+    index: int
+    scene: Scene
+    settings: SimulationSettings
+    recording: Recording
+    frames: int
+    draft_step: int = 1
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ShownFrame:
+    """A frame of the film beside the simulated one.
+
+    Parameters
+    ----------
+    request
+        What was asked for.
+    time
+        When the frame began, in seconds; None where there is none.
+    film, simulated
+        The pictures; None where there is none.
+    instead
+        Why there is no simulated picture; empty where there is one.
+    story
+        What the rows show of the film's frame, or of the simulated one where there is no film.
+    """
+
+    request: FrameRequest
+    time: float | None
+    film: ShownPicture | None
+    simulated: ShownPicture | None
+    instead: str
+    story: FrameStory | None
+
+
+def shown_frame(request: FrameRequest) -> ShownFrame:
+    """Take a frame from its film, simulate the one of the same number, and read both.
+
+    Raises
+    ------
+    OccError
+        The film has no such frame, or cannot be read any more.
+    """
+    film, title, frame = None, "", request.live
+    if frame is None and request.film is not None:
+        frame = request.film.frame(request.index)
+    story = None
+    if frame is not None:
+        title = "" if request.film is None else request.film.title
+        story = _story(frame, request.scene, None, title)
+        film = _shown(frame.image, story, f"{title}: {_at(frame)}")
+    simulated, instead, own = None, "", None
+    try:
+        own = _simulated(request)
+    except OccError as error:
+        instead = str(error)
+    if own is not None and own.scene is not None:
+        step = len(range(0, request.scene.camera.rows, request.draft_step))
+        is_draft = step != request.scene.camera.rows
+        seen = _story(own, own.scene, request, "Simulated")
+        simulated = _shown(own.image, seen, f"Simulated{' (draft)' * is_draft}: {_at(own)}")
+        story = story or seen
+    time = frame.time if frame is not None else None if own is None else own.time
+    return ShownFrame(request, time, film, simulated, instead, story)
+
+
+def _at(frame: VideoFrame) -> str:
+    return f"frame {frame.index + 1}, {frame.time:.4f} s"
+
+
+def _simulated(request: FrameRequest) -> VideoFrame:
+    """Simulate the frame of the film's number."""
+    camera = request.scene.camera
+    step = request.draft_step if camera.rows * camera.columns > _SMALL else 1
+    video = occ.render_video(
+        request.scene, None, request.recording, settings=request.settings,
+        rows_step=min(step, camera.rows),
+    )  # fmt: skip
+    return video.frame(request.index)
+
+
+def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
+    halves, pixels = [], image
+    while min(pixels.shape) >= 2 * _SMALLEST:
+        pixels = halved(pixels)
+        halves.append(pixels)
+    step = story.picture.frame.rows_step
+    region = story.reading.decoded.region
+    return ShownPicture(image, tuple(halves), region, caption, step)
+
+
+def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose: str) -> FrameStory:
+    """Read one frame by itself.
+
+    Parameters
+    ----------
+    frame, scene
+        The frame, and what is known of it; of a simulated one the very scene that it shows.
+    request
+        What was asked for where it is simulated, else None.
+    whose
+        Whose frame it is.
+    """
+    image = frame.image
+    step = 1
+    if request is not None and image.shape[0] != scene.camera.rows:
+        step = request.draft_step
+    decoded = occ.decode(image, scene)
+    region = decoded.region or Region(0, image.shape[0], 0, image.shape[1])
+    profile = column_means(image, Region(region.first_row, region.last_row, 0, image.shape[1]))
+    shown = _with_size(scene, image, step)
+    decoded = _in_whole_picture(decoded, step, shown.camera.rows)
+    region = decoded.region or Region(0, shown.camera.rows, 0, image.shape[1])
+    corners = _corners(region)
+    drawn = Frame(
+        scene=shown, plan=_NO_PLAN, image=image, rows=range(0, shown.camera.rows, step),
+        profile=profile, signal=profile, corners=corners, timings={},
+        make_camera_image=lambda: image,
+    )  # fmt: skip
+    asked = SimulationRequest(shown, SimulationSettings())
+    transmitter = scene.transmitter
+    chip_columns = transmitter.switching_period / scene.camera.readout_time
+    is_known = request is not None and not transmitter.pattern
+    reading = Reading(
+        request=asked, source="picture", plan=_NO_PLAN, profile=profile, signal=profile,
+        corners=corners, decoded=decoded, others=(),
+        sent=transmitter.payload_bits if is_known else (),
+        packet_columns=chip_columns * len(occ.packet(scene)),
+        band=None, enhanced_band=None, band_undefined="",
+    )  # fmt: skip
+    title = f"{whose}, frame {frame.index + 1}, by itself: {_in_words(decoded)}"
+    return FrameStory(Picture(drawn, "camera", ()), reading, request is not None, title)
+
+
+def _in_words(decoded: DecodeResult) -> str:
+    """Say what was read of a frame by itself."""
+    if decoded.failure is not None:
+        return decoded.failure
+    return f"{decoded.payload or f'code {decoded.code}'} read."
+
+
+def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
+    """Give the scene the size of the picture, where that is one that a scene can have."""
+    rows, columns = image.shape
+    rows = scene.camera.rows if step > 1 else rows
+    if (rows, columns) == (scene.camera.rows, scene.camera.columns):
+        return scene
+    return scene.replace(rows=rows, columns=columns)
+
+
+def _in_whole_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResult:
+    """Give the region of a draft in the rows of the whole picture."""
+    region = decoded.region
+    if region is None or step == 1:
+        return decoded
+    last = min(region.last_row * step, rows)
+    region = replace(region, first_row=region.first_row * step, last_row=last)
+    return replace(decoded, region=region)
+
+
+def _corners(region: Region) -> FloatArray:
+    left, right = region.first_column - 0.5, region.last_column - 0.5
+    top, bottom = region.first_row - 0.5, region.last_row - 0.5
+    return np.array([[left, top], [right, top], [right, bottom], [left, bottom]])

@@ -1,0 +1,147 @@
+"""Controller of the live camera: films, has each picture read, and releases the device."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
+
+from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.video.camera import CameraDevice, CameraSource, find_cameras
+from occ_gui.video.film_controller import FilmController
+from occ_gui.video.frame_source import FrameSource
+from occ_gui.video.live_video import LiveVideo
+from occ_gui.video.reading_controller import ReadingController
+from occ_model.scene.scene import Scene
+
+_TURN_MS = 30
+"""Milliseconds between two pictures on the screen."""
+
+
+def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
+    report(None)
+    return find_cameras()
+
+
+class LiveController(QObject):
+    """A camera that is read while it films.
+
+    Parameters
+    ----------
+    films
+        Shows the pictures.
+    readings
+        Reads them.
+    scene
+        Returns the scene that they are read for.
+    """
+
+    devices_found = Signal(object)
+    """The cameras that there are."""
+
+    ended = Signal(str)
+    """Why the camera gives no more pictures; empty where it was stopped."""
+
+    exposure_refused = Signal(str)
+    """Why the exposure is not held."""
+
+    _answered = Signal(bool, bool)
+
+    def __init__(
+        self,
+        films: FilmController,
+        readings: ReadingController,
+        scene: Callable[[], Scene],
+    ) -> None:
+        super().__init__()
+        self._films, self._readings, self._scene = films, readings, scene
+        self.video: LiveVideo | None = None
+        """The film of the camera that is filming."""
+        self.finder: Cancellable[None, tuple[CameraDevice, ...]] = Cancellable(
+            _find, "search for cameras"
+        )
+        self.finder.finished.connect(self.devices_found)
+        self.finder.failed.connect(self.ended)
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
+        self._turns.timeout.connect(self._show)
+        self._answered.connect(self._on_answer, Qt.ConnectionType.QueuedConnection)
+        self._shown = -1
+
+    @property
+    def is_filming(self) -> bool:
+        """Whether a camera films."""
+        return self.video is not None
+
+    def find(self) -> None:
+        """Look for cameras."""
+        if not self.finder.is_running:
+            self.finder.start(None)
+
+    def start_camera(self, device: CameraDevice) -> None:
+        """Read what a camera sees."""
+        self.start(CameraSource(device))
+
+    def start(self, source: FrameSource, axis: str = "") -> None:
+        """Read what a source gives, in place of the film that is open.
+
+        Parameters
+        ----------
+        source
+            A camera, or a film in its place.
+        axis
+            What of its pictures the shutter scans; by default what the source says.
+        """
+        self.stop_filming()
+        self.video = LiveVideo(source, axis or source.axis)
+        self._shown = -1
+        self._films.put(self.video, is_live=True)
+        self.video.start()
+        self.read()
+        self._turns.start()
+
+    def scan_along(self, axis: str) -> None:
+        """Set what the shutter scans: the camera is opened again."""
+        if self.video is not None:
+            self.start(self.video.source, axis)
+
+    def read(self) -> None:
+        """Read from now on for the present scene."""
+        if self.video is not None:
+            self._readings.start(self.video, self._scene(), is_live=True)
+
+    def lock_exposure(self, on: bool) -> None:
+        """Hold the camera's exposure, or let it go."""
+        if self.video is not None:
+            self.video.lock_exposure(on, lambda done: self._answered.emit(on, done))
+
+    def stop_filming(self) -> None:
+        """Release the camera; its last picture stays."""
+        self._turns.stop()
+        video, self.video = self.video, None
+        if video is not None:
+            self._readings.cancel()
+            video.stop()
+
+    def _show(self) -> None:
+        video = self.video
+        if video is None:
+            return
+        if video.last is not None and video.last.index != self._shown:
+            self._shown = video.last.index
+            self._films.show_live(video.last)
+        if video.has_ended:
+            problem = video.problem or ""
+            self.stop_filming()
+            self.ended.emit(problem)
+
+    def _on_answer(self, on: bool, done: bool) -> None:
+        if not done:
+            self.exposure_refused.emit(
+                self.tr("This camera does not let its exposure be held.")
+                if on
+                else self.tr("This camera does not let its exposure go.")
+            )
+
+    def stop(self) -> None:
+        """Release the camera and stop all work."""
+        self.stop_filming()
+        self.finder.stop()

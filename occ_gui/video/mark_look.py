@@ -1,0 +1,84 @@
+"""Look of a mark: colour, pattern and height together say whether it was read."""
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.video.marks import MarkState
+from occ_gui.widgets.legend import Drawing, LineLegend
+from occ_gui.widgets.state_look import State, colours_of
+
+HEIGHTS = {
+    MarkState.PENDING: 1.0,
+    MarkState.READ: 1.0,
+    MarkState.UNCHECKED: 0.65,
+    MarkState.LOST: 0.35,
+}
+"""Height of a mark in parts of its row: it tells the states apart where patterns are too fine."""
+
+_STATES = {
+    MarkState.PENDING: State.NEUTRAL,
+    MarkState.READ: State.GOOD,
+    MarkState.UNCHECKED: State.DOUBTFUL,
+    MarkState.LOST: State.BAD,
+}
+_PATTERNS = {
+    MarkState.READ: Qt.BrushStyle.SolidPattern,
+    MarkState.UNCHECKED: Qt.BrushStyle.Dense5Pattern,
+    MarkState.LOST: Qt.BrushStyle.BDiagPattern,
+}
+_SAMPLE = QSize(16, 14)
+_LEAST_OUTLINE = 4.0
+"""Least width in pixels of a mark that is drawn with an outline."""
+
+
+def ink_of(state: MarkState, palette: QPalette) -> QColor:
+    """Return the colour of a state's marks."""
+    return colours_of(_STATES[state], palette).ink
+
+
+def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPalette) -> None:
+    """Draw a mark at the bottom of its place, as high as its state says."""
+    height = place.height() * HEIGHTS[state]
+    bar = QRectF(place.left(), place.bottom() - height, place.width(), height)
+    ink = ink_of(state, palette)
+    if state is MarkState.PENDING:
+        line = QColor(ink)
+        line.setAlpha(110)
+        painter.setPen(QPen(line, 1))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+    else:
+        is_wide = bar.width() >= _LEAST_OUTLINE
+        painter.setPen(QPen(ink, 1) if is_wide else Qt.PenStyle.NoPen)
+        painter.setBrush(QBrush(ink, _PATTERNS[state] if is_wide else Qt.BrushStyle.SolidPattern))
+    if bar.width() >= _LEAST_OUTLINE:
+        bar.adjust(0.5, 0.5, -0.5, -0.5)
+    painter.drawRect(bar)
+
+
+class MarkLegend(LineLegend):
+    """Samples of the marks with their names."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Legend of the timeline"))
+        texts = {
+            MarkState.READ: (
+                self.tr("read"), self.tr("Read, and right by its check or by what was sent."),
+            ),
+            MarkState.UNCHECKED: (
+                self.tr("not checked"), self.tr("Read; nothing says whether it is right."),
+            ),
+            MarkState.LOST: (self.tr("lost"), self.tr("Not read, or read wrong.")),
+            MarkState.PENDING: (self.tr("to come"), self.tr("Not looked at yet.")),
+        }  # fmt: skip
+        for state, (text, meaning) in texts.items():
+            self.add_sample(state.name, _sample_of(state), _SAMPLE, text, meaning)
+
+
+def _sample_of(state: MarkState) -> Drawing:
+    def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        draw_mark(painter, place, state, palette)
+
+    return draw

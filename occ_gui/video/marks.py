@@ -1,0 +1,87 @@
+"""Marks of a timeline: from when to when something lasts, and whether it was read."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+
+
+class MarkState(IntEnum):
+    """Whether a frame or a packet was read."""
+
+    PENDING = 0
+    """Not looked at yet."""
+    READ = 1
+    """Read, and right by its check or by what was sent."""
+    UNCHECKED = 2
+    """Read, and nothing says whether it is right."""
+    LOST = 3
+    """Not read, or read wrong."""
+
+
+def _no_times() -> FloatArray:
+    return np.zeros(0, dtype=np.float64)
+
+
+def _no_states() -> ByteArray:
+    return np.zeros(0, dtype=np.uint8)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Marks:
+    """Marks in order of time.
+
+    Parameters
+    ----------
+    starts, ends : ndarray of float64, shape (marks,)
+        When each begins and ends, in seconds.
+    states : ndarray of uint8, shape (marks,)
+        A :class:`MarkState` each.
+    """
+
+    starts: FloatArray = field(default_factory=_no_times)
+    ends: FloatArray = field(default_factory=_no_times)
+    states: ByteArray = field(default_factory=_no_states)
+
+    def __len__(self) -> int:
+        """Return the number of marks."""
+        return len(self.starts)
+
+    def counted(self, edges: FloatArray) -> IndexArray:
+        """Count the marks that begin between each pair of edges.
+
+        Parameters
+        ----------
+        edges : ndarray of float64, shape (bins + 1,)
+            Rising times; the last one belongs to the last bin.
+
+        Returns
+        -------
+        ndarray of int64, shape (bins, 4)
+            The marks of each state.
+        """
+        counts = [
+            np.histogram(self.starts[self.states == state], bins=edges)[0] for state in MarkState
+        ]
+        return np.stack(counts, axis=1).astype(np.int64)
+
+
+def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: float) -> Marks:
+    """Return a mark for each frame, which lasts until the next one begins.
+
+    Parameters
+    ----------
+    times
+        When each frame begins, rising, in seconds.
+    states : ndarray of uint8, shape (frames,)
+        Whether each was read.
+    last
+        How long the last one lasts, in seconds.
+    """
+    starts = np.asarray(times, dtype=np.float64)
+    if not len(starts):
+        return Marks()
+    return Marks(starts, np.append(starts[1:], starts[-1] + last), states)

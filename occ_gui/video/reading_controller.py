@@ -1,0 +1,83 @@
+"""Controller of the reading: reads the film in the background, and knows when that is outdated."""
+
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.background.cancellable import Cancellable
+from occ_gui.video.film_reading import FilmReading
+from occ_gui.video.reading_jobs import ReadingRequest, read_film
+from occ_model.results.video import Video
+from occ_model.scene.scene import Scene
+
+
+class ReadingController(QObject):
+    """The reading of one film at a time, which grows while the film is read."""
+
+    changed = Signal()
+    """More has been read, the reading has ended, or it is of another film."""
+
+    failed = Signal(str)
+    """Why a film cannot be read on; what was read of it stays."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.reading = FilmReading.nothing()
+        """What has been read so far."""
+        self._request: ReadingRequest | None = None
+        self._is_done = False
+        self.runner: Cancellable[ReadingRequest, FilmReading] = Cancellable(
+            read_film, "reading of the film"
+        )
+        self.runner.reported.connect(self._on_report)
+        self.runner.finished.connect(self._on_end)
+        self.runner.failed.connect(self._on_failure)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether the film is being read."""
+        return self.runner.is_running
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the film has been read to its end."""
+        return self._is_done
+
+    @property
+    def scene(self) -> Scene | None:
+        """The scene that it was read for; None where nothing was read."""
+        return None if self._request is None else self._request.scene
+
+    def start(self, film: Video, scene: Scene, is_live: bool = False) -> None:
+        """Read a film for a scene, from its first frame."""
+        self._request, self._is_done = ReadingRequest(film, scene, is_live), False
+        self.reading = FilmReading.nothing()
+        self.runner.start(self._request)
+        self.changed.emit()
+
+    def cancel(self) -> None:
+        """Leave it at what has been read."""
+        if self.runner.is_running:
+            self.runner.cancel()
+            self.changed.emit()
+
+    def forget(self) -> None:
+        """Forget what was read: another film is open."""
+        self.runner.cancel()
+        self._request, self._is_done = None, False
+        self.reading = FilmReading.nothing()
+        self.changed.emit()
+
+    def _on_report(self, reading: FilmReading) -> None:
+        self.reading = reading
+        self.changed.emit()
+
+    def _on_end(self, reading: FilmReading) -> None:
+        self.reading, self._is_done = reading, True
+        self.changed.emit()
+
+    def _on_failure(self, sentence: str) -> None:
+        self.failed.emit(sentence)
+        self.changed.emit()
+
+    def stop(self) -> None:
+        """Stop reading."""
+        self.runner.stop()

@@ -1,0 +1,105 @@
+"""Form of the recording: how the film of the scene is simulated."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QWidget
+
+from occ_gui.scene.count_edit import CountEdit
+from occ_gui.scene.parameter_rows import explain
+from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_model.errors import OccError
+from occ_model.scene.parameter_kinds import Count
+from occ_model.scene.recording import DECLARED, Recording
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+
+FRAMES = Count(
+    "frames", "Frames", "", "How many frames the simulated film has.",
+    low=2, high=100_000, default=60,
+)  # fmt: skip
+
+
+class RecordingForm(QWidget):
+    """Fields of the frame rate, the jitter, the clocks and the length of the simulated film."""
+
+    changed = Signal()
+    """The user has entered another value."""
+
+    refused = Signal(str)
+    """Why a value that was entered is refused."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._recording = Recording()
+        self.count = CountEdit(FRAMES)
+        self.count.setValue(FRAMES.default)
+        self.count.setAccessibleName(FRAMES.label)
+        self.count.setToolTip(FRAMES.meaning)
+        keep_wheel_for_scrolling(self.count)
+        self.count.valueChanged.connect(lambda _: self.changed.emit())
+        self.count.refused.connect(self.refused)
+        self.fields: dict[str, QuantityEdit] = {}
+        form = QFormLayout(self)
+        form.setContentsMargins(6, 6, 6, 6)
+        form.setVerticalSpacing(4)
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.FieldsStayAtSizeHint)
+        form.addRow(FRAMES.label, self.count)
+        for declared in DECLARED:
+            field = self.fields[declared.name] = QuantityEdit(declared)
+            field.setAccessibleName(declared.label)
+            field.setToolTip(explain(declared))
+            keep_wheel_for_scrolling(field)
+            field.edited.connect(lambda value, name=declared.name: self._take(name, value))
+            field.refused.connect(self.refused)
+            form.addRow(declared.label, field)
+        self.gap = QLabel()
+        self.gap.setWordWrap(True)
+        self.gap.setTextFormat(Qt.TextFormat.PlainText)
+        self.gap.setAccessibleName(self.tr("Gap between two frames"))
+        self.gap.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        form.addRow(self.gap)
+        self.show_recording(self._recording)
+
+    @property
+    def recording(self) -> Recording:
+        """The recording that the fields show."""
+        return self._recording
+
+    @property
+    def frames(self) -> int:
+        """How many frames the simulated film has."""
+        return self.count.value()
+
+    def show_recording(self, recording: Recording) -> None:
+        """Show this recording in place of the previous one, without a signal."""
+        self._recording = recording
+        for name, field in self.fields.items():
+            field.set_value(getattr(recording, name))
+
+    def show_frames(self, frames: int) -> None:
+        """Show how many frames the film has, without a signal."""
+        self.count.blockSignals(True)
+        self.count.setValue(frames)
+        self.count.blockSignals(False)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show what a film of this scene misses between two frames, or why there is none."""
+        try:
+            self._recording.check(scene)
+        except OccError as error:
+            self.gap.setText(str(error))
+            return
+        gap, share = self._recording.gap(scene), 100.0 * self._recording.gap_ratio(scene)
+        self.gap.setText(
+            self.tr("Between two frames no column is read for {gap}, {share:.1f} % of a frame.")
+            .format(gap=SECOND.format(gap, 4), share=share)
+        )  # fmt: skip
+
+    def _take(self, name: str, value: float) -> None:
+        try:
+            self._recording = self._recording.replace(**{name: value})
+        except OccError as error:
+            self.show_recording(self._recording)
+            self.refused.emit(str(error))
+            return
+        self.changed.emit()

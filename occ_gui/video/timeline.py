@@ -1,0 +1,279 @@
+"""Timeline of a film: its frames and packets, read or lost, and the frame that is shown."""
+
+import numpy as np
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QPen,
+    QPixmap,
+    QPolygonF,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from occ_gui.video.mark_look import draw_mark, ink_of
+from occ_gui.video.marks import Marks, MarkState
+from occ_gui.video.timeline_scale import TimelineScale, tick_step
+from occ_gui.widgets.guarded_paint import guarded
+
+_GUTTER, _MARGIN = 64, 10
+_FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
+_LEAST_MARK = 3.0
+"""Fewest pixels of a mark that is drawn by itself; narrower ones are counted in bins."""
+
+_STEPS = {
+    Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1,
+    Qt.Key.Key_PageUp: -10, Qt.Key.Key_PageDown: 10,
+}  # fmt: skip
+
+
+class Timeline(QWidget):
+    """Frames and packets over time; a click, a drag or a key shows another frame."""
+
+    sought = Signal(int)
+    """The frame that the user wants to see."""
+
+    play_asked = Signal()
+    """The user starts or stops the film by the space bar."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.frames, self.packets = Marks(), Marks()
+        self.index = 0
+        """The frame that is shown."""
+        self._scale = TimelineScale()
+        self._drawn: QPixmap | None = None
+        self.setAccessibleName(self.tr("Timeline"))
+        self.setToolTip(
+            self.tr(
+                "Frames and packets over time. Click or drag to see a frame; Left and Right step "
+                "by one, Page up and Page down by ten, Home and End go to the ends, Space plays."
+            )
+        )
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self._describe()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the height of both rows and the times."""
+        return QSize(400, _FRAMES + _PACKETS + _TICKS + 3 * _GAP)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a width that fits any pane."""
+        return QSize(200, self.sizeHint().height())
+
+    def show_frames(self, frames: Marks) -> None:
+        """Show these frames in place of the previous ones."""
+        self.frames = frames
+        self._scale = TimelineScale.of(frames)
+        self.index = min(self.index, max(len(frames) - 1, 0))
+        self._redraw()
+
+    def show_packets(self, packets: Marks) -> None:
+        """Show these packets in place of the previous ones."""
+        self.packets = packets
+        self._redraw()
+
+    def show_index(self, index: int) -> None:
+        """Mark the frame that is shown."""
+        if index != self.index:
+            self.index = index
+            self._describe()
+            self.update()
+
+    def _redraw(self) -> None:
+        self._drawn = None
+        self._describe()
+        self.update()
+
+    def _describe(self) -> None:
+        """Say in words what is shown."""
+        count = len(self.frames)
+        if not 0 <= self.index < count:
+            self.setAccessibleDescription(self.tr("no film"))
+            return
+        words = {
+            MarkState.PENDING: self.tr("not looked at yet"),
+            MarkState.READ: self.tr("read"),
+            MarkState.UNCHECKED: self.tr("read, not checked"),
+            MarkState.LOST: self.tr("lost"),
+        }
+        self.setAccessibleDescription(
+            self.tr("frame {number} of {count}, {time:.3f} s, {state}").format(
+                number=self.index + 1,
+                count=count,
+                time=float(self.frames.starts[self.index]),
+                state=words[MarkState(int(self.frames.states[self.index]))],
+            )
+        )
+
+    # Where things are.
+
+    def _area(self) -> QRectF:
+        width = max(1.0, self.width() - _GUTTER - _MARGIN)
+        return QRectF(_GUTTER, _GAP, width, _FRAMES + _GAP + _PACKETS)
+
+    def x_of(self, time: float) -> float:
+        """Return where a time lies, in pixels from the left."""
+        area = self._area()
+        return area.left() + self._scale.share(time) * area.width()
+
+    def frame_at(self, x: float) -> int:
+        """Return the frame at a pixel, the first or last one beside the film."""
+        area = self._area()
+        time = self._scale.time((x - area.left()) / area.width())
+        place = int(np.searchsorted(self.frames.starts, time, side="right")) - 1
+        return min(max(place, 0), max(len(self.frames) - 1, 0))
+
+    # Drawing.
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the kept marks, and the present frame over them."""
+        ratio = self.devicePixelRatioF()
+        if self._drawn is None or self._drawn.devicePixelRatioF() != ratio:
+            self._drawn = self._picture(ratio)
+        painter = QPainter(self)
+        painter.drawPixmap(QPoint(0, 0), self._drawn)
+        self._draw_index(painter)
+        if self.hasFocus():
+            painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Highlight), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(QRectF(self.rect()).adjusted(1, 1, -1, -1))
+        painter.end()
+
+    def _picture(self, ratio: float) -> QPixmap:
+        picture = QPixmap(self.size() * ratio)
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(self.palette().color(QPalette.ColorRole.Window))
+        painter = QPainter(picture)
+        painter.setFont(self.font())
+        area = self._area()
+        for name, marks, top, height in (
+            (self.tr("frames"), self.frames, area.top(), _FRAMES),
+            (self.tr("packets"), self.packets, area.top() + _FRAMES + _GAP, _PACKETS),
+        ):
+            place = QRectF(area.left(), top, area.width(), height)
+            painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+            beside = QRectF(0, place.top(), _GUTTER - 6, place.height())
+            flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+            painter.drawText(beside, flags, name)
+            painter.fillRect(place, self.palette().color(QPalette.ColorRole.Base))
+            self._draw_marks(painter, place, marks)
+        self._draw_ticks(painter, area)
+        painter.end()
+        return picture
+
+    def _draw_marks(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
+        if not len(marks):
+            return
+        shown = (marks.ends > self._scale.first) & (marks.starts < self._scale.last)
+        if place.width() / max(int(shown.sum()), 1) < _LEAST_MARK:
+            self._draw_bins(painter, place, marks)
+            return
+        palette = self.palette()
+        for start, end, state in zip(
+            marks.starts[shown].tolist(),
+            marks.ends[shown].tolist(),
+            marks.states[shown].tolist(),
+            strict=True,
+        ):
+            left, right = self.x_of(start), self.x_of(end)
+            width = max(right - left - 1.0, 1.5)
+            cell = QRectF(left, place.top(), width, place.height())
+            draw_mark(painter, cell.intersected(place), MarkState(state), palette)
+
+    def _draw_bins(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
+        """Draw how many of the marks that share a few pixels are in each state, one on another."""
+        bins = max(1, int(place.width() / _LEAST_MARK))
+        counts = marks.counted(np.linspace(self._scale.first, self._scale.last, bins + 1))
+        painter.setPen(Qt.PenStyle.NoPen)
+        for number, row in enumerate(counts.tolist()):
+            total, bottom = sum(row), place.bottom()
+            left = place.left() + number * _LEAST_MARK
+            for state in (MarkState.READ, MarkState.UNCHECKED, MarkState.LOST):
+                height = place.height() * row[state] / total if total else 0.0
+                if height:
+                    bar = QRectF(left, bottom - height, _LEAST_MARK, height)
+                    painter.setBrush(ink_of(state, self.palette()))
+                    painter.drawRect(bar)
+                    bottom -= height
+
+    def _draw_ticks(self, painter: QPainter, area: QRectF) -> None:
+        painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+        if self._scale.span <= 0.0:
+            return
+        step, digits = tick_step(self._scale.span, area.width())
+        first = int(np.ceil(self._scale.first / step - 1e-9))
+        last = int(np.floor(self._scale.last / step + 1e-9))
+        for number in range(first, last + 1):
+            x = self.x_of(number * step)
+            painter.drawLine(QPointF(x, area.bottom() + 1), QPointF(x, area.bottom() + 4))
+            text = f"{number * step:.{digits}f} s"
+            width = painter.fontMetrics().horizontalAdvance(text)
+            left = min(max(x - width / 2, area.left()), area.right() - width)
+            painter.drawText(QPointF(left, area.bottom() + _TICKS - 2), text)
+
+    def _draw_index(self, painter: QPainter) -> None:
+        if not 0 <= self.index < len(self.frames):
+            return
+        area = self._area()
+        left = self.x_of(float(self.frames.starts[self.index]))
+        right = max(self.x_of(float(self.frames.ends[self.index])), left + 2.0)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        ink = self.palette().color(QPalette.ColorRole.Text)
+        painter.setPen(QPen(ink, 2))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(QRectF(left, area.top() - 1, right - left, area.height() + 2))
+        middle = (left + right) / 2
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(ink)
+        points = (QPointF(middle - 5, 0), QPointF(middle + 5, 0), QPointF(middle, 5))
+        painter.drawPolygon(QPolygonF(points))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the marks anew in another width."""
+        super().resizeEvent(event)
+        self._drawn = None
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange):
+            self._redraw()
+
+    # The mouse and the keys.
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Seek the frame at the mouse."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._seek(self.frame_at(event.position().x()))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the mouse while its button is pressed."""
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            self._seek(self.frame_at(event.position().x()))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Step by the arrows, go to the ends by Home and End, play by the space bar."""
+        key = Qt.Key(event.key())
+        if key in _STEPS:
+            self._seek(self.index + _STEPS[key])
+        elif key == Qt.Key.Key_Home:
+            self._seek(0)
+        elif key == Qt.Key.Key_End:
+            self._seek(len(self.frames) - 1)
+        elif key == Qt.Key.Key_Space:
+            self.play_asked.emit()
+        else:
+            super().keyPressEvent(event)
+
+    def _seek(self, index: int) -> None:
+        index = min(max(index, 0), len(self.frames) - 1)
+        if index >= 0 and index != self.index:
+            self.show_index(index)
+            self.sought.emit(index)

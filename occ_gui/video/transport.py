@@ -1,0 +1,116 @@
+"""Transport: buttons that play a film and step through it, and where it stands."""
+
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
+
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.icons import icon
+
+_ICON = 16
+
+
+class TransportButton(QToolButton):
+    """A button with an icon that is drawn when it is first seen.
+
+    Parameters
+    ----------
+    drawing
+        The name of the icon.
+    name, meaning
+        The accessible name and the tooltip.
+    parent
+        The parent widget.
+    """
+
+    def __init__(
+        self, drawing: str, name: str, meaning: str, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._drawing, self._is_drawn = drawing, False
+        self.setAutoRaise(True)
+        self.setIconSize(QSize(_ICON, _ICON))
+        self.rename(drawing, name, meaning)
+
+    def rename(self, drawing: str, name: str, meaning: str) -> None:
+        """Give the button another icon and meaning."""
+        self._drawing = drawing
+        self.setAccessibleName(name)
+        self.setToolTip(meaning)
+        if self._is_drawn:
+            self._draw()
+
+    def _draw(self) -> None:
+        self._is_drawn = True
+        self.setIcon(icon(self._drawing, self.palette(), _ICON, self.devicePixelRatioF()))
+
+    @guarded
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the icon when it is first seen."""
+        if not self._is_drawn:
+            self._draw()
+        super().paintEvent(event)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and self._is_drawn:
+            self._draw()
+
+
+class Transport(QWidget):
+    """Play, step back, step on, and the frame and time that are shown."""
+
+    play_asked = Signal()
+    """The user starts or stops the film."""
+
+    step_asked = Signal(int)
+    """How many frames the user goes on; back where it is below zero."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.back = TransportButton(
+            "step-back", self.tr("Step back"), self.tr("Show the frame before (Left).")
+        )
+        self.play = TransportButton("play", "", "")
+        self.on = TransportButton(
+            "step-on", self.tr("Step on"), self.tr("Show the next frame (Right).")
+        )
+        self.place = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.place.setAccessibleName(self.tr("Frame and time shown"))
+        self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(2)
+        for button in (self.back, self.play, self.on):
+            layout.addWidget(button)
+        layout.addSpacing(6)
+        layout.addWidget(self.place, 1)
+        self.back.clicked.connect(lambda: self.step_asked.emit(-1))
+        self.on.clicked.connect(lambda: self.step_asked.emit(1))
+        self.play.clicked.connect(self.play_asked)
+        self.show_playing(False)
+
+    def show_playing(self, playing: bool) -> None:
+        """Show whether the film plays."""
+        if playing:
+            self.play.rename("pause", self.tr("Pause"), self.tr("Stop at this frame (Space)."))
+        else:
+            self.play.rename(
+                "play", self.tr("Play"), self.tr("Play the film at its own speed (Space).")
+            )
+
+    def show_place(self, index: int, count: int | None, time: float | None) -> None:
+        """Show which frame is seen, of how many, and its time in seconds."""
+        if time is None:
+            self.place.set_full_text("")
+            return
+        of_all = self.tr("frame {number} of {count}") if count else self.tr("frame {number}")
+        text = of_all.format(number=index + 1, count=count)
+        self.place.set_full_text(self.tr("{frame}, {time:.4f} s").format(frame=text, time=time))
+
+    def set_usable(self, usable: bool) -> None:
+        """Let the buttons be pressed while there is a film of several frames."""
+        for button in (self.back, self.play, self.on):
+            button.setEnabled(usable)

@@ -1,0 +1,97 @@
+"""Pane of the films: the film beside its simulation, what is read of it, and its timeline."""
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QVBoxLayout, QWidget
+
+from occ_gui.video.data_view import DataView
+from occ_gui.video.film_bar import FilmBar
+from occ_gui.video.film_pictures import FilmPictures
+from occ_gui.video.film_reading import FilmReading
+from occ_gui.video.frame_rows import FrameRows
+from occ_gui.video.mark_look import MarkLegend
+from occ_gui.video.marks import Marks
+from occ_gui.video.recording_form import RecordingForm
+from occ_gui.video.timeline import Timeline
+from occ_gui.video.transport import Transport
+from occ_gui.widgets.outdated_mark import OutdatedMark
+from occ_gui.widgets.scroll_pane import ScrollPane
+
+_LARGE = 80
+"""Percent of the height that the pictures take where they are to be seen large."""
+
+_LEAST_FORM = QSize(240, 80)
+
+
+class VideoView(QWidget):
+    """Pictures above, rows, data and recording in pages below them, and the timeline."""
+
+    step_asked = Signal(int)
+    """How many frames the user goes on by a key."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.bar, self.pictures = FilmBar(), FilmPictures()
+        self.rows, self.data, self.form = FrameRows(), DataView(), RecordingForm()
+        self.transport, self.timeline, self.legend = Transport(), Timeline(), MarkLegend()
+        self.message = QLabel()
+        self.message.setWordWrap(True)
+        self.message.setTextFormat(Qt.TextFormat.PlainText)
+        self.message.setAccessibleName(self.tr("What is wrong with the film"))
+        self.message.hide()
+        self.pages = QTabWidget()
+        self.pages.setDocumentMode(True)
+        self.pages.addTab(self.data, self.tr("What is read"))
+        self.pages.addTab(self.rows, self.tr("This frame"))
+        self.pages.addTab(ScrollPane(self.form, _LEAST_FORM), self.tr("Recording"))
+        self.split = QSplitter(Qt.Orientation.Vertical)
+        self.split.setChildrenCollapsible(False)
+        self.split.addWidget(self.pictures)
+        self.split.addWidget(self.pages)
+        self.split.setStretchFactor(0, 5)
+        self.split.setStretchFactor(1, 4)
+        line = QHBoxLayout()
+        line.setContentsMargins(0, 0, 0, 0)
+        line.addWidget(self.transport, 1)
+        line.addWidget(self.legend)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(4)
+        layout.addWidget(self.bar)
+        layout.addWidget(self.message)
+        layout.addWidget(self.split, 1)
+        layout.addLayout(line)
+        layout.addWidget(self.timeline)
+        self.rows.picture_asked.connect(self.show_large)
+        self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
+        self._old_pictures = OutdatedMark(self.pictures)
+
+    def show_message(self, sentence: str) -> None:
+        """Show what is wrong with the film or the camera; empty for nothing."""
+        self.message.setText(sentence)
+        self.message.setVisible(bool(sentence))
+
+    def show_large(self) -> None:
+        """Give the pictures most of the pane, and show the whole of them."""
+        height = sum(self.split.sizes())
+        self.split.setSizes([_LARGE * height // 100, (100 - _LARGE) * height // 100])
+        self.pictures.fit()
+
+    def show_reading(self, reading: FilmReading, frames: Marks) -> None:
+        """Show what has been read, and the marks of the film's frames."""
+        self.data.show_reading(reading)
+        self.timeline.show_frames(frames)
+        self.timeline.show_packets(reading.packets)
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the reading is of an earlier scene."""
+        for mark in self._outdated:
+            mark.show_age(1.0 if outdated else 0.0, self.tr("read for an earlier scene"))
+
+    def show_frame_outdated(self, age: float) -> None:
+        """Show for how many seconds the frame that is shown has not been the one wanted."""
+        self._old_pictures.show_age(age, self.tr("computing…"))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Step, seek and play by the keys of the timeline, wherever they are not used."""
+        self.timeline.keyPressEvent(event)

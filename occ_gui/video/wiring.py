@@ -1,0 +1,255 @@
+"""Connections of the film: its pane with what opens it, shows it, reads it, and films."""
+
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.video.film_controller import FilmController
+from occ_gui.video.frame_jobs import ShownFrame
+from occ_gui.video.live_controller import LiveController
+from occ_gui.video.marks import Marks, MarkState, frame_marks
+from occ_gui.video.reading_controller import ReadingController
+from occ_gui.video.video_view import VideoView
+from occ_model.errors import OccError, one_line
+from occ_model.results.video import Video
+from occ_model.scene.scene import Scene
+
+_USUAL_RATE = 30.0
+"""Frames a second where a film does not say how many."""
+
+
+class VideoWiring(QObject):
+    """The pane of the films with its controllers.
+
+    Parameters
+    ----------
+    scenes
+        The scene, which is simulated, and for which films are read.
+    """
+
+    status_message = Signal(str)
+    """The outcome of an action."""
+
+    open_asked = Signal()
+    """The user opens a film."""
+
+    film_changed = Signal(object)
+    """The path of the film that is open now, None where none is."""
+
+    def __init__(self, scenes: SceneStore) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self.view = VideoView()
+        self.films = FilmController(scenes, self.view.form)
+        self.readings = ReadingController()
+        self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
+        self._connect_film()
+        self._connect_reading()
+        self._connect_live()
+        scenes.changed.connect(self._on_scene)
+        self.view.form.changed.connect(self._on_recording)
+        self.view.form.refused.connect(self.status_message)
+        self.view.form.show_scene(scenes.scene)
+        self.films.close()
+
+    def _connect_film(self) -> None:
+        view, films, player = self.view, self.films, self.films.player
+        view.bar.open_asked.connect(self.open_asked)
+        view.bar.close_asked.connect(self.close)
+        films.opened.connect(self._on_film)
+        films.failed.connect(self.status_message)
+        films.frame_shown.connect(self._show_frame)
+        films.frame_failed.connect(view.show_message)
+        player.wanted.connect(self._show_index)
+        player.playing_changed.connect(view.transport.show_playing)
+        view.timeline.sought.connect(player.seek)
+        view.transport.step_asked.connect(player.step)
+        for asker in (view.timeline, view.transport):
+            asker.play_asked.connect(player.toggle)
+
+    def _connect_reading(self) -> None:
+        self.view.bar.read_asked.connect(self.read_or_stop)
+        self.readings.changed.connect(self._show_reading)
+        self.readings.failed.connect(self.view.show_message)
+
+    def _connect_live(self) -> None:
+        bar, live = self.view.bar, self.live
+        bar.cameras_asked.connect(self._find_cameras)
+        bar.camera_chosen.connect(live.start_camera)
+        bar.axis.chosen.connect(live.scan_along)
+        bar.lock.toggled.connect(live.lock_exposure)
+        live.devices_found.connect(bar.list_cameras)
+        live.ended.connect(self._on_live_end)
+        live.exposure_refused.connect(self._on_exposure_refused)
+
+    @property
+    def path(self) -> Path | None:
+        """The file of the film that is open."""
+        film = self.films.film
+        return None if film is None or self.films.is_live else film.path
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether the frame is shown and the film read; a camera never comes to an end."""
+        return self.films.is_idle and (self.live.is_filming or not self.readings.is_running)
+
+    def set_seen(self, seen: bool) -> None:
+        """Show frames while the pane is visible; a camera is released with it."""
+        if not seen:
+            self.live.stop_filming()
+            self._show_bar()
+        self.films.set_seen(seen)
+
+    def open(self, path: Path) -> None:
+        """Open a film."""
+        self.live.stop_filming()
+        self.films.open(path)
+
+    def close(self) -> None:
+        """Stop the camera, or close the film."""
+        if self.live.is_filming:
+            self.live.stop_filming()
+            self._show_bar()
+        else:
+            self.films.close()
+
+    def read_or_stop(self) -> None:
+        """Read the film that is shown, or stop reading it."""
+        if self.readings.is_running:
+            self.readings.cancel()
+            return
+        try:
+            film = self.films.film or self.films.simulated()
+        except OccError as error:
+            self.view.show_message(str(error))
+            return
+        self.readings.start(film, self._scenes.scene)
+
+    def stop(self) -> None:
+        """Stop all work in the background, and release the camera."""
+        self.live.stop()
+        self.readings.stop()
+        self.films.stop()
+
+    # What happens.
+
+    def _on_film(self, film: Video | None) -> None:
+        self.readings.forget()
+        self.view.show_message("")
+        self.view.timeline.show_index(0)
+        self._take_rate(film)
+        self._show_bar()
+        self._show_reading()
+        self.film_changed.emit(self.path)
+        if film is not None and not self.films.is_live:
+            self.readings.start(film, self._scenes.scene)
+
+    def _take_rate(self, film: Video | None) -> None:
+        """Simulate as many frames a second as the film has."""
+        if film is None or self.films.is_live:
+            return
+        form = self.view.form
+        if film.frame_rate:
+            try:
+                form.show_recording(form.recording.replace(frame_rate=film.frame_rate))
+            except OccError:  # a film that is out of range
+                return
+        form.show_scene(self._scenes.scene)
+
+    def _on_scene(self, scene: Scene) -> None:
+        self.view.form.show_scene(scene)
+        if self.live.is_filming:
+            self.live.read()
+        self._mark_outdated()
+
+    def _on_recording(self) -> None:
+        self.view.form.show_scene(self._scenes.scene)
+        if self.films.film is None:
+            self.readings.forget()
+            self._show_bar()
+
+    def _on_live_end(self, sentence: str) -> None:
+        self.view.show_message(sentence)
+        self._show_bar()
+
+    def _on_exposure_refused(self, sentence: str) -> None:
+        lock = self.view.bar.lock
+        lock.blockSignals(True)
+        lock.setChecked(not lock.isChecked())
+        lock.blockSignals(False)
+        self.view.show_message(sentence)
+
+    def _find_cameras(self) -> None:
+        self.view.bar.list_cameras(None)
+        self.live.find()
+
+    # What is shown.
+
+    def _show_bar(self) -> None:
+        film, form = self.films.film, self.view.form
+        if film is None:
+            title = self.tr("Simulated film: {count} frames, {rate:g} a second").format(
+                count=form.frames, rate=form.recording.frame_rate
+            )
+        elif self.films.is_live:
+            title = self.tr("{name}, live") if self.live.is_filming else self.tr("{name}, stopped")
+            title = title.format(name=one_line(film.title))
+        else:
+            title = _title_of(film)
+        self.view.bar.show_film(title, is_film=film is not None, is_live=self.live.is_filming)
+        if self.live.video is not None:
+            self.view.bar.axis.show_key(self.live.video.axis)
+        self.view.transport.set_usable(not self.films.is_live)
+
+    def _show_index(self, index: int) -> None:
+        self.view.timeline.show_index(index)
+
+    def _show_frame(self, shown: ShownFrame) -> None:
+        view = self.view
+        instead = self.tr("Open a film, or use a camera, to see it beside the simulated one.")
+        view.pictures.show_film(shown.film, instead)
+        view.pictures.show_simulated(shown.simulated, shown.instead)
+        view.rows.show_story(shown.story, shown.instead)
+        count = None if self.films.is_live else self.films.player.count
+        index = shown.request.index if shown.request.live is None else shown.request.live.index
+        view.transport.show_place(index, count, shown.time)
+
+    def _show_reading(self) -> None:
+        readings = self.readings
+        reading = readings.reading
+        self.view.show_reading(reading, self._frames())
+        self.view.bar.show_reading(readings.is_running, readings.is_done)
+        if self.films.is_live:
+            self.view.timeline.show_index(len(reading.times) - 1)
+        elif self.films.film is not None and (readings.is_done or not self.films.count):
+            self.films.player.set_count(len(reading.times))
+        self._mark_outdated()
+
+    def _mark_outdated(self) -> None:
+        scene = self.readings.scene
+        self.view.show_outdated(scene is not None and scene != self._scenes.scene)
+
+    def _frames(self) -> Marks:
+        """Return the marks of all frames: of those read, and of those still to come."""
+        reading = self.readings.reading
+        read = len(reading.times)
+        step = 1.0 / (self.films.rate or _USUAL_RATE)
+        to_come = 0
+        if not (self.films.is_live or (self.readings.is_done and self.films.film is not None)):
+            to_come = max(self.films.count - read, 0)
+        first = float(reading.times[-1]) + step if read else 0.0
+        times = np.concatenate([reading.times, first + step * np.arange(to_come)])
+        pending = np.full(to_come, MarkState.PENDING, dtype=np.uint8)
+        return frame_marks(times, np.concatenate([reading.states, pending]), step)
+
+
+def _title_of(film: Video) -> str:
+    rows, columns = film.shape
+    parts = [one_line(film.title), f"{columns} x {rows}"]
+    if film.frame_count:
+        parts.append(f"{film.frame_count} frames")
+    if film.frame_rate:
+        parts.append(f"{film.frame_rate:.4g} a second")
+    return ", ".join(parts)

@@ -1,0 +1,94 @@
+"""Timeline: every frame can be reached by mouse and keys, and states are told apart by shape."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QRectF, Qt
+from PySide6.QtGui import QColor, QImage, QPainter
+from pytestqt.qtbot import QtBot
+
+from occ_gui.video.mark_look import draw_mark
+from occ_gui.video.marks import Marks, MarkState, frame_marks
+from occ_gui.video.timeline import Timeline
+from occ_gui.window.theme import palette_of
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def timeline(qtbot: QtBot) -> Timeline:
+    timeline = Timeline()
+    qtbot.addWidget(timeline)
+    timeline.resize(700, timeline.sizeHint().height())
+    states = np.array([1, 1, 3, 2, 0, 0, 0, 0, 0, 0, 0, 0], dtype=np.uint8)
+    timeline.show_frames(frame_marks(np.arange(12) / 30.0, states, 1 / 30.0))
+    timeline.show()
+    return timeline
+
+
+def test_a_click_shows_the_frame_that_it_hits(timeline: Timeline, qtbot: QtBot) -> None:
+    sought: list[int] = []
+    timeline.sought.connect(sought.append)
+    for index in (5, 11, 0):
+        middle = timeline.x_of((index + 0.5) / 30.0)
+        qtbot.mouseClick(timeline, LEFT, pos=QPoint(round(middle), 20))
+    assert sought == [5, 11, 0]
+
+
+def test_keys_step_to_the_ends_and_not_beyond(timeline: Timeline, qtbot: QtBot) -> None:
+    keys = Qt.Key
+    for key, index in (
+        (keys.Key_Left, 0), (keys.Key_Right, 1), (keys.Key_PageDown, 11), (keys.Key_Right, 11),
+        (keys.Key_Left, 10), (keys.Key_PageUp, 0), (keys.Key_End, 11), (keys.Key_Home, 0),
+    ):  # fmt: skip
+        qtbot.keyClick(timeline, key)
+        assert timeline.index == index
+
+
+def test_the_space_bar_asks_to_play(timeline: Timeline, qtbot: QtBot) -> None:
+    with qtbot.waitSignal(timeline.play_asked):
+        qtbot.keyClick(timeline, Qt.Key.Key_Space)
+
+
+def test_a_screen_reader_hears_frame_time_and_state(timeline: Timeline) -> None:
+    timeline.show_index(2)
+    assert timeline.accessibleDescription() == "frame 3 of 12, 0.067 s, lost"
+    timeline.show_index(3)
+    assert timeline.accessibleDescription().endswith("read, not checked")
+    timeline.show_frames(Marks())
+    assert timeline.accessibleDescription() == "no film"
+
+
+@pytest.mark.parametrize("width", [3, 12])
+def test_states_are_told_apart_without_colour(qapp: object, width: int) -> None:
+    shapes = []
+    for state in MarkState:
+        image = QImage(width, 24, QImage.Format.Format_RGB32)
+        image.fill(QColor("white"))
+        painter = QPainter(image)
+        draw_mark(painter, QRectF(0, 0, width, 24), state, palette_of("light"))
+        painter.end()
+        grey = np.array(
+            [[image.pixelColor(x, y).lightness() < 250 for x in range(width)] for y in range(24)]
+        )
+        shapes.append(grey)
+    for place, one in enumerate(shapes):
+        for other in shapes[place + 1 :]:
+            assert np.mean(one != other) > 0.1
+
+
+def test_a_long_film_is_drawn_by_shares(timeline: Timeline) -> None:
+    states = np.where(np.arange(20_000) < 10_000, 1, 3).astype(np.uint8)
+    timeline.show_frames(frame_marks(np.arange(20_000) / 30.0, states, 1 / 30.0))
+    image = timeline.grab().toImage()
+    good, bad = (image.pixelColor(round(timeline.x_of(time)), 15).name() for time in (100.0, 600.0))
+    assert good != bad
+    assert timeline.frame_at(timeline.x_of(500.0) + 0.01) == pytest.approx(15_000, abs=35)
+
+
+def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
+    timeline = Timeline()
+    qtbot.addWidget(timeline)
+    timeline.show()
+    qtbot.keyClick(timeline, Qt.Key.Key_End)
+    qtbot.mouseClick(timeline, LEFT)
+    assert timeline.index == 0

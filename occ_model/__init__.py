@@ -107,6 +107,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Scheme as Scheme,
         scheme_of as scheme_of,
     )
+    from occ_model.video.export import write_video as write_video
     from occ_model.video.load import load_video as load_video
     from occ_model.video.render import render_video as render_video
 
@@ -190,6 +191,7 @@ _MODULES = {
     "success_rate": "study.success_rate",
     "sweep": "study.sweep.sweep",
     "wilson_interval": "study.confidence",
+    "write_video": "video.export",
 }
 """The module of each public name, imported when the name is first used.
 

@@ -1,6 +1,5 @@
 """Animations: a parameter runs through its values, and picture, profile and code follow."""
 
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from io import BytesIO
 from pathlib import Path
@@ -29,6 +28,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
+from occ_model.video.file.write import write_frames
 
 ENDINGS = (".gif", ".mp4", ".png")
 """The endings of an animation's file: GIF, MP4 (MPEG-4), and animated PNG."""
@@ -43,8 +43,6 @@ _ROWS, _SHOWN_COLUMNS = 120, 900
 _DEFAULT_RATE = 15.0
 _FASTEST = 50.0
 """Frames a second; players of GIF files show none faster."""
-
-_CODEC = "mp4v"
 
 _HEADROOM, _HIGHEST = 1.2, 260.0
 """The level axis reaches above the brightest level, by this factor, but no higher than this."""
@@ -72,7 +70,7 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     Parameters
     ----------
     path
-        The file: .gif, .mp4 or .png. The scene is kept inside a GIF or PNG file.
+        The file: .gif, .mp4 or .png. The scene is kept inside.
     scene
         The scene.
     name, values
@@ -109,7 +107,10 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
     frames = _frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)
     note = Provenance(f"Animation over {name}", {"at hand": scene}).text()
-    write_whole(path, _ENCODERS[ending](frames, rate, note))
+    if ending == ".mp4":
+        write_frames(path, frames, rate, note)
+    else:
+        write_whole(path, _ENCODERS[ending](frames, rate, note))
 
 
 def _frames(
@@ -205,22 +206,4 @@ def _with_pillow(frames: Iterator[ByteArray], form: str, rate: float, **options:
     return buffer.getvalue()
 
 
-def _mp4(frames: Iterator[ByteArray], rate: float, _note: str) -> bytes:
-    # OpenCV writes to a path only; the file is moved into place once it is whole.
-    with tempfile.TemporaryDirectory(prefix="occ-animation-") as folder:
-        aside = Path(folder, "animation.mp4")
-        writer: cv2.VideoWriter | None = None
-        for frame in frames:
-            rows, columns = (side // 2 * 2 for side in frame.shape[:2])  # as the codec demands
-            if writer is None:
-                code = cv2.VideoWriter.fourcc(*_CODEC)
-                writer = cv2.VideoWriter(str(aside), code, rate, (columns, rows))
-                if not writer.isOpened():
-                    raise OutputError("This version of OpenCV cannot write MP4; use .gif or .png.")
-            writer.write(cv2.cvtColor(frame[:rows, :columns], cv2.COLOR_RGB2BGR))
-        if writer is not None:
-            writer.release()
-        return aside.read_bytes()
-
-
-_ENCODERS = {".gif": _gif, ".png": _png, ".mp4": _mp4}
+_ENCODERS = {".gif": _gif, ".png": _png}

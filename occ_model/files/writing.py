@@ -2,6 +2,8 @@
 
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
@@ -108,14 +110,40 @@ def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
 
 def _replace(path: Path, content: bytes, permissions: int | None) -> None:
     """Replace a file by a new one in one step."""
-    temporary = path.with_name(f".{path.name}.{token_hex(4)}")
+    with _replacement(path, permissions) as temporary:
+        temporary.write_bytes(content)
+
+
+@contextmanager
+def written_whole(path: Path) -> Iterator[Path]:
+    """Give a temporary file to write to, which replaces another when the context ends well.
+
+    It is in the same folder and has the same ending. Where the context is left by an exception it
+    is removed, and an older file is unchanged.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written, is write-protected, or is no regular file.
+    """
+    permissions = check_replaceable(path)
+    try:
+        with _replacement(path.resolve(), permissions) as temporary:
+            yield temporary
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+@contextmanager
+def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
+    temporary = path.with_name(f".{token_hex(4)}.{path.name}")
     # A file that replaces another must be readable by nobody else before its mode is set.
     mode = 0o666 if permissions is None else 0o600
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode))
     try:
         if permissions is not None:
             temporary.chmod(permissions)
-        temporary.write_bytes(content)
+        yield temporary
         temporary.replace(path)
     except BaseException:  # leave no half-written file, whatever happens
         temporary.unlink(missing_ok=True)

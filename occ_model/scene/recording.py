@@ -1,8 +1,9 @@
 """How a film is recorded: frame rate, jitter, drift of the clocks, motion, exposure times."""
 
+import tomllib
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Literal, Self, TypeAlias
@@ -44,6 +45,9 @@ DECLARED: tuple[Quantity, ...] = (FRAME_RATE, FRAME_JITTER, CAMERA_DRIFT, TRANSM
 """The quantities of a recording, each declared once: unit, range, slider, default."""
 
 _MOTIONS = tuple(parameter.name for parameter in POSE)
+
+_PREFIX = "recording."
+"""Before the name of a setting in the note of a film."""
 
 _MOST_JITTER = 6
 """The gap holds three standard deviations of jitter on either side."""
@@ -134,6 +138,33 @@ class Recording:
             check_choice("setting of a recording", name, known)
         return replace(self, **changes)  # type: ignore[arg-type]
 
+    def lines(self) -> list[str]:
+        """Write the recording as lines of a text: TOML with keys ``recording.``."""
+        values: dict[str, object] = {each.name: getattr(self, each.name) for each in fields(self)}
+        values["exposure_times"] = list(self.exposure_times)
+        values["path"] = [asdict(point) for point in self.path]
+        texts = {name: _in_toml(value) for name, value in values.items()}
+        return [f"{_PREFIX}{name} = {text}" for name, text in texts.items()]
+
+    @classmethod
+    def from_text(cls, text: str) -> Self | None:
+        """Read the recording from a text among whose lines are those of :meth:`lines`.
+
+        Returns
+        -------
+        Recording or None
+            None where the text has no such lines, or they are damaged.
+        """
+        own = [line for line in text.splitlines() if line.startswith(_PREFIX)]
+        if not own:
+            return None
+        try:
+            values = tomllib.loads("\n".join(own))["recording"]
+            path = tuple(Waypoint(**point) for point in values.pop("path", ()))
+            return cls(**values, path=path)
+        except (ValueError, TypeError, RecursionError):
+            return None
+
     @property
     def frame_period(self) -> float:
         """Time from one frame's start to the next one's, in seconds by the camera's clock."""
@@ -206,6 +237,15 @@ class Recording:
             name: (1.0 - share) * getattr(first, name) + share * getattr(second, name)
             for name in _MOTIONS
         }
+
+
+def _in_toml(value: object) -> str:
+    """Write a value in one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{name} = {_in_toml(part)}" for name, part in value.items()) + "}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_in_toml, value))}]"
+    return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
 def _checked_path(path: object) -> tuple[Waypoint, ...]:

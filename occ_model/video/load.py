@@ -13,6 +13,8 @@ from occ_model.files.reading import read_start
 from occ_model.photo.reading.scan_axis import SCAN_AXES, roughness_along
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
+from occ_model.scene.provenance import first_scene_in
+from occ_model.scene.recording import Recording
 from occ_model.video.file.containers import FIRST_BYTES, container_of
 from occ_model.video.file.decoder_process import (
     DecoderProcess,
@@ -21,6 +23,7 @@ from occ_model.video.file.decoder_process import (
     put_back,
     take_decoder,
 )
+from occ_model.video.file.note import note_in
 from occ_model.video.file.source import CHANNELS, StoredFrame
 
 _LOOKED_AT = 5
@@ -89,6 +92,7 @@ class VideoFile(Video):
         self._times: list[float] = []
         self._stepping: _Stepping | None = None
         self._look(scan_axis)
+        self._take_note()
 
     @property
     def problem(self) -> str | None:
@@ -207,6 +211,14 @@ class VideoFile(Video):
         self.shape = (columns, lines) if self.turned else (lines, columns)
         put_back(decoder)
 
+    def _take_note(self) -> None:
+        """Take the scene and the recording of a simulated film, where its file says them."""
+        note = note_in(self.path)
+        with suppress(SceneFileError, ParameterError):
+            self.scene = first_scene_in(note)
+        if self.scene is not None:
+            self.recording = Recording.from_text(note)
+
     def _stripes_are_lines(self, first: StoredFrame, decoder: DecoderProcess) -> bool:
         """Whether over the first frames the means of lines differ more than those of columns."""
         columns = lines = 0.0
@@ -226,7 +238,10 @@ class VideoFile(Video):
         image: ByteArray = stored.pixels
         if self.turned:
             image = np.asarray(cv2.transpose(image), np.uint8)
-        return VideoFrame(index, stored.time - self._first_time, image)
+        exposure = None
+        if self.scene is not None and self.recording is not None:
+            exposure = self.recording.exposure_time(self.scene, index)
+        return VideoFrame(index, stored.time - self._first_time, image, exposure)
 
     def _opened(self) -> tuple[DecoderProcess, OpenedFilm]:
         """Take a decoder, and open the film from its start."""

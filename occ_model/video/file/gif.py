@@ -1,0 +1,81 @@
+"""Write an animated GIF frame by frame: each is compressed by Pillow, and then put in place.
+
+Pillow keeps all frames in memory until it has them all. The format: CompuServe, Graphics
+Interchange Format, version 89a.
+"""
+
+import struct
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+
+from occ_model.arrays import ByteArray
+from occ_model.errors import OutputError
+
+_LARGEST_SIDE = 65_535
+_BLOCK = 255
+"""Bytes of a block of data."""
+
+_AGAIN = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
+"""Lets players begin again at the end."""
+
+_HEAD, _DESCRIPTION = 13, 10
+"""Bytes before the first table of colours, and those that describe a picture."""
+
+
+def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
+    """Write grey or coloured pictures with a note as the comment; count them.
+
+    Times are hundredths of a second: each frame's is rounded, not each step, so that the film does
+    not run away.
+    """
+    count = 0
+    with path.open("wb") as file:
+        for picture in pictures:
+            lines, columns = picture.shape[:2]
+            if max(lines, columns) > _LARGEST_SIDE:
+                raise OutputError(
+                    f"A GIF film cannot have {columns:,} x {lines:,} pixels; allowed: up to "
+                    f"{_LARGEST_SIDE:,} a side."
+                )
+            if count == 0:
+                file.write(b"GIF89a" + struct.pack("<HHBBB", columns, lines, 0, 0, 0))
+                file.write(_AGAIN + b"\x21\xfe" + _blocks(note.encode()))
+            step = round((count + 1) * 100 / rate) - round(count * 100 / rate)
+            file.write(struct.pack("<BBBBHBB", 0x21, 0xF9, 4, 4, step, 0, 0))
+            file.write(_encoded(picture))
+            count += 1
+        file.write(b"\x3b")
+    return count
+
+
+def _blocks(content: bytes) -> bytes:
+    parts = [content[place : place + _BLOCK] for place in range(0, len(content), _BLOCK)]
+    return b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
+
+
+def _encoded(picture: ByteArray) -> bytes:
+    """Encode one picture, with its colours, as it stands in a GIF of several."""
+    from PIL import Image
+
+    buffer = BytesIO()
+    shown = Image.fromarray(picture)
+    (shown if picture.ndim == 2 else shown.quantize()).save(buffer, "GIF")
+    content = buffer.getvalue()
+    colours = 3 * 2 ** ((content[10] & 7) + 1) if content[10] & 0x80 else 0
+    table, place = content[_HEAD : _HEAD + colours], _HEAD + colours
+    while content[place] == 0x21:  # extensions
+        place = _after_blocks(content, place + 2)
+    description = bytearray(content[place : place + _DESCRIPTION])
+    if not description[9] & 0x80:
+        description[9] |= 0x80 | (content[10] & 7)
+    else:
+        table = b""
+    # What follows is the picture's own table, if it has one, and its compressed pixels.
+    return bytes(description) + table + content[place + _DESCRIPTION : -1]
+
+
+def _after_blocks(content: bytes, place: int) -> int:
+    while content[place]:
+        place += content[place] + 1
+    return place + 1

@@ -1,0 +1,55 @@
+"""The note inside a film's file: what it shows, and how it was made."""
+
+import struct
+from pathlib import Path
+from uuid import UUID
+
+_MARK = UUID("6f63635f-6d6f-4465-8c5f-66696c6d6e74").bytes
+"""Before a note in MP4 and MKV files."""
+
+_LONGEST = 1_000_000
+"""Bytes of a note."""
+
+_VOID = b"\xec"
+"""Matroska's element for bytes without a meaning to players."""
+
+
+def mp4_note(note: str) -> bytes:
+    """Give the box of type ``uuid`` that holds a note, to stand at an MP4 file's end."""
+    content = _MARK + note.encode()
+    return struct.pack(">I4s", 8 + len(content), b"uuid") + content
+
+
+def mkv_note(note: str) -> bytes:
+    """Give the element that holds a note, to stand at an MKV file's end."""
+    content = _MARK + note.encode()
+    # A size of eight bytes begins with a 1.
+    return _VOID + struct.pack(">Q", 1 << 56 | len(content)) + content
+
+
+def note_in(path: Path) -> str:
+    """Read the note of a film, empty where it has none or it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            start = file.read(16)
+            if start[:4] in (b"GIF8", b"\x89PNG"):
+                return _of_picture(path)
+            file.seek(0, 2)
+            file.seek(max(0, file.tell() - _LONGEST))
+            end = file.read(_LONGEST)
+    except OSError:
+        return ""
+    _before, mark, text = end.rpartition(_MARK)
+    return text.decode(errors="replace") if mark else ""
+
+
+def _of_picture(path: Path) -> str:
+    from PIL import Image
+
+    try:
+        # Pillow reads up to the pixels, and unpacks no more text than its own limits allow.
+        with Image.open(path, formats=("GIF", "PNG")) as picture:
+            text = picture.info.get("Description", picture.info.get("comment", ""))
+    except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
+        return ""
+    return text.decode(errors="replace") if isinstance(text, bytes) else str(text)

@@ -1,0 +1,198 @@
+"""A film written to a file is whole, opens again and elsewhere, and says how it was made."""
+
+import struct
+import tracemalloc
+from itertools import islice
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from films import stripes
+from PIL import Image
+
+import occ_model as occ
+from occ_model.figures.animation import write_animation
+from occ_model.scene.scene import Scene
+from occ_model.video.file.note import note_in
+from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, write_frames
+
+SCENE = Scene().replace(rows=120, columns=160, readout_time=1e-4, distance=0.8, payload="text:été")
+RECORDING = occ.Recording(
+    frame_rate=24.975,
+    frame_jitter=1e-4,
+    camera_drift=2e-5,
+    transmitter_drift=-1e-5,
+    path=(occ.Waypoint(0.0), occ.Waypoint(0.5, offset_x=0.1, roll=-0.01)),
+    exposure_times=(1e-4, 3e-4),
+    frame_times="nominal",
+)
+
+
+@pytest.fixture(scope="module")
+def film() -> occ.Video:
+    return occ.render_video(SCENE, 7, RECORDING)
+
+
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+def test_a_film_comes_back_as_it_was_written(tmp_path: Path, film: occ.Video, ending: str) -> None:
+    path, done = tmp_path / f"film{ending}", list[int]()
+    assert occ.write_video(film, path, done.append) == 7
+    assert done == [1, 2, 3, 4, 5, 6, 7]
+    assert list(tmp_path.iterdir()) == [path]
+    back = occ.load_video(path)
+    assert (back.scene, back.recording) == (SCENE, RECORDING)
+    assert (back.frame_count, back.shape, back.problem) == (7, film.shape, None)
+    pairs = list(zip(film, back, strict=True))
+    for made, read in pairs:
+        assert read.time == pytest.approx(made.time, abs=(back.time_step or 0.0) / 2 + 1e-9)
+        assert read.exposure_time == made.exposure_time
+        error = read.image.astype(float) - made.image
+        if ending in LOSSLESS:
+            assert not error.any()
+        else:  # the codec's own error, which the noise makes large, and that of a column's mean
+            assert np.sqrt(np.mean(error**2)) < 8
+            assert np.sqrt(np.mean(error.mean(axis=0) ** 2)) < 2
+    assert back.problem is None
+    assert back.frame_rate == pytest.approx(24.975, rel=1e-3 if ending != ".gif" else 0.05)
+
+
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+def test_other_programs_open_it(tmp_path: Path, film: occ.Video, ending: str) -> None:
+    path = tmp_path / f"film{ending}"
+    occ.write_video(film, path)
+    if ending in (".gif", ".png"):
+        with Image.open(path) as picture:
+            assert (picture.n_frames, picture.size) == (7, (160, 120))  # type: ignore[attr-defined]
+            picture.seek(6)
+            last = np.asarray(picture.convert("L"))
+        np.testing.assert_array_equal(last, film.frame(6).image)
+    else:
+        capture = cv2.VideoCapture(str(path))
+        frames = [capture.read()[0] for _ in range(8)]
+        capture.release()
+        assert frames == [True] * 7 + [False]
+
+
+def test_the_parts_of_a_png_film_are_those_of_its_standard(tmp_path: Path) -> None:
+    path = tmp_path / "film.png"
+    write_frames(path, (stripes(n) for n in range(3)), 29.97, "a note")
+    content, place, names, order = path.read_bytes(), 8, [], []
+    while place < len(content):
+        size, name = struct.unpack_from(">I4s", content, place)
+        names.append(name.decode())
+        if name in (b"fcTL", b"fdAT"):
+            order.append(struct.unpack_from(">I", content, place + 8)[0])
+        if name == b"fcTL":
+            assert struct.unpack_from(">HH", content, place + 28) == (100, 2997)
+        place += 12 + size
+    assert names == [
+        "IHDR", "acTL", "iTXt", "fcTL", "IDAT", "fcTL", "fdAT", "fcTL", "fdAT", "IEND",
+    ]  # fmt: skip
+    assert order == [0, 1, 2, 3, 4]
+
+
+def test_the_rounded_times_of_a_gif_film_do_not_run_away(tmp_path: Path) -> None:
+    path = tmp_path / "film.gif"
+    write_frames(path, (stripes(n) for n in range(61)), 30.0, "")
+    times = [frame.time for frame in occ.load_video(path)]
+    assert times == pytest.approx([n / 30 for n in range(61)], abs=0.0051)
+
+
+def test_a_film_of_odd_size_keeps_it_where_the_codec_can(tmp_path: Path) -> None:
+    odd = [stripes(n, 45, 63) for n in range(2)]
+    for ending, shape in [(".png", (45, 63)), (".gif", (45, 63)), (".mkv", (44, 62))]:
+        path = tmp_path / f"film{ending}"
+        write_frames(path, odd, 25.0, "")
+        image = occ.load_video(path, "columns").frame(1).image
+        np.testing.assert_array_equal(image, odd[1][: shape[0], : shape[1]])
+
+
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+def test_colours_are_kept(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"film{ending}"
+    colours = np.zeros((32, 48, 3), np.uint8)
+    colours[...] = (200, 100, 50)
+    assert write_frames(path, [colours, colours], 10.0, "colours") == 2
+    for channel, level in [("red", 200), ("green", 100), ("blue", 50)]:
+        image = occ.load_video(path, channel=channel).frame(1).image
+        assert abs(float(np.median(image)) - level) <= (0 if ending in LOSSLESS else 4)
+    assert note_in(path) == "colours"
+
+
+def test_a_film_that_is_ended_leaves_the_older_file(tmp_path: Path, film: occ.Video) -> None:
+    def end(done: int) -> None:
+        if done == 3:
+            raise KeyboardInterrupt
+
+    for ending in FILM_ENDINGS:
+        path = tmp_path / f"film{ending}"
+        path.write_text("older")
+        with pytest.raises(KeyboardInterrupt):
+            occ.write_video(film, path, end)
+        assert path.read_text() == "older"
+    assert len(list(tmp_path.iterdir())) == len(FILM_ENDINGS)
+
+
+def test_what_cannot_be_written_is_refused(tmp_path: Path, film: occ.Video) -> None:
+    with pytest.raises(occ.OutputError, match=r"a.avi has no ending of a film; use .mp4, .mkv"):
+        occ.write_video(film, tmp_path / "a.avi")
+    with pytest.raises(occ.OutputError, match="none"):
+        occ.write_video(film, tmp_path / "none" / "a.mp4")
+    fast = occ.render_video(SCENE, 2, occ.Recording(frame_rate=60.0))
+    with pytest.raises(
+        occ.OutputError, match="60 frames a second; allowed in a GIF file: up to 50"
+    ):
+        occ.write_video(fast, tmp_path / "a.gif")
+    with pytest.raises(occ.ParameterError, match="a film without end"):
+        occ.write_video(occ.render_video(SCENE), tmp_path / "a.mp4")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+def test_the_memory_for_writing_does_not_grow_with_the_film(tmp_path: Path, ending: str) -> None:
+    pictures = [stripes(n, 200, 300) for n in range(16)]
+    peaks = []
+    for frames in (10, 60):
+        tracemalloc.start()
+        endless = (picture for _ in range(frames) for picture in pictures)
+        write_frames(tmp_path / f"a{ending}", islice(endless, frames), 30.0, "")
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
+
+
+def test_a_film_opened_and_written_again_keeps_what_its_file_says(
+    tmp_path: Path, film: occ.Video
+) -> None:
+    first, second = tmp_path / "a.mkv", tmp_path / "b.png"
+    occ.write_video(film, first)
+    occ.write_video(occ.load_video(first), second)
+    again = occ.load_video(second)
+    assert (again.scene, again.recording) == (SCENE, RECORDING)
+    np.testing.assert_array_equal(again.frame(5).image, film.frame(5).image)
+
+
+@pytest.mark.parametrize(
+    "note", ["", "scene x:\nfrequency = 3", "scene x:\n[camera]\niso = -1", "recording.path = 3"]
+)
+def test_a_note_that_says_nothing_is_passed_over(tmp_path: Path, note: str) -> None:
+    path = tmp_path / "film.mp4"
+    write_frames(path, [stripes(0), stripes(1)], 30.0, note)
+    back = occ.load_video(path)
+    assert back.scene is None
+    assert len(list(back)) == 2
+
+
+@pytest.mark.parametrize("ending", [".gif", ".png", ".mp4"])
+def test_the_animation_of_a_slider_opens_as_a_film(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"play{ending}"
+    small = occ.load_preset("phone-136us").replace(rows=200, columns=600)
+    write_animation(path, small, "switching_frequency", [4e3, 8e3, 12e3], rate=10.0)
+    film = occ.load_video(path, scan_axis="columns")
+    frames = list(film)
+    assert len(frames) == film.frame_count == 3
+    assert [frame.time for frame in frames] == pytest.approx([0.0, 0.1, 0.2])
+    assert film.problem is None
+    assert (frames[0].image != frames[2].image).any()
+    assert note_in(path).startswith("Animation over switching_frequency")

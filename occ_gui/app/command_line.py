@@ -95,6 +95,9 @@ def _parser() -> argparse.ArgumentParser:
     add_simulation_options(parser)
     # Noise that is fast enough for sliders; a preset that is named precedes the last session.
     parser.set_defaults(noise="reused", preset=DefaultOption(DEFAULT_PRESET))
+    parser.add_argument(
+        "files", nargs="*", type=Path, metavar="FILE", help="open a scene (.toml) or photos"
+    )
     parser.add_argument("--photo", type=Path, metavar="FILE", help="open this photo")
     parser.add_argument(
         "--match", action="store_true", help="match the photo and apply the result to the scene"
@@ -146,6 +149,8 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
         application.open_photo(options.photo, options.match, front=options.dock is None)
     if options.mode:
         application.window.modes.switch(options.mode)
+    if options.files:
+        application.files.open_dropped(options.files)
     application.window.show()
     if options.dock:
         application.window.bring_to_front(options.dock)
@@ -153,7 +158,8 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
         _take_screenshot(application, options.screenshot)
         return 0
     _close_on_interrupt(application)
-    if begin.is_new and not (options.photo or options.mode or options.dock):
+    _draw_icon(application)
+    if begin.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.welcome.show_once()
     return qt.exec()
 
@@ -175,6 +181,16 @@ def _prepare(options: argparse.Namespace) -> None:
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
             occ.load_photo(options.photo)
+
+
+def _draw_icon(application: "Application") -> None:
+    """Give the window its icon as soon as it is open."""
+    from PySide6.QtCore import QTimer
+
+    from occ_gui.widgets.icons import program_icon
+
+    window = application.window
+    QTimer.singleShot(0, window, lambda: window.setWindowIcon(program_icon()))
 
 
 def _close_on_interrupt(application: "Application") -> None:
@@ -223,6 +239,7 @@ def start(
     from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector
     from occ_gui.scene.settings_store import FIRST_SETTINGS
+    from occ_gui.widgets.icons import PROGRAM
     from occ_gui.window.theme import show_theme
 
     # Short time slices, because the threads that start processes delay that of the window.
@@ -231,6 +248,7 @@ def start(
     # Numbers have the same form in the whole window as in files and sentences.
     QLocale.setDefault(QLocale.c())
     qt = QApplication(arguments)
+    qt.setDesktopFileName(PROGRAM)
     log_qt_messages()
     show_theme(THEMES[0])  # before there are panes that would have to follow
     garbage = GarbageCollector(qt)

@@ -136,6 +136,7 @@ class Desktop(QObject):
         parts.controls.player.film_asked.connect(self.animation.ask)
         window.menus.themes.triggered.connect(self._choose_theme)
         for name, slot in {
+            "report": self._show_report,
             "save_scene": self.document.save,
             "save_scene_as": parts.files.ask_to_save_scene,
             "export_all": self.export.ask_for_folder,
@@ -150,6 +151,16 @@ class Desktop(QObject):
         actions["before"].toggled.connect(before.setChecked)
         before.toggled.connect(actions["before"].setChecked)
         actions["hold_brightness"].triggered.connect(self.brightness.switch)
+
+    def _show_report(self) -> None:
+        # Asked for rarely; importing it would take a part of the start.
+        from occ_gui.app.report import report_text, show_report
+
+        parts = self._parts
+        text = report_text(
+            parts.store.scene, parts.settings.settings, self.error_reports.last.lines
+        )
+        show_report(parts.window, text)
 
     @property
     def is_idle(self) -> bool:

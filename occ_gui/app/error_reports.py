@@ -3,6 +3,7 @@
 import logging
 import sys
 import threading
+from collections import deque
 from collections.abc import Callable
 from types import TracebackType
 from typing import NoReturn
@@ -11,6 +12,9 @@ from PySide6.QtCore import QMessageLogContext, QObject, QtMsgType, Signal, qInst
 
 _log = logging.getLogger(__name__)
 _qt_log = logging.getLogger("qt")
+
+_LINES = 60
+"""Lines of the last messages that are kept."""
 
 _LEVELS = {
     QtMsgType.QtDebugMsg: logging.DEBUG,
@@ -24,6 +28,21 @@ HARMLESS = "This plugin does not support propagateSizeHints()"
 """Qt's message for every window on a platform that has no windows."""
 
 
+class LastMessages(logging.Handler):
+    """Keeps the last messages that were logged, for the report of a mistake."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.setFormatter(logging.Formatter("%(asctime)s %(name)s %(levelname)s %(message)s"))
+        self.lines: deque[str] = deque(maxlen=_LINES)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep a message, with the lines of an exception, at most the last of them."""
+        self.lines.extend(self.format(record).splitlines())
+        if logging.lastResort is not None:  # as if this handler were not there
+            logging.lastResort.handle(record)
+
+
 class ErrorReports(QObject):
     """Logs every unhandled exception and reports it in a sentence, so that the window works on.
 
@@ -35,6 +54,7 @@ class ErrorReports(QObject):
 
     def __init__(self) -> None:
         super().__init__()
+        self.last = LastMessages()
         self._known: set[tuple[str, str, int]] = set()
         self._before: tuple[Callable[..., object], Callable[..., object]] | None = None
 
@@ -42,12 +62,14 @@ class ErrorReports(QObject):
         """Handle the unhandled exceptions of all threads from now on."""
         self._before = (sys.excepthook, threading.excepthook)
         sys.excepthook = self.report
+        logging.getLogger().addHandler(self.last)
         threading.excepthook = self._report_thread
 
     def remove(self) -> None:
         """Restore the exception hooks that were there before."""
         if self._before is not None:
             sys.excepthook, threading.excepthook = self._before
+            logging.getLogger().removeHandler(self.last)
             self._before = None
 
     def report(

@@ -242,7 +242,7 @@ class FileController(QObject):
     def ask_to_save_scene(self) -> None:
         """Let the user choose where to save the scene."""
         name, _ = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save scene"), self._in_folder("scene.toml"),
+            self._window, self.tr("Save scene"), self._in_folder("scene.occ.toml"),
             self.tr("Scenes (*.toml)"),
         )  # fmt: skip
         if name:

@@ -7,6 +7,12 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPixmap
 
 from occ_model.files.resources import resource_text
 
+PROGRAM = "occ-explorer"
+"""The program's icon, and its name for desktops."""
+
+PROGRAM_SIZES = (16, 32, 48, 64, 128, 256)
+"""Sides of the program's icon in pixels."""
+
 _FOLDER, _ENDING = "icons", ".svg"
 _INK = "currentColor"
 """What the drawings name in place of a colour, as in CSS."""
@@ -43,6 +49,14 @@ def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
     ):
         colour = palette.color(group, QPalette.ColorRole.WindowText)
         found.addPixmap(pixmap(name, colour, size, ratio), mode)
+    return found
+
+
+def program_icon() -> QIcon:
+    """Draw the program's icon in the sizes that desktops ask for."""
+    found = QIcon()
+    for size in PROGRAM_SIZES:
+        found.addPixmap(pixmap(PROGRAM, QColor(), size, 1.0))
     return found
 
 

@@ -222,6 +222,7 @@ class Menus(QObject):
         menu = self._top("help", self.tr("&Help"))
         self._add(menu, "welcome", self.tr("&Welcome…"))
         self._add(menu, "lessons", self.tr("&Lessons"))
+        self._add(menu, "report", self.tr("&Report…"))
         self._add(menu, "about", self.tr("&About"))
         self._add(menu, "shortcuts", self.tr("&Keyboard shortcuts…"), self.tr("F1"))
         self._add(menu, "palette", self.tr("Find a &command…"), self.tr("Ctrl+Shift+P"))

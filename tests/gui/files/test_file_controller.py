@@ -265,7 +265,7 @@ def test_dialogs_begin_in_the_folder_of_the_last_file(
     )
     for ask_user in dialogs:
         ask_user()
-    assert asked == ["", "", "scene.toml", "simulation-camera.png"]
+    assert asked == ["", "", "scene.occ.toml", "simulation-camera.png"]
     with qtbot.waitSignal(bench.photos.opened):
         bench.photos.open(photo_file)
     asked.clear()

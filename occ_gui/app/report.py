@@ -1,0 +1,92 @@
+"""The text that a report of a mistake needs: versions, system, scene, settings, last messages."""
+
+import locale
+import platform
+from collections.abc import Iterable
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from PySide6.QtCore import QSysInfo, Qt
+from PySide6.QtGui import QFontDatabase, QGuiApplication
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QLabel,
+    QPlainTextEdit,
+    QVBoxLayout,
+    QWidget,
+)
+
+import occ_model as occ
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+LIBRARIES = ("PySide6-Essentials", "pyqtgraph", "numpy", "opencv-contrib-python-headless", "Pillow")
+"""Packages whose versions decide what is seen."""
+
+_SIZE = (640, 480)
+
+
+def report_text(scene: Scene, settings: SimulationSettings, messages: Iterable[str]) -> str:
+    """Return the report.
+
+    The user's own folder is written as ``~`` in it; a message may still name a file.
+
+    Parameters
+    ----------
+    scene, settings
+        What is shown.
+    messages
+        What was logged last, the oldest first.
+    """
+    screen = QGuiApplication.primaryScreen()
+    home = str(Path.home())
+    logged = [line.replace(home, "~") for line in messages] or ["nothing was logged"]
+    return "\n".join(
+        [
+            f"occ-explorer {occ.__version__}, Python {platform.python_version()}",
+            f"{QSysInfo.prettyProductName()}, {platform.machine()}, "
+            f"Qt platform {QGuiApplication.platformName()}, "
+            f"screen {screen.size().width()}x{screen.size().height()} "
+            f"at {screen.devicePixelRatio():g}, locale {locale.setlocale(locale.LC_CTYPE)}",
+            ", ".join(f"{name} {_version(name)}" for name in LIBRARIES),
+            f"{settings}",
+            "",
+            "Last messages:",
+            *logged,
+            "",
+            "Scene:",
+            scene.to_toml(),
+        ]
+    )
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:  # in a bundle
+        return "(bundled)"
+
+
+def show_report(window: QWidget, text: str) -> None:
+    """Show a report over a window, to be copied."""
+    dialog = QDialog(window)
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.setWindowTitle(window.tr("Report"))
+    shown = QPlainTextEdit(text)
+    shown.setReadOnly(True)
+    shown.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+    shown.setAccessibleName(window.tr("Text of the report"))
+    buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+    copy = buttons.addButton(window.tr("&Copy"), QDialogButtonBox.ButtonRole.ActionRole)
+    copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(text))
+    buttons.rejected.connect(dialog.reject)
+    layout = QVBoxLayout(dialog)
+    advice = QLabel(
+        window.tr("Copy this into a report of a mistake. Read it first: a message may name a file.")
+    )
+    advice.setWordWrap(True)
+    for widget in (advice, shown, buttons):
+        layout.addWidget(widget)
+    dialog.resize(*_SIZE)
+    dialog.open()

@@ -79,6 +79,14 @@ DISPLAY_LIBRARIES = {
         "libwayland-egl.so.1": "libwayland-egl1",
     },
 }
+# What compiles and runs the sketches of boards, for the tests in CI: programs and headers.
+TEST_TOOLS = {
+    "avr-g++": "gcc-avr",
+    "g++": "g++",
+    "/usr/lib/avr/include/avr/io.h": "avr-libc",
+    "/usr/include/simavr/sim_avr.h": "libsimavr-dev",
+    "/usr/include/libelf.h": "libelf-dev",
+}
 APT_INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
 # Arguments with which the application opens no window.
 WINDOWLESS = {"--screenshot", "--help", "-h", "--version"}
@@ -185,6 +193,28 @@ def provide_system_parts(platform: str, making_venv: bool) -> None:
         raise SetUpError(f"apt-get ran, yet this Python still lacks {', '.join(still)}.")
 
 
+def missing_tools() -> list[str]:
+    """List the Debian packages of the tests' tools that the system lacks."""
+    return [
+        package
+        for name, package in TEST_TOOLS.items()
+        if not (Path(name).is_file() if "/" in name else shutil.which(name))
+    ]
+
+
+def offer_test_tools() -> None:
+    """Install the tests' tools where that is allowed; without them some tests are skipped."""
+    packages = missing_tools() if sys.platform == "linux" else []
+    prefix = root_prefix() if packages and shutil.which("apt-get") else None
+    if prefix is None:
+        return
+    say(f"Installing {', '.join(packages)} for the tests of boards ...")
+    as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
+    run_visibly([*as_root, "apt-get", "update"])
+    if not run_visibly([*as_root, *APT_INSTALL, *packages]):
+        say("apt-get could not; the tests that need them are skipped.")
+
+
 def read_stamp() -> dict[str, Any]:
     """Return what the last finished installation noted down; {} where none did."""
     try:
@@ -280,6 +310,8 @@ def set_up(platform: str, extras: Iterable[str]) -> None:
     """Bring whatever the start still lacks, from system libraries to the project itself."""
     python = venv_version()
     provide_system_parts(platform, making_venv=not python)
+    if "test" in extras and os.environ.get("CI"):
+        offer_test_tools()
     if not python:
         make_venv()
         python = RUNNING

@@ -195,3 +195,63 @@ def test_an_installation_that_brings_nothing_is_an_error(
     lacking(start, monkeypatch, *[{"libEGL.so.1": "libegl1"}] * 2)
     with pytest.raises(start.SetUpError, match=words):
         start.provide_system_parts("offscreen", making_venv=False)
+
+
+def test_a_tool_of_the_tests_counts_as_there_where_program_and_header_are(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    header = tmp_path / "sim_avr.h"
+    on_path(monkeypatch, "g++")
+    tools = {"avr-g++": "gcc-avr", "g++": "g++", str(header): "libsimavr-dev"}
+    monkeypatch.setattr(start, "TEST_TOOLS", tools)
+    assert start.missing_tools() == ["gcc-avr", "libsimavr-dev"]
+    header.touch()
+    assert start.missing_tools() == ["gcc-avr"]
+
+
+@pytest.mark.parametrize(
+    ("programs", "prefix", "asked"),
+    [(["apt-get"], [], True), ([], [], False), (["apt-get"], None, False)],
+)
+def test_the_tests_tools_are_installed_where_that_is_allowed(
+    start: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    visible: list[str],
+    programs: list[str],
+    prefix: list[str] | None,
+    asked: bool,
+) -> None:
+    on_path(monkeypatch, *programs)
+    monkeypatch.setattr(start, "missing_tools", lambda: ["gcc-avr", "g++"])
+    monkeypatch.setattr(start, "root_prefix", lambda: prefix)
+    start.offer_test_tools()
+    apt = "env DEBIAN_FRONTEND=noninteractive apt-get"
+    install = f"{apt} install -y --no-install-recommends gcc-avr g++"
+    assert visible == ([f"{apt} update", install] if asked else [])
+
+
+def test_tools_that_cannot_be_installed_stop_nothing(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    on_path(monkeypatch, "apt-get")
+    monkeypatch.setattr(start, "missing_tools", lambda: ["gcc-avr"])
+    monkeypatch.setattr(start, "root_prefix", list)
+    monkeypatch.setattr(start, "run_visibly", lambda command: False)
+    start.offer_test_tools()
+    assert "the tests that need them are skipped" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("extras", "ci", "offered"), [(["test"], "1", 1), (["test"], "", 0), ([], "1", 0)]
+)
+def test_the_tests_tools_are_for_tests_in_ci_only(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, extras: list[str], ci: str, offered: int
+) -> None:
+    calls: list[None] = []
+    monkeypatch.setenv("CI", ci)
+    monkeypatch.setattr(start, "venv_version", lambda: start.RUNNING)
+    monkeypatch.setattr(start, "provide_system_parts", lambda platform, making_venv: None)
+    monkeypatch.setattr(start, "serves", lambda stamp, wanted: True)
+    monkeypatch.setattr(start, "offer_test_tools", lambda: calls.append(None))
+    start.set_up("offscreen", extras)
+    assert len(calls) == offered

@@ -14,6 +14,7 @@ from occ_model.version import __version__ as __version__
 TYPE_CHECKING = False  # that of typing, which is slow to import
 # isort: off
 if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES holds
+    from occ_model.boards.sketch import transmitter_sketch as transmitter_sketch
     from occ_model.camera.exposure import on_time as on_time
     from occ_model.camera.photometry import column_profile as column_profile
     from occ_model.camera.projection import panel_corners as panel_corners
@@ -190,6 +191,7 @@ _MODULES = {
     "scheme_of": "transmitter.scheme",
     "success_rate": "study.success_rate",
     "sweep": "study.sweep.sweep",
+    "transmitter_sketch": "boards.sketch",
     "wilson_interval": "study.confidence",
     "write_video": "video.export",
 }

@@ -77,11 +77,13 @@ def pytest_runtest_makereport(
     report = yield
     if (
         report.skipped
-        and item.get_closest_marker("photos") is None
+        and not any(map(item.get_closest_marker, ("photos", "compilers")))
         and not hasattr(report, "wasxfail")
     ):
         report.outcome = "failed"
-        report.longrepr = f"{item.nodeid} was skipped, which only tests of real photos may be"
+        report.longrepr = (
+            f"{item.nodeid} was skipped, which only tests of real photos and boards may be"
+        )
     return report
 
 

@@ -21,6 +21,7 @@ from occ_model.commands import (
     plan,
     render,
     sweep,
+    transmit,
 )
 from occ_model.commands.files import check_files
 from occ_model.commands.options import Parser
@@ -28,7 +29,7 @@ from occ_model.version import __version__
 
 _COMMANDS = (
     render, animate, plan, accuracy, sweep, limits, bench, most_bits, decode, match, figures,
-    codes, listing,
+    transmit, codes, listing,
 )  # fmt: skip
 
 

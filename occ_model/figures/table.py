@@ -30,10 +30,17 @@ def write_table(
     OutputError
         The file cannot be written; no incomplete file stays.
     """
+    write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
+
+
+def table_text(
+    header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
+) -> str:
+    """Write a table as text; the arguments are those of :func:`write_table`."""
     text = StringIO()
     for line in provenance.lines():
         text.write(f"# {line}".rstrip() + "\n")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
     writer.writerows(rows)
-    write_whole(path, text.getvalue().encode("utf-8"))
+    return text.getvalue()

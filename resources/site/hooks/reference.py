@@ -12,6 +12,7 @@ from occ_model.commands.command_line import make_parser
 GROUPS = {
     "scene": "Scenes and presets",
     "transmitter": "Sending",
+    "boards": "Boards that blink",
     "camera": "Exposure and pixel values",
     "effects": "The plan",
     "simulation": "Simulation",

@@ -1,0 +1,1 @@
+"""Boards that blink a scene: their sketches, the waveform as files, and the wiring."""

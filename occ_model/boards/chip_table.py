@@ -1,0 +1,91 @@
+"""The packet as text of a sketch: its comment at the head, and its table of packed chips."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.boards.transmission import Transmission
+from occ_model.errors import one_line
+from occ_model.scene.scene import Transmitter
+from occ_model.scene.units import HERTZ
+from occ_model.version import __version__
+
+_BYTES_A_LINE = 12
+
+_SHOWN_CHIPS = 72
+"""Longest packet that is also written as zeros and ones."""
+
+
+def packed(chips: ByteArray) -> bytes:
+    """Pack chips into bytes, the first into the highest bit of the first byte."""
+    return np.packbits(chips).tobytes()
+
+
+def c_table(chips: ByteArray) -> str:
+    """Write packed chips as the lines of a table in C."""
+    octets = [f"0x{octet:02X}" for octet in packed(chips)]
+    return "\n".join(f"    {', '.join(line)}," for line in _lines(octets))
+
+
+def python_table(chips: ByteArray) -> str:
+    """Write packed chips as lines of bytes in Python."""
+    octets = [f"\\x{octet:02x}" for octet in packed(chips)]
+    return "\n".join(f'    b"{"".join(line)}"' for line in _lines(octets))
+
+
+def _lines(octets: Sequence[str]) -> list[Sequence[str]]:
+    starts = range(0, len(octets), _BYTES_A_LINE)
+    return [octets[start : start + _BYTES_A_LINE] for start in starts]
+
+
+def head(sent: Transmission, mark: str) -> str:
+    """Say in comment lines what a sketch sends, each after a mark.
+
+    No line ends in what the user wrote: a backslash there would join the next line to it.
+    """
+    lines = [
+        f"Blinks an LED so that a rolling-shutter camera can read it: {sent.board.title}.",
+        "",
+        *_content(sent.scene.transmitter),
+        f"Packet: {len(sent.chips):,} chips, sent over and over.",
+        *_chips(sent.chips),
+        *frequency_lines(sent),
+        "",
+        f"Written by occ_model {__version__}.",
+    ]
+    return "\n".join(f"{mark} {line}".rstrip() for line in lines)
+
+
+def _content(transmitter: Transmitter) -> list[str]:
+    if transmitter.pattern:
+        return ["Sends a raw chip pattern."]
+    what = f"the code {transmitter.code} of {transmitter.bits} bits"
+    if transmitter.payload:
+        what = f'the payload "{one_line(transmitter.payload, _SHOWN_CHIPS)}"'
+    return [
+        f"Sends {what}.",
+        f"Line code {transmitter.line_code}, framing {transmitter.framing}, error correction "
+        f"{transmitter.error_correction}.",
+    ]
+
+
+def _chips(chips: ByteArray) -> list[str]:
+    if len(chips) > _SHOWN_CHIPS:
+        return []
+    text = "".join(map(str, chips.tolist()))
+    return [" ".join(text[start : start + 8] for start in range(0, len(text), 8))]
+
+
+def frequency_lines(sent: Transmission) -> list[str]:
+    """State the frequency that is sent, its error, and what is not known of the clock."""
+    timing = sent.timing
+    asked = "as asked"
+    if timing.error_ppm != 0:
+        error, wanted = float(timing.error_ppm), HERTZ.format(float(timing.asked), 9)
+        asked = f"{error:+.3g} ppm from the {wanted} asked"
+    return [
+        f"Switching frequency: {HERTZ.format(float(timing.frequency), 9)}, {asked}:",
+        f"a chip lasts {timing.cycles:,} cycles of the {HERTZ.format(timing.clock)} clock, which "
+        f"may be off by up to {sent.board.clock_error:,.0f} ppm.",
+    ]

@@ -1,0 +1,111 @@
+"""Sketches for the Raspberry Pi Pico, in MicroPython: a state machine (PIO) shifts the chips out.
+
+Its program is one instruction; the clock's divider is a whole number, so that all chips last
+equally long (RP2040 data sheet, 3.5.5). A queue of 256 chips bridges the turns of the loop.
+"""
+
+from string import Template
+
+from occ_model.boards.board import Board
+from occ_model.boards.chip_table import head, python_table
+from occ_model.boards.transmission import Transmission, repeats_to_words
+
+_MOST_CYCLES = 32
+"""An instruction takes one cycle and up to 31 more."""
+
+PICO = Board(
+    name="raspberry-pi-pico",
+    title="Raspberry Pi Pico",
+    clock=125_000_000,
+    # The Pico's crystal: 30 ppm.
+    clock_error=30.0,
+    prescalers=tuple(range(1, _MOST_CYCLES + 1)),
+    # The divider has 16 bits.
+    largest_count=65_535,
+    least_cycles=125,
+    limit_reason=(
+        "the queue of 256 chips would then be empty within 256 µs (an estimate, not measured)"
+    ),
+    pin="GP15",
+    ground="GND",
+    volts=3.3,
+    pin_current=0.012,
+    transistor="AO3400A",
+    table_bytes=131_072,
+    language="MicroPython",
+    ending=".py",
+)
+
+_SKETCH = Template("""\
+$head
+#
+# Save it on the Pico as main.py: it then runs whenever the Pico is powered.
+
+from array import array
+
+import machine
+import rp2
+
+# The packet, eight chips to a byte: the first chip is the highest bit of the first byte, and a 1
+# is light.
+CHIPS = $chips
+PACKET = (
+$table
+)
+
+# The state machine takes words of 32 chips: so many packets fill whole words.
+PACKETS = $packets
+
+# The state machine's clock is the processor's, divided by a whole number.
+PROCESSOR_HZ = $clock
+DIVIDER = $count
+CLOCK_DIVIDER_REGISTER = 0x502000C8  # SM0_CLKDIV of PIO0; its upper half is the whole number
+
+
+# The whole program: put one chip on the pin$delay, then the same again.
+# A new word is fetched whenever 32 chips are out.
+@rp2.asm_pio(
+    out_init=rp2.PIO.OUT_LOW,
+    out_shiftdir=rp2.PIO.SHIFT_LEFT,
+    autopull=True,
+    pull_thresh=32,
+    fifo_join=rp2.PIO.JOIN_TX,
+)
+def blink():
+    out(pins, 1)$cycles
+
+
+def packed_words():
+    words = array("I", [0] * (CHIPS * PACKETS // 32))
+    for place in range(CHIPS * PACKETS):
+        chip = place % CHIPS
+        if PACKET[chip // 8] & 0x80 >> chip % 8:
+            words[place // 32] |= 0x80000000 >> place % 32
+    return words
+
+
+machine.freq(PROCESSOR_HZ)
+words = packed_words()
+sender = rp2.StateMachine(0, blink, out_base=machine.Pin($pin))
+machine.mem32[CLOCK_DIVIDER_REGISTER] = DIVIDER << 16
+sender.active(True)
+while True:
+    sender.put(words)  # waits while the queue is full
+""")
+
+
+def pico_sketch(sent: Transmission) -> str:
+    """Write the program in MicroPython."""
+    timing, packets = sent.timing, repeats_to_words(len(sent.chips))
+    waits = timing.prescaler - 1
+    return _SKETCH.substitute(
+        head=head(sent, "#"),
+        chips=len(sent.chips),
+        table=python_table(sent.chips),
+        packets=packets,
+        clock=timing.clock,
+        count=timing.count,
+        delay=f" and wait {waits} cycles more" if waits else "",
+        cycles=f" [{waits}]" if waits else "",
+        pin=sent.board.pin.removeprefix("GP"),
+    )

@@ -1,0 +1,70 @@
+"""The boards by name, and their sketches: source text that blinks a scene."""
+
+from collections.abc import Callable
+
+from occ_model.boards.arduino import NANO, UNO, arduino_sketch
+from occ_model.boards.board import Board
+from occ_model.boards.esp32 import ESP32, esp32_sketch
+from occ_model.boards.pico import PICO, pico_sketch
+from occ_model.boards.transmission import Transmission, transmission
+from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.scene import Scene, check_scene
+
+BOARDS: dict[str, Board] = {board.name: board for board in (UNO, NANO, ESP32, PICO)}
+
+DEFAULT_BOARD = UNO.name
+
+_SKETCHES: dict[str, Callable[[Transmission], str]] = {
+    UNO.name: arduino_sketch,
+    NANO.name: arduino_sketch,
+    ESP32.name: esp32_sketch,
+    PICO.name: pico_sketch,
+}
+
+
+def board_named(name: str) -> Board:
+    """Find a board.
+
+    Raises
+    ------
+    ParameterError
+        There is none of that name.
+    """
+    check_choice("board", name, tuple(BOARDS))
+    return BOARDS[name]
+
+
+def source_text(sent: Transmission) -> str:
+    """Write the sketch that sends something."""
+    return _SKETCHES[sent.board.name](sent)
+
+
+def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
+    """Write a complete program for a board that blinks what a scene's transmitter sends.
+
+    The pin follows :func:`occ_model.packet`, one period after another without a gap. A chip lasts a
+    whole number of cycles of the board's clock, so that the frequency sent may differ from the
+    scene's; the comment at the head states it with its error.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    board
+        ``"arduino-uno"``, ``"arduino-nano"``, ``"esp32"`` or ``"raspberry-pi-pico"``.
+
+    Returns
+    -------
+    str
+        C++ for the Arduino IDE, or MicroPython for the Pico.
+
+    Raises
+    ------
+    ParameterError
+        There is no such board, it cannot blink that fast or that slowly, or the packet does not fit
+        into it.
+    PluginError
+        A plug-in fails.
+    """
+    check_scene(scene)
+    return source_text(transmission(scene, board_named(board)))

@@ -1,0 +1,160 @@
+"""The waveform that a board sends, as files: CSV of its edges, VCD for logic viewers, WAV."""
+
+import wave
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from io import BytesIO
+from math import ceil
+
+import numpy as np
+
+from occ_model.boards.transmission import Transmission
+from occ_model.errors import OutputError
+from occ_model.scene.units import HERTZ
+
+HEADER = ("chip", "clock cycles", "time in s", "lit")
+"""Columns of the table of edges."""
+
+_VCD_UNITS = ("s", "ms", "us", "ns", "ps", "fs")
+
+HIGHEST_SAMPLE_RATE = 192_000
+"""In Hz: the highest of common sound cards."""
+
+LOWEST_SAMPLE_RATE = 8_000
+
+_USUAL_RATES = (44_100, 48_000, 96_000, 192_000)
+
+_MOST_RATES = 2_000
+"""Sample rates that are compared, from the highest."""
+
+_LARGEST_WAV = 64_000_000
+"""Samples of a file, one byte each."""
+
+
+def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:
+    """Give the chips of one period at which the light changes, with exact times.
+
+    The first row is the start, and the last the start of the next period.
+    """
+    count = len(sent.chips)
+    places = sorted({0, *sent.edges, count})
+    for chip in places:
+        time = chip * sent.timing.period
+        yield chip, chip * sent.timing.cycles, decimal(time), int(sent.chips[chip % count])
+
+
+def decimal(value: Fraction) -> str:
+    """Write a number exactly where it has few decimals, else to 18 digits after the point."""
+    digits = 18
+    scaled = round(value * 10**digits)
+    whole, part = divmod(scaled, 10**digits)
+    return f"{whole}.{part:0{digits}d}".rstrip("0").rstrip(".")
+
+
+def vcd_text(sent: Transmission) -> str:
+    """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact.
+
+    Raises
+    ------
+    OutputError
+        The clock's period is no whole number of femtoseconds.
+    """
+    unit, ticks = _vcd_unit(Fraction(1, sent.timing.clock))
+    lines = [
+        "$comment one packet, sent over and over $end",
+        f"$timescale {unit} $end",
+        "$scope module transmitter $end",
+        "$var wire 1 ! light $end",
+        "$upscope $end",
+        "$enddefinitions $end",
+    ]
+    for chip, cycles, _, lit in edge_rows(sent):
+        change = [] if chip == len(sent.chips) else [f"{lit}!"]
+        lines += [f"#{cycles * ticks}", *change]
+    return "\n".join(lines) + "\n"
+
+
+def _vcd_unit(cycle: Fraction) -> tuple[str, int]:
+    """Choose the coarsest unit of which a cycle is a whole number."""
+    for power in range(3 * (len(_VCD_UNITS) - 1) + 1):
+        ticks = cycle * 10**power
+        if ticks.denominator == 1:
+            name = _VCD_UNITS[ceil(power / 3)]
+            return f"{10 ** (-power % 3)} {name}", int(ticks)
+    raise OutputError(
+        f"The clock of {HERTZ.format(float(1 / cycle))} has a period of no whole number of "
+        "femtoseconds, which VCD needs."
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class WavTiming:
+    """Sample rate in Hz and samples a chip of a WAV file, and what they make of the frequency."""
+
+    sample_rate: int
+    samples_a_chip: int
+    error_ppm: Fraction
+
+
+def wav_timing(sent: Transmission) -> WavTiming:
+    """Choose the sample rate of a WAV file: whole samples a chip, so that edges are even.
+
+    The rate is a whole number of Hz. The one whose frequency is nearest to what the board sends is
+    chosen; of several a usual one, then the highest.
+
+    Raises
+    ------
+    OutputError
+        A sample rate that sound cards have is too low for the switching frequency.
+    """
+    frequency = sent.timing.frequency
+    fewest = max(2, ceil(LOWEST_SAMPLE_RATE / frequency))
+    most = int(HIGHEST_SAMPLE_RATE / frequency)
+    if most < fewest:
+        raise OutputError(
+            f"A WAV file holds up to {HERTZ.format(HIGHEST_SAMPLE_RATE)}, two samples a chip, and "
+            f"thus up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}: the switching frequency is "
+            f"{HERTZ.format(float(frequency))}."
+        )
+    tried = range(max(fewest, most - _MOST_RATES), most + 1)
+    found = (_wav_timing(frequency, samples) for samples in tried)
+    return min(
+        found,
+        key=lambda timing: (
+            abs(timing.error_ppm),
+            timing.sample_rate not in _USUAL_RATES,
+            -timing.sample_rate,
+        ),
+    )
+
+
+def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
+    rate = min(round(frequency * samples), HIGHEST_SAMPLE_RATE)
+    return WavTiming(rate, samples, (Fraction(rate, samples) / frequency - 1) * 10**6)
+
+
+def wav_bytes(sent: Transmission) -> bytes:
+    """Write whole periods of at least one second as a WAV file of 8 bits: 255 is lit, 0 is dark.
+
+    Raises
+    ------
+    OutputError
+        No sample rate serves, or the file would be too large.
+    """
+    timing = wav_timing(sent)
+    period = len(sent.chips) * timing.samples_a_chip
+    periods = ceil(timing.sample_rate / period)
+    if periods * period > _LARGEST_WAV:
+        raise OutputError(
+            f"The waveform takes {periods * period:,} samples; allowed in a WAV file: "
+            f"{_LARGEST_WAV:,}. Raise the switching frequency or send fewer bits."
+        )
+    samples = np.tile(np.repeat(sent.chips, timing.samples_a_chip), periods) * np.uint8(255)
+    buffer = BytesIO()
+    with wave.open(buffer, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(1)
+        file.setframerate(timing.sample_rate)
+        file.writeframes(samples.tobytes())
+    return buffer.getvalue()

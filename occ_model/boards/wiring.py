@@ -1,0 +1,70 @@
+"""The circuit between a board's pin and the light: resistors, from stated assumptions."""
+
+from dataclasses import dataclass
+from math import log
+
+from occ_model.boards.board import Board
+
+_E12 = (10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82)
+"""Values of resistors in a decade: IEC 60063, series E12."""
+
+GATE_CAPACITANCE = 2e-9
+"""Of the MOSFET, in F; assumed: that of common logic-level types is 0.6 to 2 nF."""
+
+PULL_DOWN = 10_000
+"""Resistor in ohm that keeps the light off while the board starts; 10 to 100 kOhm would do."""
+
+LED_VOLTS = 2.0
+"""Forward voltage of a single LED, in V; assumed: that of a red one."""
+
+LED_CURRENT = 0.010
+"""Current of a single LED, in A; assumed: half of what common ones bear."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wiring:
+    """The circuit's values.
+
+    Parameters
+    ----------
+    gate_resistor
+        In ohm: limits the current that charges the MOSFET's gate to what the pin may give.
+    pull_down
+        In ohm, from the gate to ground.
+    rise_time
+        Time in s that the gate's voltage takes from 10 to 90 %.
+    led_resistor
+        In ohm, for a single LED at the pin in place of MOSFET and panel.
+    led_current
+        The current in A through that LED.
+    """
+
+    gate_resistor: int
+    pull_down: int
+    rise_time: float
+    led_resistor: int
+    led_current: float
+
+
+def wiring(board: Board) -> Wiring:
+    """Compute the circuit's values for a board."""
+    gate = next_resistor(board.volts / board.pin_current)
+    led = next_resistor((board.volts - LED_VOLTS) / LED_CURRENT)
+    return Wiring(
+        gate_resistor=gate,
+        pull_down=PULL_DOWN,
+        # An RC low-pass: exp(-t / RC) falls from 0.9 to 0.1.
+        rise_time=log(9.0) * gate * GATE_CAPACITANCE,
+        led_resistor=led,
+        led_current=(board.volts - LED_VOLTS) / led,
+    )
+
+
+def next_resistor(ohms: float) -> int:
+    """Return the smallest resistor of the series E12 that is not below a value from 10 ohm."""
+    decade = 1
+    while True:
+        for value in _E12:
+            if value * decade >= ohms * (1 - 1e-12):
+                return value * decade
+        decade *= 10

@@ -1,0 +1,70 @@
+"""The command ``occ-model transmit``: write a sketch for a board that blinks the scene."""
+
+import argparse
+from pathlib import Path
+
+from occ_model.boards.caution import EYES, flicker_sentence
+from occ_model.boards.chip_table import frequency_lines
+from occ_model.boards.file_names import SCENE, file_names
+from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named
+from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.waveform_files import wav_timing
+from occ_model.commands.files import Written
+from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.errors import one_line
+from occ_model.scene.units import HERTZ
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser(
+        "transmit",
+        help="write a sketch for a board that blinks the scene",
+        description="Write a folder with a sketch that blinks the scene, the waveform as CSV, VCD "
+        "and WAV, the wiring as PDF, SVG and PNG, and the scene with the frequency that is sent.",
+    )
+    add_scene_options(parser)
+    parser.add_argument(
+        "--board",
+        choices=tuple(BOARDS),
+        default=DEFAULT_BOARD,
+        help="the board that blinks; default: %(default)s",
+    )
+    parser.add_argument(
+        "-o", "--out", type=Path, required=True, metavar="DIR", help="folder to fill"
+    )
+    parser.set_defaults(command=_run, writes={"out": _written})
+
+
+def _written(options: argparse.Namespace) -> Written:
+    names = file_names(options.out, board_named(options.board))
+    return Written("A sketch", names=names)
+
+
+def _run(options: argparse.Namespace) -> int:
+    sent = transmission(scene_of(options), board_named(options.board))
+    # matplotlib takes half a second to import: only where a figure is drawn.
+    from occ_model.figures.transmitter_files import write_transmitter_files
+
+    paths, missing = write_transmitter_files(options.out, sent)
+    print(f"{one_line(str(options.out))}: {', '.join(sorted(path.name for path in paths))}")
+    for line in (*_facts(sent), missing or _wav(sent), flicker_sentence(sent), EYES):
+        print(line)
+    return 0
+
+
+def _facts(sent: Transmission) -> list[str]:
+    facts = [" ".join(frequency_lines(sent))]
+    if sent.timing.error_ppm != 0:
+        facts.append(f"{SCENE} has the frequency that is sent: match your photos with it.")
+    return facts
+
+
+def _wav(sent: Transmission) -> str:
+    """Say how exact the WAV file is, whose sample rate is a whole number of Hz."""
+    timing = wav_timing(sent)
+    return (
+        f"WAV: {timing.samples_a_chip} samples a chip at {HERTZ.format(timing.sample_rate)}, "
+        f"{float(timing.error_ppm):+.3g} ppm from the frequency sent; sound cards block steady "
+        "light and smooth the edges."
+    )

@@ -1,0 +1,72 @@
+"""The text of sketches: whatever the payload is, the comment at the head stays a comment."""
+
+import ast
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.boards.sketch import BOARDS, board_named
+from occ_model.boards.transmission import transmission
+
+PAPER = occ.load_preset("phone-68us")
+
+every_board = pytest.mark.parametrize("board", BOARDS)
+
+HOSTILE = (
+    "text:\\",
+    "text:a\nb",
+    "text:*/",
+    "text:??/",
+    "text:'''\"\"\"",
+    "text:\u2028x",
+    "text:ä",
+)
+
+
+def head_of(source: str) -> list[str]:
+    return source.partition("\n\n")[0].splitlines()
+
+
+@every_board
+@pytest.mark.parametrize("payload", HOSTILE)
+def test_no_payload_leaves_the_comment(board: str, payload: str) -> None:
+    source = occ.transmitter_sketch(PAPER.replace(payload=payload), board)
+    mark = "#" if board == "raspberry-pi-pico" else "//"
+    head = head_of(source)
+    assert all(line.startswith(mark) for line in head)
+    # Either would join the next line to the comment.
+    assert not any(line.endswith(("\\", "??/")) for line in head)
+
+
+@settings(max_examples=25)
+@given(text=st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=40))
+def test_the_program_of_the_pico_is_python_with_any_payload(text: str) -> None:
+    ast.parse(occ.transmitter_sketch(PAPER.replace(payload=f"text:{text}"), "raspberry-pi-pico"))
+
+
+@every_board
+def test_the_head_states_what_is_sent(board: str) -> None:
+    scene = PAPER.replace(switching_frequency=14.7e3)
+    sent = transmission(scene, board_named(board))
+    head = " ".join(line.lstrip("/# ") for line in head_of(occ.transmitter_sketch(scene, board)))
+    assert "Sends the code 718 of 10 bits." in head
+    assert "Packet: 24 chips" in head
+    assert "11100101 10010101 10011010" in head
+    assert f"{float(sent.timing.error_ppm):+.3g} ppm from the 14.7 kHz asked" in head
+    assert f"{sent.timing.cycles:,} cycles" in head
+    assert f"{sent.board.clock_error:,.0f} ppm" in head
+
+
+@every_board
+def test_lines_are_short_enough_to_be_read(board: str) -> None:
+    scene = PAPER.replace(payload="text:" + "x" * 400, switching_frequency=14.7e3)
+    source = occ.transmitter_sketch(scene, board)
+    assert [line for line in source.splitlines() if len(line) > 100] == []
+    assert occ.transmitter_sketch(PAPER, board).isascii()
+
+
+def test_the_nano_blinks_as_the_uno() -> None:
+    uno, nano = (occ.transmitter_sketch(PAPER, f"arduino-{name}") for name in ("uno", "nano"))
+    assert nano == uno.replace("Arduino Uno", "Arduino Nano")

@@ -1,0 +1,178 @@
+"""How long a chip lasts on a board: the nearest that the timer can do, and the error is exact."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.boards.arduino import UNO
+from occ_model.boards.board import Board
+from occ_model.boards.sketch import BOARDS, board_named
+from occ_model.boards.timing import best_timing
+from occ_model.boards.transmission import transmission
+
+PAPER = occ.load_preset("phone-68us")
+
+every_board = pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board: board.name)
+
+frequencies = st.floats(60.0, 125e3)
+
+
+@every_board
+@settings(max_examples=25)
+@given(frequency=frequencies)
+def test_no_setting_of_the_timer_comes_nearer(board: Board, frequency: float) -> None:
+    found = best_timing(board, frequency)
+    prescalers = np.array(board.prescalers, dtype=np.int64)
+    exact = board.clock / (prescalers * frequency)
+    counts = np.clip(np.stack([np.floor(exact), np.ceil(exact)]), 1, board.largest_count)
+    cycles = (counts * prescalers).astype(np.int64).ravel()
+    errors = [
+        abs(Fraction(board.clock, int(number)) / Fraction(frequency) - 1)
+        for number in cycles
+        if number >= board.least_cycles
+    ]
+    assert abs(found.error_ppm) == min(errors) * 10**6
+
+
+@every_board
+@settings(max_examples=25)
+@given(frequency=frequencies)
+def test_the_error_is_at_most_half_a_count(board: Board, frequency: float) -> None:
+    timing = best_timing(board, frequency)
+    wanted = Fraction(board.clock) / Fraction(frequency)
+    fits = [number for number in board.prescalers if number * board.largest_count >= wanted]
+    assert abs(timing.cycles - wanted) <= Fraction(fits[0], 2)
+
+
+@every_board
+@settings(max_examples=25)
+@given(frequency=frequencies)
+def test_frequency_period_and_error_are_one_statement(board: Board, frequency: float) -> None:
+    timing = best_timing(board, frequency)
+    assert timing.frequency * timing.period == 1
+    assert timing.frequency == timing.asked * (1 + timing.error_ppm / 10**6)
+    assert timing.prescaler in board.prescalers
+    assert 1 <= timing.count <= board.largest_count
+
+
+@every_board
+@settings(max_examples=25)
+@given(frequency=frequencies)
+def test_the_frequency_that_is_sent_is_sent_again_as_it_is(board: Board, frequency: float) -> None:
+    first = transmission(PAPER.replace(switching_frequency=frequency), board)
+    again = transmission(first.sent_scene, board)
+    assert again.timing.cycles == first.timing.cycles
+    # A float holds 1/3 to 16 digits.
+    assert abs(again.timing.error_ppm) < Fraction(1, 10**9)
+    assert again.sent_scene == first.sent_scene
+
+
+@pytest.mark.parametrize(
+    ("frequency", "prescaler", "count", "ppm"),
+    [
+        (1e3, 1, 16_000, 0.0),
+        (40e3, 1, 400, 0.0),
+        (14.7e3, 1, 1088, 1e6 * (16e6 / 1088 / 14.7e3 - 1)),
+        (1.0, 256, 62_500, 0.0),
+        (244.0, 8, 8197, 1e6 * (2e6 / 8197 / 244.0 - 1)),
+    ],
+)
+def test_the_unos_timer_is_set_as_by_hand(
+    frequency: float, prescaler: int, count: int, ppm: float
+) -> None:
+    timing = best_timing(UNO, frequency)
+    assert (timing.prescaler, timing.count) == (prescaler, count)
+    assert float(timing.error_ppm) == pytest.approx(ppm, abs=1e-6)
+
+
+@every_board
+def test_the_ends_of_the_range_are_allowed_and_what_is_beyond_is_not(board: Board) -> None:
+    low, high = float(board.lowest_frequency), float(board.highest_frequency)
+    assert best_timing(board, high).cycles == board.least_cycles
+    assert best_timing(board, low * (1 + 1e-12)).cycles == board.most_cycles
+    for beyond in (low * 0.999, high * 1.001):
+        with pytest.raises(occ.ParameterError) as refused:
+            best_timing(board, beyond)
+        assert refused.value.parameters == ("switching_frequency",)
+
+
+def test_a_refusal_names_value_board_range_and_reason() -> None:
+    with pytest.raises(occ.ParameterError) as refused:
+        occ.transmitter_sketch(PAPER.replace(switching_frequency=400e3), "arduino-uno")
+    assert str(refused.value) == (
+        "switching_frequency is 400 kHz; allowed on Arduino Uno: 0.238419 Hz to 125 kHz, since its "
+        "interrupt takes about 100 of the clock's cycles for each chip."
+    )
+
+
+def test_an_unknown_board_is_refused_with_the_known_ones() -> None:
+    with pytest.raises(occ.ParameterError) as refused:
+        occ.transmitter_sketch(PAPER, "arduino-due")
+    assert str(refused.value) == (
+        "board is 'arduino-due'; allowed: arduino-uno, arduino-nano, esp32, raspberry-pi-pico."
+    )
+
+
+def test_what_is_no_scene_is_refused() -> None:
+    with pytest.raises(occ.ParameterError, match=r"^scene is 3; allowed: a Scene"):
+        occ.transmitter_sketch(3)  # type: ignore[arg-type]
+
+
+def test_a_packet_that_does_not_fit_is_refused() -> None:
+    # 4,095 chips have no divisor in common with 32: 32 packets of them are unpacked.
+    pico = board_named("raspberry-pi-pico")
+    small = Board(
+        **{name: getattr(pico, name) for name in pico.__slots__} | {"table_bytes": 16_000}
+    )
+    scene = PAPER.replace(pattern="1" + "0" * 4094)
+    with pytest.raises(occ.ParameterError) as refused:
+        transmission(scene, small)
+    assert str(refused.value) == (
+        "The packet has 4,095 chips, which take 16,380 bytes on Raspberry Pi Pico; allowed: 16,000 "
+        "bytes. Send fewer bits."
+    )
+    assert transmission(scene, pico).timing.cycles
+
+
+@pytest.mark.parametrize(
+    ("pattern", "lowest", "run", "visible"),
+    [
+        ("01", 5e3, 1e-4, False),
+        ("0101", 5e3, 1e-4, False),
+        ("1001", 2.5e3, 2e-4, False),
+        ("1" + "0" * 99, 100.0, 9.9e-3, True),
+    ],
+)
+def test_the_lowest_frequency_is_that_of_the_shortest_repetition(
+    pattern: str, lowest: float, run: float, visible: bool
+) -> None:
+    sent = transmission(PAPER.replace(pattern=pattern, switching_frequency=10e3), UNO)
+    assert sent.lowest_frequency == lowest
+    assert sent.longest_run is not None
+    assert float(sent.longest_run) == run
+    assert sent.is_visible == visible
+
+
+def test_steady_light_has_no_lowest_frequency() -> None:
+    sent = transmission(PAPER.replace(pattern="111"), UNO)
+    assert (sent.lowest_frequency, sent.longest_run, sent.is_visible) == (None, None, False)
+
+
+@settings(max_examples=25)
+@given(pattern=st.text("01", min_size=2, max_size=40))
+def test_below_the_lowest_frequency_the_spectrum_is_empty(pattern: str) -> None:
+    sent = transmission(PAPER.replace(pattern=pattern, switching_frequency=1e3), UNO)
+    chips = np.tile(sent.chips, 4).astype(np.float64)
+    strengths = np.abs(np.fft.rfft(chips - chips.mean()))
+    if sent.lowest_frequency is None:
+        assert strengths.max() < 1e-9
+        return
+    found = np.fft.rfftfreq(len(chips), 1e-3)[strengths > 1e-6]
+    assert found.min() >= float(sent.lowest_frequency) * (1 - 1e-9)
+    # It is the frequency of which all are multiples.
+    multiples = found / float(sent.lowest_frequency)
+    np.testing.assert_allclose(multiples, np.round(multiples), atol=1e-9)

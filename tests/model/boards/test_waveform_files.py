@@ -1,0 +1,113 @@
+"""The waveform's files: what is read from them is the packet, with exact times."""
+
+import re
+import wave
+from fractions import Fraction
+from io import BytesIO
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.boards.sketch import BOARDS, board_named
+from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.waveform_files import (
+    HIGHEST_SAMPLE_RATE,
+    decimal,
+    edge_rows,
+    vcd_text,
+    wav_bytes,
+    wav_timing,
+)
+
+PAPER = occ.load_preset("phone-68us")
+
+_UNITS = {"s": 0, "ms": 3, "us": 6, "ns": 9, "ps": 12, "fs": 15}
+
+
+def sent_by(board: str, **changes: float | str) -> Transmission:
+    return transmission(PAPER.replace(**changes), board_named(board))
+
+
+every_board = pytest.mark.parametrize("board", BOARDS)
+patterns = pytest.mark.parametrize("pattern", ["", "0011", "10", "1", "0110"])
+
+
+@every_board
+@patterns
+def test_the_table_gives_the_packet_back(board: str, pattern: str) -> None:
+    sent = sent_by(board, switching_frequency=14.7e3, pattern=pattern)
+    rows = list(edge_rows(sent))
+    chips = [
+        level
+        for (chip, _, _, level), (following, *_) in pairwise(rows)
+        for _ in range(following - chip)
+    ]
+    np.testing.assert_array_equal(chips, sent.chips)
+    for chip, cycles, time, _ in rows:
+        assert cycles == chip * sent.timing.cycles
+        assert abs(Fraction(time) - chip * sent.timing.period) <= Fraction(1, 2 * 10**18)
+
+
+@every_board
+@patterns
+def test_the_value_change_dump_has_exact_edges(board: str, pattern: str) -> None:
+    sent = sent_by(board, switching_frequency=14.7e3, pattern=pattern)
+    text = vcd_text(sent)
+    ((number, unit),) = re.findall(r"\$timescale (\d+) (\w+) \$end", text)
+    tick = Fraction(int(number), 10 ** _UNITS[unit])
+    changes = re.findall(r"^#(\d+)\n([01])!$", text, re.MULTILINE)
+    found = [(int(time) * tick / sent.timing.period, int(level)) for time, level in changes]
+    rows = list(edge_rows(sent))[:-1]
+    assert found == [(chip, level) for chip, _, _, level in rows]
+    assert int(re.findall(r"^#(\d+)$", text, re.MULTILINE)[-1]) * tick == (
+        len(sent.chips) * sent.timing.period
+    )
+
+
+@every_board
+@pytest.mark.parametrize("frequency", [1e3, 14.7e3, 40e3])
+def test_a_wav_file_holds_whole_packets_with_even_edges(board: str, frequency: float) -> None:
+    sent = sent_by(board, switching_frequency=frequency)
+    timing = wav_timing(sent)
+    with wave.open(BytesIO(wav_bytes(sent))) as file:
+        assert (file.getnchannels(), file.getsampwidth()) == (1, 1)
+        assert file.getframerate() == timing.sample_rate <= HIGHEST_SAMPLE_RATE
+        samples = np.frombuffer(file.readframes(file.getnframes()), dtype=np.uint8)
+    chips = samples.reshape(-1, timing.samples_a_chip)
+    assert (chips == chips[:, :1]).all()
+    assert len(chips) % len(sent.chips) == 0
+    np.testing.assert_array_equal(chips[:, 0], np.resize(sent.chips, len(chips)) * 255)
+    assert len(samples) >= timing.sample_rate
+    told = Fraction(timing.sample_rate, timing.samples_a_chip)
+    assert told == sent.timing.frequency * (1 + timing.error_ppm / 10**6)
+    assert abs(timing.error_ppm) < 10
+
+
+def test_a_frequency_that_divides_a_usual_rate_gets_it() -> None:
+    assert wav_timing(sent_by("arduino-uno", switching_frequency=2e3)).sample_rate == 192_000
+
+
+def test_a_wav_file_is_refused_where_its_sample_rate_is_too_low() -> None:
+    with pytest.raises(occ.OutputError) as refused:
+        wav_timing(sent_by("esp32", switching_frequency=100e3))
+    assert str(refused.value) == (
+        "A WAV file holds up to 192 kHz, two samples a chip, and thus up to 96 kHz: the switching "
+        "frequency is 100 kHz."
+    )
+
+
+def test_a_wav_file_is_refused_where_it_would_be_too_large() -> None:
+    scene = PAPER.replace(payload="bits:" + "01" * 2048, switching_frequency=1.0)
+    with pytest.raises(occ.OutputError, match=r"^The waveform takes [\d,]+ samples; allowed"):
+        wav_bytes(transmission(scene, board_named("arduino-uno")))
+
+
+@settings(max_examples=50)
+@given(value=st.fractions(0, 100, max_denominator=10**6))
+def test_a_decimal_is_the_number_to_eighteen_places(value: Fraction) -> None:
+    assert abs(Fraction(decimal(value)) - value) <= Fraction(1, 2 * 10**18)
+    assert not decimal(value).endswith(".")

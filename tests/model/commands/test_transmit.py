@@ -1,0 +1,108 @@
+"""The command ``occ-model transmit``: a folder with all that is needed to blink a scene."""
+
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+from occ_model.boards.file_names import file_names
+from occ_model.boards.sketch import board_named
+from occ_model.cli import main
+from occ_model.figures import transmitter_files
+from occ_model.scene.provenance import scene_inside
+
+FILES = {
+    "waveform.csv", "waveform.vcd", "waveform.wav",
+    "wiring.pdf", "wiring.svg", "wiring.png", "scene.toml",
+}  # fmt: skip
+
+SCENE = ("--preset", "phone-68us", "--set", "switching_frequency=14.7kHz")
+
+
+def run(*words: str | Path) -> int:
+    return main(["transmit", *map(str, words)])
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out what takes long: drawing the wiring."""
+    monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda sent, format_name: b"")
+
+
+def test_the_folder_has_sketch_waveform_wiring_and_scene(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "blink"
+    assert run(*SCENE, "--board", "arduino-uno", "-o", folder) == 0
+    assert {path.name for path in folder.iterdir()} == {"blink.ino", *FILES}
+    asked = occ.load_preset("phone-68us").replace(switching_frequency=14.7e3)
+    assert (folder / "blink.ino").read_text() == occ.transmitter_sketch(asked, "arduino-uno")
+    said = capsys.readouterr().out
+    assert said.startswith(f"{folder}: blink.ino, ")
+    assert "14.7058824 kHz, +400 ppm from the 14.7 kHz asked" in said
+    assert "Do not look into a bright LED" in said
+    # The scene has the frequency that is sent.
+    scene = occ.Scene.from_toml((folder / "scene.toml").read_text())
+    sent = asked.replace(switching_frequency=16e6 / 1088)
+    assert scene == sent
+    for name in ("waveform.csv", "wiring.pdf", "wiring.svg", "wiring.png"):
+        assert scene_inside(folder / name) == sent
+
+
+@pytest.mark.parametrize(
+    ("board", "folder", "sketch"),
+    [
+        ("arduino-nano", "lamp-2", "lamp-2.ino"),
+        ("esp32", "my lamp", "blink.ino"),
+        ("esp32", ".lamp", "blink.ino"),
+        ("raspberry-pi-pico", "lamp", "main.py"),
+    ],
+)
+def test_the_sketch_has_the_name_that_the_board_wants(
+    tmp_path: Path, board: str, folder: str, sketch: str
+) -> None:
+    assert set(file_names(tmp_path / folder, board_named(board))) == {sketch, *FILES}
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_without_a_wav_file_it_is_said_why(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "fast"
+    assert run("--set", "switching_frequency=120kHz", "-o", folder) == 0
+    assert not (folder / "waveform.wav").exists()
+    assert "A WAV file holds up to 192 kHz" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--set", "switching_frequency=1MHz"], "switching_frequency is 1 MHz; allowed on Arduino"),
+        (["--set", "line_code=nrz", "--set", "framing=c-ook"], "line_code is 'nrz', which limits"),
+        (["--scene", "scene.toml", "-o", "."], "--out, where scene.toml goes, is scene.toml, the"),
+    ],
+)
+def test_a_misuse_gives_one_sentence_and_writes_nothing(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    words: list[str],
+    said: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("scene.toml").write_text(occ.Scene().to_toml())
+    assert run(*words, *([] if "-o" in words else ["-o", "blink"])) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f"occ-model: {said}")
+    assert error.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_file_in_the_folders_place_is_left_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "blink").write_text("mine")
+    assert run(*SCENE, "-o", tmp_path / "blink") == 2
+    assert "cannot be made" in capsys.readouterr().err
+    assert (tmp_path / "blink").read_text() == "mine"

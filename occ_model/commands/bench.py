@@ -8,7 +8,10 @@ from occ_model.commands.options import Commands, decoder_name, number, whole_num
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import decoders
-from occ_model.study.bench.bench import BenchPoint, BenchRequest, bench, check_bench
+from occ_model.results.bench import BenchPoint, BenchRequest
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.study.bench.bench import bench, check_bench
+from occ_model.study.bench.bounds import bench_bounds
 from occ_model.study.bench.data_set import SampleReading, load_samples, read_samples
 
 _OWN = BenchRequest()
@@ -55,6 +58,10 @@ def add_to(commands: Commands) -> None:
         "--bits", type=whole_number, default=_OWN.bits,
         help="at each point at the least; default: %(default)s",
     )  # fmt: skip
+    parser.add_argument(
+        "--fps", type=number, default=FRAMES_A_SECOND,
+        help="pictures a second, one payload each; default: %(default)g",
+    )  # fmt: skip
     parser.add_argument("--seed", type=whole_number, default=_OWN.seed, help="default: %(default)s")
     parser.add_argument(
         "--data", type=Path, metavar="CSV",
@@ -82,27 +89,29 @@ def _run(options: argparse.Namespace) -> int:
         bits=options.bits,
         seed=options.seed,
     )
+    check_bench(request)
+    bench_bounds(request, options.fps)
     if options.out is not None:
-        check_bench(request)
         make_folder(options.out)  # a refusal must not come after minutes of work
     with progress_bar(total=len(request.points), unit=" points", leave=False, delay=0.5) as bar:
         points = bench(request, lambda done, _all: bar.update(done - bar.n))
-    for line in _table(points):
+    for line in _table(points, options.fps):
         print(line)
     if options.out is not None:
         from occ_model.figures.bench import write_bench  # slow to import
 
-        write_bench(options.out, request, points)
+        write_bench(options.out, request, points, options.fps)
     return 0
 
 
-def _table(points: tuple[BenchPoint, ...]) -> list[str]:
-    lines = ["scheme      decoder     exposure  SNR (dB)  bit error rate (95 % interval)"]
+def _table(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
+    lines = ["scheme      decoder     exposure  SNR (dB)  bit error rate (95 % interval), bits/s"]
     for point in points:
         errors = point.errors
         lines.append(
             f"{point.scheme:<11} {errors.decoder:<11} {point.exposure:8g}  {point.decibels:8g}  "
-            f"{errors.rate:.2g} ({errors.low:.2g} to {errors.high:.2g})"
+            f"{errors.rate:.2g} ({errors.low:.2g} to {errors.high:.2g}), "
+            f"{errors.bits_a_second(frames_a_second):,.0f}"
         )
     notes = {
         point.errors.decoder: point.note for point in points if not point.errors.pictures_right

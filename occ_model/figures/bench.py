@@ -1,87 +1,166 @@
-"""Draw the bench: bit error rates over the exposure, and over the signal-to-noise ratio."""
+"""Draw the bench: bit error rates and bits a second, over the exposure and over the noise."""
 
 from collections.abc import Sequence
+from math import nan
 from pathlib import Path
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from occ_model.figures.drawing import Drawing
+from occ_model.results.bench import HEADER, BenchBounds, BenchPoint, BenchRequest, written
 from occ_model.scene.provenance import Provenance
-from occ_model.study.bench.bench import HEADER, BenchPoint, BenchRequest, bench_scene, written
+from occ_model.study.bench.bench import bench_scene
+from occ_model.study.bench.bounds import bench_bounds
 
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
-_ARROW = 0.4
+_ARROW = 0.5
 """Length of the arrow down from an upper end, as a share of it."""
 
+_AXES = ("exposure", "noise")
+_BOUND: dict[str, Any] = {"color": "0.35", "linestyle": "--", "linewidth": 1.0}
+_NULL: dict[str, Any] = {"color": "0.6", "linestyle": ":", "linewidth": 1.0}
 
-def write_bench(folder: Path, request: BenchRequest, points: Sequence[BenchPoint]) -> None:
+
+def write_bench(
+    folder: Path, request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
+) -> None:
     """Write the figure as PDF and PNG, and its points as CSV.
 
     Raises
     ------
+    ParameterError
+        So many pictures cannot be read out in a second.
     OutputError
         A file cannot be written.
     """
-    drawing = bench_drawing(request, points)
-    scenes = {
-        scheme: bench_scene(scheme, request.payload_bits, 1.0, request.rows_a_symbol)
-        for scheme in request.schemes
-    }
-    provenance = Provenance(drawing.title, scenes, request.seed, _notes(request))
+    drawing = bench_drawing(request, points, frames_a_second)
+    scenes = {scheme: bench_scene(request, scheme) for scheme in request.schemes}
+    notes = bench_notes(request, frames_a_second)
+    provenance = Provenance(drawing.title, scenes, request.seed, notes)
     for ending in (".pdf", ".png", ".csv"):
         drawing.write(folder / f"{drawing.name}{ending}", provenance)
 
 
-def bench_drawing(request: BenchRequest, points: Sequence[BenchPoint]) -> Drawing:
-    """Draw the bit error rates of a request."""
-    title = "Bit error rates over exposure and noise"
-    return Drawing("bench", title, lambda: _draw(request, points), HEADER, lambda: written(points))
+def bench_drawing(
+    request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
+) -> Drawing:
+    """Draw what a request has measured, beside what theory says.
 
-
-def _notes(request: BenchRequest) -> tuple[str, ...]:
-    return (
-        f"{request.rows_a_symbol:g} rows a symbol, payloads of {request.payload_bits} bits, at "
-        f"least {request.bits} bits a point",
-        f"over the exposure at {request.at_decibels:g} dB, over the noise at an exposure of "
-        f"{request.at_exposure:g} symbols",
+    Raises
+    ------
+    ParameterError
+        So many pictures cannot be read out in a second.
+    """
+    bounds = bench_bounds(request, frames_a_second)
+    return Drawing(
+        "bench",
+        "Bit error rates and bits a second over exposure and noise",
+        lambda: _draw(request, points, bounds, frames_a_second),
+        HEADER,
+        lambda: written(points, frames_a_second),
     )
 
 
-def _draw(request: BenchRequest, points: Sequence[BenchPoint]) -> Figure:
-    figure = Figure(figsize=(7.2, 3.6))
-    left, right = figure.subplots(1, 2, sharey=True)
-    for ax, axis in ((left, "exposure"), (right, "noise")):
-        _draw_axis(ax, axis, [point for point in points if point.axis == axis])
-        ax.set_yscale("log")
-        ax.grid(linewidth=0.3)
-    left.set_xlabel("exposure (symbols)")
-    left.set_ylabel("bit error rate")
-    left.set_title(f"{request.at_decibels:g} dB", fontsize=9)
-    right.set_xlabel("signal-to-noise ratio (dB)")
-    right.set_title(f"exposure of {request.at_exposure:g} symbols", fontsize=9)
+def bench_notes(request: BenchRequest, frames_a_second: float) -> tuple[str, ...]:
+    """Say in lines how the points were measured."""
+    return (
+        f"{request.rows_a_symbol:g} rows a symbol (the row rate allows 1 or more), "
+        f"{request.rows} rows a picture, payloads of {request.payload_bits} bits, at least "
+        f"{request.bits} bits a point",
+        f"over the exposure at {request.at_decibels:g} dB, over the noise at an exposure of "
+        f"{request.at_exposure:g} symbols",
+        f"{frames_a_second:g} pictures a second, one payload each",
+    )
+
+
+def _draw(
+    request: BenchRequest,
+    points: Sequence[BenchPoint],
+    bounds: BenchBounds,
+    frames_a_second: float,
+) -> Figure:
+    figure = Figure(figsize=(7.2, 5.6))
+    panels = figure.subplots(2, 2, sharex="col", sharey="row")
+    for place, axis in enumerate(_AXES):
+        some = [point for point in points if point.axis == axis]
+        rates, bits = panels[0][place], panels[1][place]
+        for number, (label, curve) in enumerate(_curves(some).items()):
+            _draw_rates(rates, number, label, curve)
+            _draw_bits(bits, number, curve, frames_a_second)
+        bits.plot(*bounds.most_bits[axis], **_BOUND)
+        rates.set_yscale("log")
+        # Nothing at all is drawn too, below a bit a picture.
+        bits.set_yscale("symlog", linthresh=frames_a_second)
+        bits.set_ylim(bottom=0.0)
+        for ax in (rates, bits):
+            ax.grid(linewidth=0.3)
+    for ax in (panels[0][0], panels[1][0]):
+        for null in bounds.nulls:
+            ax.axvline(null, **_NULL)
+    _name_axes(figure, panels, request)
     lowest = min((point.errors.rate or point.errors.high for point in points), default=1.0)
-    left.set_ylim(0.3 * lowest, 1.5)
-    handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False, fontsize=7)
+    panels[0][0].set_ylim(0.3 * lowest, 1.5)
     return figure
 
 
-def _draw_axis(ax: Axes, axis: str, points: Sequence[BenchPoint]) -> None:
-    curves: dict[tuple[str, str], list[BenchPoint]] = {}
+def _name_axes(figure: Figure, panels: Sequence[Sequence[Axes]], request: BenchRequest) -> None:
+    (rates, right), (bits, below) = panels
+    rates.set_ylabel("bit error rate")
+    bits.set_ylabel("bits a second")
+    bits.set_xlabel("exposure (symbols)")
+    below.set_xlabel("signal-to-noise ratio (dB)")
+    rates.set_title(f"{request.at_decibels:g} dB", fontsize=9)
+    right.set_title(f"exposure of {request.at_exposure:g} symbols", fontsize=9)
+    curves = dict(zip(*reversed(rates.get_legend_handles_labels()), strict=True))
+    curves |= dict(zip(*reversed(right.get_legend_handles_labels()), strict=True))
+    lines = {
+        "nulls of alternating chips": Line2D([], [], **_NULL),
+        "most that Gaussian light carries": Line2D([], [], **_BOUND),
+    }
+    drawn = {**curves, **lines}
+    figure.legend(
+        drawn.values(), drawn.keys(), loc="outside upper center", ncols=3, frameon=False, fontsize=7
+    )
+
+
+def _curves(points: Sequence[BenchPoint]) -> dict[str, list[BenchPoint]]:
+    curves: dict[str, list[BenchPoint]] = {}
     for point in points:
-        curves.setdefault((point.scheme, point.errors.decoder), []).append(point)
-    for number, ((scheme, decoder), some) in enumerate(curves.items()):
-        at = [point.exposure if axis == "exposure" else point.decibels for point in some]
-        errors = [point.errors for point in some]
-        without = [not one.errors for one in errors]
-        # Without an error only the upper end is known: an arrow points down from it.
-        rates = [one.rate or one.high for one in errors]
-        low = [rate * _ARROW if one.low == 0.0 else rate - one.low
-               for rate, one in zip(rates, errors, strict=True)]  # fmt: skip
-        high = [one.high - rate for rate, one in zip(rates, errors, strict=True)]
-        ax.errorbar(
-            at, rates, [low, high], uplims=without, label=f"{scheme}, {decoder}",
-            marker=_MARKERS[number % len(_MARKERS)], markersize=4, linewidth=1.0, capsize=2,
-        )  # fmt: skip
+        curves.setdefault(f"{point.scheme}, {point.errors.decoder}", []).append(point)
+    return curves
+
+
+def _draw_rates(ax: Axes, number: int, label: str, points: Sequence[BenchPoint]) -> None:
+    at = [point.place for point in points]
+    errors = [point.errors for point in points]
+    rates = [one.rate or nan for one in errors]
+    # An axis of powers of ten has no place for an end at 0.
+    low = [rate * (1.0 - _ARROW) if one.low == 0.0 else rate - one.low
+           for rate, one in zip(rates, errors, strict=True)]  # fmt: skip
+    high = [one.high - rate for rate, one in zip(rates, errors, strict=True)]
+    look = _look(number)
+    ax.errorbar(at, rates, [low, high], label=label, linewidth=1.0, **look)
+    # Without an error only the upper end is known, which no line joins with a rate.
+    most = [nan if one.errors else one.high for one in errors]
+    down = [_ARROW * one.high for one in errors]
+    ax.errorbar(at, most, [down, down], uplims=True, linestyle="", **look, markerfacecolor="none")
+
+
+def _draw_bits(ax: Axes, number: int, points: Sequence[BenchPoint], frames_a_second: float) -> None:
+    bits = [point.errors.bits_a_second(frames_a_second) for point in points]
+    ends = [point.errors.bits_a_second_interval(frames_a_second) for point in points]
+    error = [
+        [max(found - low, 0.0) for found, (low, _) in zip(bits, ends, strict=True)],
+        [max(high - found, 0.0) for found, (_, high) in zip(bits, ends, strict=True)],
+    ]
+    at = [point.place for point in points]
+    ax.errorbar(at, bits, error, linewidth=1.0, clip_on=False, **_look(number))
+
+
+def _look(number: int) -> dict[str, Any]:
+    marker = _MARKERS[number % len(_MARKERS)]
+    return {"color": f"C{number}", "marker": marker, "markersize": 4, "capsize": 2}

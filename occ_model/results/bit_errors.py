@@ -25,6 +25,8 @@ class BitErrors:
         Pictures, one payload each.
     pictures_right
         Pictures of which all bits were right.
+    right_low, right_high
+        The 95 % interval of the share of pictures of which all bits are right.
     picture_time
         Time in seconds in which the columns of the panel are read out.
     readout_time
@@ -38,6 +40,8 @@ class BitErrors:
     high: float
     pictures: int
     pictures_right: int
+    right_low: float
+    right_high: float
     picture_time: float
     readout_time: float
 
@@ -62,6 +66,13 @@ class BitErrors:
         What is sent in the gap between two pictures is lost: see :meth:`gap`.
         """
         return self.bits_a_picture * frames_a_second
+
+    def bits_a_second_interval(
+        self, frames_a_second: float = FRAMES_A_SECOND
+    ) -> tuple[float, float]:
+        """Return the 95 % interval of :meth:`bits_a_second`."""
+        most = self.bits / self.pictures * frames_a_second
+        return most * self.right_low, most * self.right_high
 
     def gap(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the time between the last column of a picture and the first of the next, in s.

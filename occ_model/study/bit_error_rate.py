@@ -94,6 +94,8 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors
     length, camera = scene.transmitter.payload_length, scene.camera
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
     low, high = error_interval(wrong, length)
+    whole = list(wrong).count(0)
+    right_low, right_high = wilson_interval(whole, len(wrong))
     return BitErrors(
         decoder=decoder,
         bits=length * len(wrong),
@@ -101,7 +103,9 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors
         low=low,
         high=high,
         pictures=len(wrong),
-        pictures_right=list(wrong).count(0),
+        pictures_right=whole,
+        right_low=right_low,
+        right_high=right_high,
         picture_time=(region.columns if region else 0) * camera.readout_time,
         readout_time=camera.columns * camera.readout_time,
     )

@@ -7,14 +7,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.errors import ParameterError
-from occ_model.study.bench.bench import (
-    HEADER,
-    BenchRequest,
-    bench,
-    bench_scene,
-    bench_signal,
-    written,
-)
+from occ_model.results.bench import HEADER, BenchRequest, written
+from occ_model.study.bench.bench import bench, bench_scene, bench_signal
 
 SMALL = BenchRequest(
     decoders=("threshold", "equalizer", "sequence"),
@@ -27,7 +21,7 @@ SMALL = BenchRequest(
 
 @pytest.mark.parametrize("rows", [4.0, 5.0, 7.0])
 def test_a_symbol_lasts_as_many_rows_as_asked(rows: float) -> None:
-    scene = bench_scene("manchester", 64, 3.0, rows)
+    scene = bench_scene(BenchRequest(rows_a_symbol=rows), "manchester", 3.0)
     period = scene.transmitter.switching_period
     assert period / scene.camera.readout_time == pytest.approx(rows)
     assert scene.camera.exposure_time / period == pytest.approx(3.0)
@@ -35,7 +29,7 @@ def test_a_symbol_lasts_as_many_rows_as_asked(rows: float) -> None:
 
 @pytest.mark.parametrize("decibels", [5.0, 20.0])
 def test_noise_is_the_chips_variance_over_the_ratio(decibels: float) -> None:
-    scene = bench_scene("manchester", 64, 1.0, 5.0)
+    scene = bench_scene(BenchRequest(payload_bits=64), "manchester")
     noise = bench_signal(scene, decibels, np.random.default_rng(1))
     clean = bench_signal(scene, 200.0, np.random.default_rng(1))
     swing = float(np.ptp(clean))  # an exposure of one chip still shows whole chips
@@ -65,7 +59,7 @@ def test_both_axes_meet_in_one_measurement() -> None:
 
 
 def test_a_row_of_the_table_has_every_column() -> None:
-    rows = written(bench(SMALL))
+    rows = written(bench(SMALL), 30.0)
     assert len(rows) == 3 * 3
     assert {len(row) for row in rows} == {len(HEADER)}
     assert all(0.0 <= row[8] <= row[7] <= row[9] <= 1.0 for row in rows)  # type: ignore[operator]
@@ -97,7 +91,7 @@ def test_progress_reaches_all_points() -> None:
 
 def test_the_bench_and_the_bit_error_rate_count_alike() -> None:
     # The same question by two ways: a scene without noise that every decoder reads.
-    scene = bench_scene("manchester", 64, 1.0, 5.0).replace(rows=40, distance=0.3)
+    scene = bench_scene(BenchRequest(payload_bits=64), "manchester").replace(rows=40, distance=0.3)
     by_scene = occ.bit_error_rate(scene, "sequence", 128)
     by_bench = bench(BenchRequest(decoders=("sequence",), exposures=(1.0,), decibels=(), bits=128,
                                   payload_bits=64, at_decibels=60.0))  # fmt: skip

@@ -8,6 +8,7 @@ import pytest
 
 from occ_model.camera.exposure import lit_fraction
 from occ_model.errors import OccError
+from occ_model.results.bench import BenchRequest
 from occ_model.study.bench.bench import bench_scene
 from occ_model.study.bench.data_set import load_samples, read_samples
 
@@ -20,7 +21,7 @@ def make_data_set(folder: Path, ratios: tuple[float, ...]) -> Path:
     (folder / "images").mkdir()
     random, lines = np.random.default_rng(1), [FIELDS]
     for number, ratio in enumerate(ratios):
-        scene = bench_scene("manchester", 100, ratio, 5.0)
+        scene = bench_scene(BenchRequest(payload_bits=100), "manchester", ratio)
         bits = "".join(map(str, random.integers(0, 2, 100)))
         lit = lit_fraction(scene.replace(payload=f"bits:{bits}", columns=1080))
         # Light as a camera writes it, in rows, with noise.

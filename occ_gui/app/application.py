@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, QSettings, Qt
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.about import show_about
+from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
@@ -28,6 +29,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.forced_effects import forced_text
+from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
@@ -106,6 +108,10 @@ class Application(QObject):
         self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
         self.detection_map = DetectionMapWiring(
             self.store, self.settings, self.detection, self.slider_strips
+        )
+        self.frame_rate = FrameRate()
+        self.bench = BenchDock(
+            self.window, self.store, self.frame_rate, self.detection_map.for_bench
         )
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
         self.outdated.mark_picture(self.image.simulation)

@@ -36,7 +36,7 @@ _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
 
 PANES = (
-    "controls", "decode", "photo", "profile", "accuracy", "map",
+    "controls", "decode", "photo", "profile", "accuracy", "map", "bench",
     "equations", "spectrum", "compare", "lessons", "video",
 )  # fmt: skip
 """Names of the panes."""

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.video_pane import VideoPane
@@ -26,6 +27,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -59,6 +61,8 @@ class Parts(Protocol):
     files: FileController
     photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
+    bench: BenchDock
+    frame_rate: FrameRate
     learning: LearningPanes
     video: VideoPane
     simulation: SimulationController
@@ -92,6 +96,7 @@ class Desktop(QObject):
             parts.settings, comparison, parts.profile, parts.accuracy.plot, QUICK_DECODERS
         )
         self.figures.add_map(lambda: parts.detection_map.map.full)
+        self.figures.add_bench(lambda: parts.bench.full, parts.frame_rate)
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)
         self.export = ExportController(

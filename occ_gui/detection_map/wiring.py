@@ -48,8 +48,8 @@ class DetectionMapWiring(QObject):
     ) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
-        self.queue = WorkQueue(3, lambda: new_workers())
-        for_map, for_strips, for_advice = self.queue.channels
+        self.queue = WorkQueue(4, lambda: new_workers())
+        for_map, for_strips, for_advice, self.for_bench = self.queue.channels
         self.map = DetectionMapController(scenes, settings, for_map, pane)
         self.slider_strips = SliderStripController(
             scenes, settings, for_strips, strips, strips.strips

@@ -19,7 +19,7 @@ from occ_gui.window.current_pane import PICTURE, CurrentPane
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
 
-_FIGURE_OF_PANE = {"profile": "profile", "accuracy": "accuracy", "map": "map"}
+_FIGURE_OF_PANE = {"profile": "profile", "accuracy": "accuracy", "map": "map", "bench": "bench"}
 """Figures by the names of their panes; for any other pane the picture is copied."""
 
 

@@ -1,6 +1,7 @@
 """Figures: the panes that can be exported, with the data that they show at the moment."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from datetime import datetime
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
@@ -11,12 +12,15 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.sweep_table import table_of
 from occ_gui.export.jobs import FigureRequest
+from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
 from occ_model.results import AccuracyPoint, Comparison, DecodeResult
+from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.frame import PICTURES
+from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -44,6 +48,32 @@ class AccuracyPane(Protocol):
     @property
     def measured(self) -> tuple[AccuracyPoint, ...]:
         """All points of the current scene; empty while they are not complete."""
+
+
+FullBench = tuple[BenchRequest, tuple[BenchPoint, ...]]
+"""What a bench has measured."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BenchFigureRequest(FigureRequest):
+    """A figure of a bench, which has settings of its own.
+
+    Parameters
+    ----------
+    measured
+        What was measured.
+    frames_a_second
+        Pictures a second.
+    """
+
+    measured: BenchRequest
+    frames_a_second: float
+
+    def provenance(self, drawing: "Drawing") -> Provenance:  # noqa: ARG002 - it says its own title
+        """Say how the points were measured."""
+        from occ_model.figures.bench import bench_provenance
+
+        return bench_provenance(self.measured, self.frames_a_second, self.date)
 
 
 Source = Callable[[Snapshot], FigureRequest]
@@ -110,6 +140,30 @@ class Figures(QObject):
             return sweep_drawing(table)
 
         return self.request(shown.frame.scene, draw)
+
+    def add_bench(self, full: Callable[[], FullBench | None], frame_rate: FrameRate) -> None:
+        """Add the figure of the bench, which is available once all its points are known."""
+        self.add("bench", self.tr("Bench"), partial(self._of_bench, full, frame_rate))
+
+    def _of_bench(
+        self, full: Callable[[], FullBench | None], frame_rate: FrameRate, shown: Snapshot
+    ) -> FigureRequest:
+        there = full()
+        if there is None:
+            raise NothingToDraw(
+                self.tr("The bench is not complete: open its pane, measure and wait a moment.")
+            )
+        (measured, points), rate = there, frame_rate.value
+
+        def draw() -> "Drawing":
+            from occ_model.figures.bench import bench_drawing
+
+            return bench_drawing(measured, points, rate)
+
+        request = self.request(shown.frame.scene, draw)
+        return BenchFigureRequest(
+            request.scene, request.settings, request.date, draw, measured, rate
+        )
 
     def add(self, name: str, title: str, source: Source) -> None:
         """Add a figure."""

@@ -19,6 +19,7 @@ PAGE_OF_PANE = {
     "photo": "photos.md",
     "accuracy": "effects.md#accuracy-against-time",
     "map": "sweeps.md#the-detection-map",
+    "bench": "sweeps.md#the-bench",
     "equations": "model.md",
     "spectrum": "guide.md#measure",
     "compare": "guide.md#compare-two-states",

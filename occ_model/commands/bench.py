@@ -10,9 +10,9 @@ from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import decoders
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.study.bench.bench import bench, check_bench
-from occ_model.study.bench.bounds import bench_bounds
+from occ_model.study.bench.bench import bench, bench_scene, check_bench
 from occ_model.study.bench.data_set import SampleReading, load_samples, read_samples
+from occ_model.study.bit_error_rate import check_frame_rate
 
 _OWN = BenchRequest()
 
@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace) -> int:
         seed=options.seed,
     )
     check_bench(request)
-    bench_bounds(request, options.fps)
+    check_frame_rate(bench_scene(request, request.schemes[0]), options.fps)
     if options.out is not None:
         make_folder(options.out)  # a refusal must not come after minutes of work
     with progress_bar(total=len(request.points), unit=" points", leave=False, delay=0.5) as bar:

@@ -14,7 +14,9 @@ from occ_model.results.bench import HEADER, BenchBounds, BenchPoint, BenchReques
 from occ_model.scene.provenance import Provenance
 from occ_model.study.bench.bench import bench_scene
 from occ_model.study.bench.bounds import bench_bounds
+from occ_model.study.bit_error_rate import check_frame_rate
 
+_TITLE = "Bit error rates and bits a second over exposure and noise"
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 _ARROW = 0.5
@@ -38,11 +40,15 @@ def write_bench(
         A file cannot be written.
     """
     drawing = bench_drawing(request, points, frames_a_second)
-    scenes = {scheme: bench_scene(request, scheme) for scheme in request.schemes}
-    notes = bench_notes(request, frames_a_second)
-    provenance = Provenance(drawing.title, scenes, request.seed, notes)
+    provenance = bench_provenance(request, frames_a_second)
     for ending in (".pdf", ".png", ".csv"):
         drawing.write(folder / f"{drawing.name}{ending}", provenance)
+
+
+def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = "") -> Provenance:
+    """Say how the points were measured."""
+    scenes = {scheme: bench_scene(request, scheme) for scheme in request.schemes}
+    return Provenance(_TITLE, scenes, request.seed, _notes(request, frames_a_second), date)
 
 
 def bench_drawing(
@@ -55,18 +61,18 @@ def bench_drawing(
     ParameterError
         So many pictures cannot be read out in a second.
     """
-    bounds = bench_bounds(request, frames_a_second)
+    check_frame_rate(bench_scene(request, request.schemes[0]), frames_a_second)
+    bounds = bench_bounds(request)
     return Drawing(
         "bench",
-        "Bit error rates and bits a second over exposure and noise",
+        _TITLE,
         lambda: _draw(request, points, bounds, frames_a_second),
         HEADER,
         lambda: written(points, frames_a_second),
     )
 
 
-def bench_notes(request: BenchRequest, frames_a_second: float) -> tuple[str, ...]:
-    """Say in lines how the points were measured."""
+def _notes(request: BenchRequest, frames_a_second: float) -> tuple[str, ...]:
     return (
         f"{request.rows_a_symbol:g} rows a symbol (the row rate allows 1 or more), "
         f"{request.rows} rows a picture, payloads of {request.payload_bits} bits, at least "
@@ -91,7 +97,8 @@ def _draw(
         for number, (label, curve) in enumerate(_curves(some).items()):
             _draw_rates(rates, number, label, curve)
             _draw_bits(bits, number, curve, frames_a_second)
-        bits.plot(*bounds.most_bits[axis], **_BOUND)
+        at, most = bounds.most_bits[axis]
+        bits.plot(at, [frames_a_second * one for one in most], **_BOUND)
         rates.set_yscale("log")
         # Nothing at all is drawn too, below a bit a picture.
         bits.set_yscale("symlog", linthresh=frames_a_second)

@@ -118,8 +118,8 @@ class BenchBounds:
     nulls
         The exposures, in symbols, at which chips that alternate leave no stripes.
     most_bits
-        For each axis the exposures or ratios, and the bits a second that light of Gaussian levels
-        can carry there.
+        For each axis the exposures or ratios, and the bits that light of Gaussian levels can carry
+        to one picture there.
     """
 
     nulls: tuple[float, ...]

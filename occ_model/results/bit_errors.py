@@ -2,7 +2,19 @@
 
 from dataclasses import dataclass
 
-FRAMES_A_SECOND = 30.0
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.units import Unit
+
+FRAME_RATE = Quantity(
+    "frames_a_second",
+    "Pictures a second",
+    "",
+    "Pictures that the camera takes in a second, each of another payload.",
+    unit=Unit("fps", spellings=(("1/s", 1.0), ("Hz", 1.0))),
+    low=0.01, high=1e6, slider=(1.0, 240.0), scale="log", default=30.0,
+)  # fmt: skip
+
+FRAMES_A_SECOND = FRAME_RATE.default
 """Pictures that a camera takes a second where nothing else is said."""
 
 

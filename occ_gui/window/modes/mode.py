@@ -66,7 +66,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             centre="",
             main="map",
             left=(("controls",),),
-            right=(("map",),),
+            right=(("map", "bench"),),
             widths={"controls": 340},
         ),
         "effects": Mode(

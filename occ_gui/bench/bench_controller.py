@@ -1,0 +1,168 @@
+"""Controller of the bench: it measures in the background when the user asks."""
+
+from collections.abc import Iterator
+from typing import Protocol
+
+from PySide6.QtCore import QObject
+
+from occ_gui.background.signals import JobChannel
+from occ_gui.bench.bench_choice import BenchChoice
+from occ_gui.bench.bench_measurement import request_of, setting_of
+from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.errors import OccError
+from occ_model.parallel.job import Job, Stage
+from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
+from occ_model.study.bench.bench import bench_scene, check_bench, measure_bench_point
+from occ_model.study.bench.bounds import bench_bounds
+from occ_model.study.bit_error_rate import check_frame_rate
+
+_RANK = -1
+"""Below all others: somebody waits for it."""
+
+
+class BenchPane(Protocol):
+    """A pane that shows a bench while it is measured."""
+
+    def show_begun(self, request: BenchRequest) -> None:
+        """Show that a measurement has begun, and forget the one before."""
+
+    def show_points(self, points: list[BenchPoint]) -> None:
+        """Show all points that are known."""
+
+    def show_bounds(self, bounds: BenchBounds) -> None:
+        """Show what theory says."""
+
+    def show_progress(self, done: int, of: int) -> None:
+        """Show how many places are measured."""
+
+    def show_ended(self, sentence: str) -> None:
+        """Show that no more points come, and why where some are missing."""
+
+    def show_frame_rate(self, frames_a_second: float, refusal: str) -> None:
+        """Show the pictures a second, and why there cannot be so many."""
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the points are of another code or timing than would be measured now."""
+
+
+class BenchController(QObject):
+    """Connects the stores, the job channel and the pane.
+
+    Parameters
+    ----------
+    scenes, frame_rate
+        Whose code is measured, and the pictures a second.
+    channel
+        Does the work.
+    pane
+        Shows the points.
+    """
+
+    def __init__(
+        self, scenes: SceneStore, frame_rate: FrameRate, channel: JobChannel, pane: BenchPane
+    ) -> None:
+        super().__init__()
+        self._scenes, self._frame_rate = scenes, frame_rate
+        self._channel, self._pane = channel, pane
+        self._choice = BenchChoice()
+        self._request: BenchRequest | None = None
+        self._points: list[BenchPoint] = []
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(self._finish)
+        channel.failed.connect(pane.show_ended)
+        scenes.changed.connect(self._mark)
+        frame_rate.changed.connect(self._show_frame_rate)
+        pane.show_frame_rate(frame_rate.value, "")
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being measured."""
+        return self._channel.is_idle
+
+    @property
+    def full(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
+        """The request and all its points, None while some are missing."""
+        request = self._request
+        if request is None or not self._is_whole(request):
+            return None
+        return request, tuple(self._points)
+
+    def _is_whole(self, request: BenchRequest) -> bool:
+        return len(self._points) == len(request.points) * len(request.decoders)
+
+    def choose(self, choice: BenchChoice) -> None:
+        """Measure this when asked next; what is shown of something else is marked."""
+        self._choice = choice
+        self._mark()
+
+    def start(self) -> None:
+        """Measure what is chosen."""
+        self._channel.cancel()
+        try:
+            request = request_of(self._choice, self._scenes.scene)
+            check_bench(request)
+        except OccError as refusal:
+            self._pane.show_ended(str(refusal))
+            return
+        if not request.decoders:
+            self._pane.show_ended(self.tr("No decoder is chosen."))
+            return
+        self._request, self._points = request, []
+        self._pane.show_begun(request)
+        self._pane.show_progress(0, len(request.points))
+        self._show_frame_rate()
+        self._mark()
+        self._channel.put(request, lambda: self._stages(request))
+
+    @staticmethod
+    def _stages(request: BenchRequest) -> Iterator[Stage]:
+        jobs = (Job(measure_bench_point, (request, place)) for place in request.points)
+        yield Stage(_RANK, (Job(bench_bounds, (request,)), *jobs))
+
+    def cancel(self) -> None:
+        """Stop measuring; the points that are known stay."""
+        if not self._channel.is_idle:
+            self._channel.cancel()
+            self._pane.show_ended(self.tr("Cancelled: some points are missing."))
+
+    def _take(
+        self, request: BenchRequest, results: list[BenchBounds | tuple[BenchPoint, ...]]
+    ) -> None:
+        if request != self._request:
+            return
+        for found in results:
+            if isinstance(found, BenchBounds):
+                self._pane.show_bounds(found)
+            else:
+                self._points += found
+        order = {place: number for number, place in enumerate(request.points)}
+        self._points.sort(key=lambda one: order[one.scheme, one.axis, one.exposure, one.decibels])
+        self._pane.show_points(self._points)
+        self._pane.show_progress(len(self._points) // len(request.decoders), len(request.points))
+
+    def _finish(self, _request: BenchRequest) -> None:
+        self._pane.show_ended("")
+
+    def _show_frame_rate(self) -> None:
+        refusal, request = "", self._request
+        try:
+            if request is not None:
+                check_frame_rate(bench_scene(request, request.schemes[0]), self._frame_rate.value)
+        except OccError as error:
+            refusal = str(error)
+        self._pane.show_frame_rate(self._frame_rate.value, refusal)
+
+    def _mark(self) -> None:
+        if self._request is None:
+            return
+        try:
+            now = request_of(self._choice, self._scenes.scene)
+        except OccError:
+            self._pane.show_outdated(True)
+            return
+        self._pane.show_outdated(setting_of(now) != setting_of(self._request))
+
+    def stop(self) -> None:
+        """Stop measuring, and show nothing any more."""
+        self._channel.cancel()

@@ -1,0 +1,227 @@
+"""Plots of the bench: bit error rates or bits a second, over the exposure and over the noise."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.plot import BAND, NOISE, PHOTO, REGION, SIMULATION, Plot, new_plot, thin
+from occ_model.results.bench import BenchBounds, BenchPoint
+
+RATES, BITS = "rates", "bits"
+"""What is drawn: bit error rates, or bits a second."""
+
+AXES = ("exposure", "noise")
+
+SYMBOLS = ("o", "s", "t1", "d", "star", "p")
+COLOURS: tuple[QColor, ...] = (SIMULATION, BAND, PHOTO, REGION, NOISE)
+
+_FLOOR = {RATES: -6, BITS: 0}
+"""Powers of ten at which all that is smaller is drawn."""
+
+_MARGIN = 0.06
+"""Margin beside the points, as a share of their range."""
+
+_TOP = 0.3
+"""Margin above the points, in powers of ten."""
+
+_SIZE = 8
+_FARTHEST_POWER, _LEAST_POWERS = 12.0, 0.01
+
+
+@dataclass(eq=False, slots=True)
+class _Curve:
+    """The items of a decoder in one plot."""
+
+    line: pg.PlotCurveItem
+    intervals: pg.PlotCurveItem
+    seen: pg.ScatterPlotItem
+    unseen: pg.ScatterPlotItem
+
+    @property
+    def items(self) -> tuple[pg.GraphicsObject, ...]:
+        """All items, the lowest first."""
+        return self.intervals, self.line, self.seen, self.unseen
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A point as it is drawn, in powers of ten.
+
+    Parameters
+    ----------
+    at
+        Its place on the lower axis.
+    value
+        The rate, or the bits a second; not a number where no error was seen.
+    low, high
+        The interval's ends.
+    """
+
+    at: float
+    value: float
+    low: float
+    high: float
+
+
+def drawn(point: BenchPoint, what: str, frames_a_second: float) -> Drawn:
+    """Place a point in a plot."""
+    errors, floor = point.errors, _FLOOR[what]
+    if what == RATES:
+        value = _power(errors.rate, floor) if errors.errors else math.nan
+        return Drawn(point.place, value, _power(errors.low, floor), _power(errors.high, floor))
+    low, high = errors.bits_a_second_interval(frames_a_second)
+    value = _power(errors.bits_a_second(frames_a_second), floor)
+    return Drawn(point.place, value, _power(low, floor), _power(high, floor))
+
+
+def _power(value: float, floor: int) -> float:
+    return max(math.log10(value), floor) if value > 0.0 else float(floor)
+
+
+class BenchPlots(QWidget):
+    """Two plots beside each other, with a curve for each decoder and the bounds of theory.
+
+    Parameters
+    ----------
+    what
+        RATES or BITS.
+    parent
+        The parent widget.
+    """
+
+    def __init__(self, what: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._what = what
+        self._decoders: tuple[str, ...] = ()
+        rates = what == RATES
+        left = self.tr("bit error rate") if rates else self.tr("bits a second")
+        names = {
+            "exposure": (self.tr("over the exposure"), self.tr("exposure (symbols)")),
+            "noise": (self.tr("over the noise"), self.tr("signal-to-noise ratio (dB)")),
+        }
+        self.plots: dict[str, Plot] = {}
+        self._curves: dict[str, list[_Curve]] = {axis: [] for axis in AXES}
+        self._bounds: dict[str, pg.PlotCurveItem] = {}
+        self._nulls: list[pg.InfiniteLine] = []
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        for axis, (name, bottom) in names.items():
+            plot = new_plot(
+                f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", _FLOOR[what])
+            )
+            plot.limit("left", _FARTHEST_POWER, _LEAST_POWERS)
+            plot.showGrid(x=True, y=True, alpha=0.15)
+            self._bounds[axis] = pg.PlotCurveItem()
+            plot.addItem(self._bounds[axis], ignoreBounds=True)
+            self.plots[axis] = plot
+            plot.dress_with(self._dress)
+            row.addWidget(plot, 3 if axis == "exposure" else 2)
+
+    def _dress(self, palette: QPalette) -> None:
+        grey = palette.color(QPalette.ColorRole.Text)
+        for bound in self._bounds.values():
+            bound.setPen(thin(grey, Qt.PenStyle.DashLine))
+        for null in self._nulls:
+            null.setPen(thin(palette.color(QPalette.ColorRole.Mid), Qt.PenStyle.DotLine))
+        for curves in self._curves.values():
+            for number, curve in enumerate(curves):
+                colour = seen_on(palette, COLOURS[number % len(COLOURS)])
+                for item in (curve.line, curve.intervals, curve.unseen):
+                    item.setPen(thin(colour))
+                curve.seen.setBrush(colour)
+
+    def show_begun(self, decoders: Sequence[str]) -> None:
+        """Remove all curves, and prepare those of these decoders."""
+        for axis, plot in self.plots.items():
+            for curve in self._curves[axis]:
+                for item in curve.items:
+                    plot.removeItem(item)
+            self._curves[axis] = [self._new_curve(plot, n) for n in range(len(decoders))]
+            self._bounds[axis].setData([], [])
+        for null in self._nulls:
+            self.plots["exposure"].removeItem(null)
+        self._nulls = []
+        self._decoders = tuple(decoders)
+        self._dress(self.palette())
+
+    @staticmethod
+    def _new_curve(plot: Plot, number: int) -> _Curve:
+        symbol = SYMBOLS[number % len(SYMBOLS)]
+        curve = _Curve(
+            pg.PlotCurveItem(),
+            pg.PlotCurveItem(connect="pairs"),
+            pg.ScatterPlotItem(symbol=symbol, size=_SIZE, pen=None),
+            pg.ScatterPlotItem(symbol="t", size=_SIZE, brush=None),
+        )
+        for item in curve.items:
+            plot.addItem(item, ignoreBounds=True)
+        return curve
+
+    def show_bounds(self, bounds: BenchBounds, frames_a_second: float) -> None:
+        """Draw the nulls, and in the plots of bits a second the most that light carries."""
+        plot = self.plots["exposure"]
+        for null in self._nulls:
+            plot.removeItem(null)
+        self._nulls = [pg.InfiniteLine(at, angle=90) for at in bounds.nulls]
+        for null in self._nulls:
+            plot.addItem(null, ignoreBounds=True)
+        if self._what == BITS:
+            for axis, (at, most) in bounds.most_bits.items():
+                power = [_power(frames_a_second * one, _FLOOR[BITS]) for one in most]
+                self._bounds[axis].setData(list(at), power)
+        self._dress(self.palette())
+        self._fit()
+
+    def show_points(self, points: Sequence[BenchPoint], frames_a_second: float) -> None:
+        """Draw these points."""
+        for axis in AXES:
+            for decoder, curve in zip(self._decoders, self._curves[axis], strict=True):
+                some = [
+                    drawn(point, self._what, frames_a_second)
+                    for point in points
+                    if (point.axis, point.errors.decoder) == (axis, decoder)
+                ]
+                _draw(curve, sorted(some, key=lambda one: one.at))
+        self._fit()
+
+    def _fit(self) -> None:
+        """Show all points, with the same values in both plots."""
+        values: list[float] = []
+        for axis, plot in self.plots.items():
+            at: list[float] = []
+            curves = self._curves[axis]
+            for item in (*(i for c in curves for i in c.items), self._bounds[axis]):
+                x, y = item.getData()
+                at += [] if x is None else list(x)
+                values += [] if y is None else list(y)
+            if at:
+                margin = _MARGIN * (max(at) - min(at)) or 1.0
+                plot.setXRange(min(at) - margin, max(at) + margin, padding=0)
+        floor = _FLOOR[self._what]
+        # An interval that begins at no error goes on below.
+        shown = values if self._what == BITS else [value for value in values if value > floor]
+        for plot in self.plots.values():
+            low, high = min(shown, default=floor), max(shown, default=floor + 1.0)
+            plot.setYRange(low - _TOP, high + _TOP, padding=0)
+
+
+def _draw(curve: _Curve, points: Sequence[Drawn]) -> None:
+    places = [place for place, point in enumerate(points) if not math.isnan(point.value)]
+    x, y = [points[place].at for place in places], [points[place].value for place in places]
+    # No line leads over a point without an error, whose rate is not known.
+    joined = [int(after == place + 1) for place, after in pairwise((*places, -1))]
+    curve.line.setData(x, y, connect=np.array(joined, dtype=np.int32))
+    curve.seen.setData(x, y)
+    at = [place for point in points for place in (point.at, point.at)]
+    curve.intervals.setData(at, [end for point in points for end in (point.low, point.high)])
+    unseen = [point for point in points if math.isnan(point.value)]
+    curve.unseen.setData([point.at for point in unseen], [point.high for point in unseen])

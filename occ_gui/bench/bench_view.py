@@ -1,0 +1,279 @@
+"""Pane of the bench: its choices, its plots, its table, and the state of the measurement."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QPalette, QResizeEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.bench.bench_choice import BITS as EFFORTS
+from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
+from occ_gui.bench.bench_plot import BITS, COLOURS, RATES, SYMBOLS, BenchPlots
+from occ_gui.bench.bench_table import BenchTable
+from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
+from occ_gui.widgets.plot import marker, thin
+from occ_gui.widgets.work_bar import WorkBar
+from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
+from occ_model.results.bit_errors import FRAME_RATE
+
+_LEAST_WITH_TABLE = 420
+"""Pixels of height from which the table stands below the plots."""
+
+_SAMPLE = QSize(14, 14)
+
+
+class BenchView(QWidget):
+    """The bench.
+
+    Parameters
+    ----------
+    decoders
+        The decoders' names.
+    chosen
+        Those that are measured at first.
+    parent
+        The parent widget.
+    """
+
+    choice_changed = Signal(object)
+    """The user has chosen what is measured next: a BenchChoice."""
+
+    asked = Signal()
+    """The user measures."""
+
+    cancelled = Signal()
+    """The user stops the measurement."""
+
+    frame_rate_edited = Signal(float)
+    """The pictures a second that the user has entered."""
+
+    refused = Signal(str)
+    """Why an entered value is refused."""
+
+    def __init__(
+        self, decoders: Sequence[str], chosen: Sequence[str], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._points: list[BenchPoint] = []
+        self._bounds: BenchBounds | None = None
+        self._rate = FRAME_RATE.default
+        self._setting = self._progress = self._ended = self._refusal = ""
+        self._is_outdated = False
+        self._make_choices(decoders, chosen)
+        self.plots = {what: BenchPlots(what) for what in (RATES, BITS)}
+        self._pages = QStackedWidget()
+        for plots in self.plots.values():
+            self._pages.addWidget(plots)
+        self.outdated = OutdatedMark(self._pages)
+        self.table = BenchTable()
+        self.legend = LineLegend()
+        self.state = ElidedLabel()
+        self.state.setAccessibleName(self.tr("State of the bench"))
+        self.work = WorkBar(self.tr("Places that are measured"))
+        self.work.cancelled.connect(self.cancelled)
+        self._lay_out()
+        self._show_what()
+        self._show_state()
+
+    def _make_choices(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
+        words = {
+            PUBLISHED: self.tr("the published benchmark's code"),
+            OF_SCENE: self.tr("the scene's code and timing"),
+        }
+        self.whose = KeyedComboBox(
+            self.tr("Code that is measured"),
+            self.tr(
+                "Manchester, 256 bits, 5 rows a symbol; or the scheme, the number of bits, the "
+                "frequency and the readout time of the scene. Only exposure and noise are as below."
+            ),
+            words,
+        )
+        self.effort = KeyedComboBox(
+            self.tr("Bits at each point"),
+            self.tr("More bits take longer and make the intervals narrower."),
+            {str(bits): self.tr("{bits:,} bits a point").format(bits=bits) for bits in EFFORTS},
+        )
+        self.effort.show_key(str(BenchChoice().bits))
+        self.what = KeyedComboBox(
+            self.tr("What is shown"),
+            self.tr("Bit error rates, or what comes through in a second of video."),
+            {RATES: self.tr("bit error rate"), BITS: self.tr("bits a second")},
+        )
+        self.decoders = {name: QCheckBox(name) for name in decoders}
+        for name, box in self.decoders.items():
+            box.setChecked(name in chosen)
+            box.setToolTip(self.tr("Measure this decoder."))
+            box.toggled.connect(self._emit_choice)
+        self.frame_rate = QuantityEdit(FRAME_RATE)
+        self.frame_rate.setAccessibleName(FRAME_RATE.label)
+        self.frame_rate.setToolTip(FRAME_RATE.meaning)
+        self.frame_rate.edited.connect(self.frame_rate_edited)
+        self.frame_rate.refused.connect(self.refused)
+        self.measure = QPushButton(self.tr("Measure"))
+        self.measure.setToolTip(self.tr("Measure the chosen decoders in the background."))
+        self.measure.clicked.connect(self.asked)
+        for choice in (self.whose, self.effort):
+            choice.chosen.connect(self._emit_choice)
+        self.what.chosen.connect(self._show_what)
+
+    def _lay_out(self) -> None:
+        head, second, foot = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
+        head.addWidget(self.whose, 3)
+        head.addWidget(self.effort, 2)
+        head.addWidget(self.measure)
+        for box in self.decoders.values():
+            second.addWidget(box)
+        second.addStretch(1)
+        second.addWidget(self.frame_rate)
+        second.addWidget(self.what, 1)
+        foot.addWidget(self.state, 1)
+        foot.addWidget(self.work)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 2, 4, 2)
+        column.setSpacing(2)
+        for row in (head, second):
+            column.addLayout(row)
+        column.addWidget(self._pages, 3)
+        self._legend_place = QHBoxLayout()
+        self._legend_place.addWidget(self.legend)
+        self._legend_place.addStretch(1)
+        column.addLayout(self._legend_place)
+        column.addWidget(self.table, 2)
+        column.addLayout(foot)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Show the table where there is space for it below the plots."""
+        super().resizeEvent(event)
+        self.table.setVisible(self.height() >= _LEAST_WITH_TABLE)
+
+    def choice(self) -> BenchChoice:
+        """Return what the user has chosen to measure."""
+        decoders = tuple(name for name, box in self.decoders.items() if box.isChecked())
+        return BenchChoice(self.whose.key(), decoders, int(self.effort.key()))
+
+    def _emit_choice(self) -> None:
+        self.choice_changed.emit(self.choice())
+
+    def _show_what(self) -> None:
+        what = self.what.key()
+        self._pages.setCurrentWidget(self.plots[what])
+        self.frame_rate.setVisible(what == BITS)
+        self._show_bound_entry()
+        self._draw()
+        self._show_state()
+
+    def show_begun(self, request: BenchRequest) -> None:
+        """Show that a measurement has begun, and forget the one before."""
+        self._points, self._bounds, self._ended = [], None, ""
+        self._setting = self.tr(
+            "{scheme}, {bits} bits, {rows:.3g} rows a symbol (the row rate needs 1 or more)"
+        ).format(
+            scheme=", ".join(request.schemes), bits=request.payload_bits,
+            rows=request.rows_a_symbol,
+        )  # fmt: skip
+        for plots in self.plots.values():
+            plots.show_begun(request.decoders)
+        self.table.show_begun(request)
+        self._show_legend(request.decoders)
+        self.work.begin()
+        self.measure.setEnabled(False)
+
+    def _show_legend(self, decoders: Sequence[str]) -> None:
+        old, self.legend = self.legend, LineLegend()
+        self._legend_place.replaceWidget(old, self.legend)
+        old.deleteLater()
+        for number, name in enumerate(decoders):
+            symbol = SYMBOLS[number % len(SYMBOLS)]
+            sample = marker(symbol, 8, COLOURS[number % len(COLOURS)])
+            self.legend.add_sample(name, sample, _SAMPLE, name)
+        self.legend.add_sample(
+            "unseen", marker("t", 8, None), _SAMPLE, self.tr("no error: less than"),
+            self.tr("No bit was wrong: the upper end of the rate's 95 % interval."),
+        )  # fmt: skip
+        ink = self.palette().color(QPalette.ColorRole.Text)
+        self.legend.add_line(
+            "nulls", thin(ink, Qt.PenStyle.DotLine), self.tr("alternating chips leave no stripes")
+        )
+        self.legend.add_line(
+            "most", thin(ink, Qt.PenStyle.DashLine), self.tr("most that Gaussian light carries")
+        )
+        self._show_bound_entry()
+
+    def _show_bound_entry(self) -> None:
+        if self._setting:
+            self.legend.show_line("most", self.what.key() == BITS)
+            self.legend.show_line("unseen", self.what.key() == RATES)
+
+    def show_bounds(self, bounds: BenchBounds) -> None:
+        """Show what theory says."""
+        self._bounds = bounds
+        self._draw()
+
+    def show_points(self, points: list[BenchPoint]) -> None:
+        """Show all points that are known."""
+        self._points = list(points)
+        self._draw()
+
+    def _draw(self) -> None:
+        what = self.what.key()
+        if self._bounds is not None:
+            self.plots[what].show_bounds(self._bounds, self._rate)
+        is_possible = what == RATES or not self._refusal
+        self.plots[what].show_points(self._points if is_possible else [], self._rate)
+        if is_possible:
+            self.table.show_points(self._points, what, self._rate)
+
+    def show_progress(self, done: int, of: int) -> None:
+        """Show how many places are measured."""
+        self.work.show_progress(done / of)
+        self._progress = self.tr("{done} of {of} places measured").format(done=done, of=of)
+        self._show_state()
+
+    def show_ended(self, sentence: str) -> None:
+        """Show that no more points come, and why where some are missing."""
+        self.work.end()
+        self.measure.setEnabled(True)
+        self._ended = sentence
+        self._show_state()
+
+    def show_frame_rate(self, frames_a_second: float, refusal: str) -> None:
+        """Show the pictures a second, and why there cannot be so many."""
+        self._rate, self._refusal = frames_a_second, refusal
+        self.frame_rate.set_value(frames_a_second)
+        self._draw()
+        self._show_state()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the points are of another code or timing than would be measured now."""
+        self._is_outdated = outdated
+        text = self.tr("of another code or timing: measure again")
+        self.outdated.show_age(DELAY if outdated else 0.0, text)
+        self._show_state()
+
+    def _show_state(self) -> None:
+        if not self._setting:
+            text = self._ended or self.tr(
+                "Rows see a code through their exposure, with noise: choose decoders, and measure."
+            )
+        else:
+            parts = (
+                self._refusal if self.what.key() == BITS else "",
+                self._ended,
+                self._progress,
+                self._setting,
+            )
+            text = "; ".join(part.removesuffix(".") for part in parts if part) + "."
+            if self._is_outdated:
+                text = self.tr("Earlier setting: {text}").format(text=text)
+        self.state.set_full_text(text)

@@ -1,0 +1,198 @@
+"""The bench in the window: what is chosen is measured, drawn, marked where it is old, exported."""
+
+import csv
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+
+import pytest
+from gui.conftest import InlineWorkers
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.background.signals import WorkQueue
+from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
+from occ_gui.bench.bench_controller import BenchController
+from occ_gui.bench.bench_measurement import request_of
+from occ_gui.bench.bench_plot import BITS, RATES, drawn
+from occ_gui.bench.bench_table import cell_text
+from occ_gui.bench.bench_view import BenchView
+from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.errors import ParameterError
+from occ_model.parallel.job import Job, JobResult
+from occ_model.results import BitErrors
+from occ_model.results.bench import BenchPoint, BenchRequest
+from occ_model.scene.scene import Scene
+from occ_model.study.bench.bench import measure_bench_point
+
+
+def point_of(wrong: int, right: int, exposure: float = 1.0, axis: str = "exposure") -> BenchPoint:
+    errors = BitErrors("threshold", 1000, wrong, 0.0 if not wrong else wrong / 2000,
+                       (wrong + 10) / 1000, 10, right, right / 20, 1.0, 0.01, 0.02)  # fmt: skip
+    return BenchPoint("manchester", axis, exposure, 30.0, errors, "" if right == 10 else "Why.")
+
+
+class Measuring:
+    """A bench of one decoder and few bits, whose jobs are done at once."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene, workers: InlineWorkers) -> None:
+        self.scenes, self.frame_rate = SceneStore(scene), FrameRate()
+        self.queue = WorkQueue(1, lambda: workers)
+        self.pane = BenchView(("threshold",), ("threshold",))
+        qtbot.addWidget(self.pane)
+        self.controller = BenchController(
+            self.scenes, self.frame_rate, self.queue.channels[0], self.pane
+        )
+        self.pane.asked.connect(self.controller.start)
+        self.pane.cancelled.connect(self.controller.cancel)
+        self._qtbot = qtbot
+
+    def said(self) -> str:
+        return self.pane.state._full
+
+    def cell(self, row: int) -> str:
+        item = self.pane.table.item(row, 2)
+        assert item is not None
+        return item.text()
+
+    def measure(self, whose: str = PUBLISHED) -> None:
+        self.controller.choose(BenchChoice(whose, ("threshold",), 64))
+        self.pane.measure.click()
+        self._qtbot.waitUntil(lambda: self.controller.is_idle)
+
+
+@pytest.fixture
+def measuring(qtbot: QtBot, small_scene: Scene, inline_workers: InlineWorkers) -> Measuring:
+    made = Measuring(qtbot, small_scene, inline_workers)
+    qtbot.addWidget(made.pane, before_close_func=lambda _: made.queue.stop())
+    return made
+
+
+def test_the_scenes_code_and_timing_are_measured(small_scene: Scene) -> None:
+    scene = small_scene.replace(payload="text:HI", line_code="4b6b", framing="c-ook")
+    request = request_of(BenchChoice(OF_SCENE, ("threshold",)), scene)
+    assert (request.schemes, request.payload_bits) == (("4b6b/c-ook",), 16)
+    period = scene.transmitter.switching_period
+    assert request.rows_a_symbol == pytest.approx(period / scene.camera.readout_time)
+    assert 0 < request.rows <= scene.camera.columns
+    assert request_of(BenchChoice(PUBLISHED), scene) == BenchRequest()
+    with pytest.raises(ParameterError, match="raw chip pattern"):
+        request_of(BenchChoice(OF_SCENE), small_scene.replace(pattern="01"))
+
+
+def test_what_the_pane_shows_is_what_the_model_measures(measuring: Measuring) -> None:
+    measuring.measure()
+    full = measuring.controller.full
+    assert full is not None
+    request, points = full
+    expected = [one for place in request.points for one in measure_bench_point(request, place)]
+    assert list(points) == expected
+    shown = [measuring.cell(row) for row in range(measuring.pane.table.rowCount())]
+    assert shown == [cell_text(one, RATES, 30.0) for one in expected]
+    assert "15 of 15" in measuring.said()
+    x, _ = measuring.pane.plots[RATES].plots["exposure"].viewRange()
+    assert x[0] < min(request.exposures)
+    assert x[1] > max(request.exposures)
+
+
+def test_points_of_another_setting_are_marked_until_measured_again(measuring: Measuring) -> None:
+    measuring.measure(OF_SCENE)
+    assert not measuring.said().startswith("Earlier setting")
+    # A closed setting: neither the ISO speed nor the exposure of the scene is in it.
+    measuring.scenes.change(iso=200.0)
+    assert not measuring.said().startswith("Earlier setting")
+    measuring.scenes.change(switching_frequency=7e3)
+    assert measuring.said().startswith("Earlier setting")
+    assert not measuring.pane.outdated.isHidden()
+    measuring.measure(OF_SCENE)
+    assert not measuring.said().startswith("Earlier setting")
+    assert measuring.pane.outdated.isHidden()
+
+
+def test_what_cannot_be_measured_says_why(measuring: Measuring) -> None:
+    measuring.scenes.change(pattern="0110")
+    measuring.measure(OF_SCENE)
+    assert "raw chip pattern" in measuring.said()
+    measuring.controller.choose(BenchChoice(PUBLISHED, ()))
+    measuring.pane.measure.click()
+    assert "No decoder" in measuring.said()
+    assert measuring.controller.full is None
+
+
+class BusyWorkers(InlineWorkers):
+    """Workers that never come to an end."""
+
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        self.jobs.append(job)
+        return Future()
+
+
+def test_a_cancelled_bench_keeps_its_points_and_is_not_whole(
+    qtbot: QtBot, small_scene: Scene
+) -> None:
+    workers = BusyWorkers()
+    measuring = Measuring(qtbot, small_scene, workers)
+    choice = BenchChoice(PUBLISHED, ("threshold",), 64)
+    measuring.controller.choose(choice)
+    measuring.pane.measure.click()
+    qtbot.waitUntil(lambda: len(workers.jobs) > 1)
+    assert not measuring.pane.measure.isEnabled()
+    request = request_of(choice, small_scene)
+    first = measure_bench_point(request, request.points[0])
+    measuring.queue.channels[0].results_ready.emit(request, [first])
+    assert "1 of 15" in measuring.said()
+    measuring.pane.work.cancel.click()
+    assert measuring.said().startswith("Cancelled")
+    assert measuring.controller.is_idle
+    assert measuring.controller.full is None
+    assert measuring.cell(0).startswith("0 (")
+    assert measuring.pane.measure.isEnabled()
+    measuring.queue.stop()
+
+
+def test_more_pictures_than_are_read_out_are_refused_in_a_sentence(measuring: Measuring) -> None:
+    measuring.measure()
+    measuring.pane.what.show_key(BITS)
+    measuring.pane._show_what()
+    measuring.frame_rate.change(60.0)
+    assert "frames_a_second is 60.0; allowed: above 0 to 36" in measuring.said()
+    measuring.frame_rate.change(15.0)
+    assert "frames_a_second" not in measuring.said()
+    assert measuring.cell(0).startswith(f"{256 * 15:,}")
+
+
+@pytest.mark.parametrize(("wrong", "right"), [(0, 10), (10, 9), (500, 0)])
+def test_points_are_drawn_where_their_values_are(wrong: int, right: int) -> None:
+    point = point_of(wrong, right)
+    rate, bits = drawn(point, RATES, 30.0), drawn(point, BITS, 30.0)
+    assert 10.0**rate.high == pytest.approx(point.errors.high)
+    assert (rate.value == rate.value) == bool(wrong)  # not a number without an error
+    if wrong:
+        assert 10.0**rate.value == pytest.approx(point.errors.rate)
+    assert 10.0**bits.value == pytest.approx(max(point.errors.bits_a_second(30.0), 1.0))
+    assert bits.low <= bits.value <= bits.high
+
+
+def test_the_bench_is_exported_with_its_own_setting(
+    application: Application, qtbot: QtBot, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    said: list[str] = []
+    application.desktop.export.status_message.connect(said.append)
+    path = tmp_path / "bench.csv"
+    application.desktop.export.export("bench", path)
+    qtbot.waitUntil(lambda: bool(said))
+    assert "not complete" in said[-1]
+    application.window.bring_to_front("bench")
+    qtbot.waitUntil(lambda: "wiring" in vars(application.bench))
+    request = BenchRequest(decoders=("threshold",), exposures=(1.0,), decibels=(), bits=64)
+    found = request, tuple(measure_bench_point(request, request.points[0]))
+    full: Callable[[], object] = lambda: found  # noqa: E731
+    monkeypatch.setattr(BenchController, "full", property(lambda _self: full()))
+    application.desktop.export.export("bench", path)
+    qtbot.waitUntil(lambda: application.desktop.export.is_idle and path.exists())
+    lines = path.read_text("utf-8").splitlines()
+    assert any("5 rows a symbol" in line for line in lines if line.startswith("#"))
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    assert [row["decoder"] for row in rows] == ["threshold"]

@@ -52,14 +52,18 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Alternative as Alternative,
         BitErrors as BitErrors,
         ChipReading as ChipReading,
+        Clock as Clock,
         Comparison as Comparison,
         Decision as Decision,
         DecodeResult as DecodeResult,
+        FilmProgress as FilmProgress,
         Frame as Frame,
+        FrameReading as FrameReading,
         Lamp as Lamp,
         Limits as Limits,
         Match as Match,
         MostBits as MostBits,
+        PacketReading as PacketReading,
         PhotoTable as PhotoTable,
         Plan as Plan,
         Region as Region,
@@ -67,6 +71,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         SweepTable as SweepTable,
         Video as Video,
         VideoFrame as VideoFrame,
+        VideoReading as VideoReading,
     )
     from occ_model.scene.presets import (
         delete_preset as delete_preset,
@@ -108,8 +113,13 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Scheme as Scheme,
         scheme_of as scheme_of,
     )
+    from occ_model.video.decode import (
+        decode_frames as decode_frames,
+        decode_video as decode_video,
+    )
     from occ_model.video.export import write_video as write_video
     from occ_model.video.load import load_video as load_video
+    from occ_model.video.reader import VideoReader as VideoReader
     from occ_model.video.render import render_video as render_video
 
 # isort: on
@@ -119,14 +129,17 @@ _MODULES = {
     "BandModelUndefined": "errors",
     "BitErrors": "results",
     "ChipReading": "results",
+    "Clock": "results",
     "Comparison": "results",
     "Decision": "results",
     "DecodeInputError": "errors",
     "DecodeResult": "results",
     "Decoded": "transmitter.line_codes.line_code",
     "Decoder": "receiver.decoder",
+    "FilmProgress": "results",
     "Frame": "results",
     "FrameFormat": "transmitter.framings.framing",
+    "FrameReading": "results",
     "Framed": "transmitter.framings.framing",
     "Framing": "transmitter.framings.framing",
     "Lamp": "results",
@@ -137,6 +150,7 @@ _MODULES = {
     "MostBits": "results",
     "OccError": "errors",
     "OutputError": "errors",
+    "PacketReading": "results",
     "ParameterError": "errors",
     "Photo": "photo.reading.load",
     "PhotoError": "errors",
@@ -156,6 +170,8 @@ _MODULES = {
     "Video": "results",
     "VideoError": "errors",
     "VideoFrame": "results",
+    "VideoReader": "video.reader",
+    "VideoReading": "results",
     "Waypoint": "scene.recording",
     "accuracy": "study.accuracy",
     "band_lengths": "simulation.band_model",
@@ -164,6 +180,8 @@ _MODULES = {
     "column_profile": "camera.photometry",
     "compare": "photo.comparison",
     "decode": "receiver.decode",
+    "decode_frames": "video.decode",
+    "decode_video": "video.decode",
     "decoders": "receiver.decoders",
     "delete_preset": "scene.presets",
     "find_lamps": "photo.lamps.find",

@@ -26,6 +26,15 @@ from occ_model.results.plan import Decision, Plan
 from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
 from occ_model.results.video import Video, VideoFrame
+from occ_model.results.video_reading import (
+    Clock,
+    FilmProgress,
+    FrameReading,
+    Measured,
+    PacketReading,
+    RateWindow,
+    VideoReading,
+)
 
 __all__ = [
     "ACCURACY_PARTS",
@@ -36,25 +45,31 @@ __all__ = [
     "Alternative",
     "BitErrors",
     "ChipReading",
+    "Clock",
     "CombinedEstimate",
     "Comparison",
     "Decision",
     "DecodeResult",
     "EffectCrop",
     "EffectDifference",
+    "FilmProgress",
     "Forecast",
     "Frame",
+    "FrameReading",
     "Lamp",
     "Limits",
     "Location",
     "Match",
+    "Measured",
     "MeasuredCosts",
     "MostBits",
+    "PacketReading",
     "PhotoRow",
     "PhotoTable",
     "Plan",
     "RangeEnd",
     "RateSettings",
+    "RateWindow",
     "Region",
     "RunHistogram",
     "Runs",
@@ -68,5 +83,6 @@ __all__ = [
     "Trial",
     "Video",
     "VideoFrame",
+    "VideoReading",
     "WorkingRange",
 ]

@@ -81,7 +81,7 @@ class Scheme:
         payload = np.asarray(bits, dtype=np.uint8)
         if self.correction != "none":
             payload = error_correction.protect(payload)
-        return self.framing.encode(payload, self._form)
+        return self.framing.encode(payload, self.form)
 
     def decode(self, chips: ByteArray) -> Framed:
         """Read the payload from chips that show any part of what is sent repeatedly.
@@ -96,8 +96,8 @@ class Scheme:
         Framed
             With ``bits`` bits, or a sentence that says why not.
         """
-        read = self.framing.decode(chips, self._form)
-        if self.correction == "none" or len(read.bits) != self._form.bits:
+        read = self.framing.decode(chips, self.form)
+        if self.correction == "none" or len(read.bits) != self.form.bits:
             return read
         payload = error_correction.correct(read.bits, self.bits)
         if payload is None:
@@ -110,7 +110,8 @@ class Scheme:
         return Framed(read.headers, payload)
 
     @cached_property
-    def _form(self) -> FrameFormat:
+    def form(self) -> FrameFormat:
+        """What the framing is given: line code, preamble, and the bits that it carries."""
         bits = self.bits
         if self.correction != "none":
             bits = error_correction.protected_bits(bits)

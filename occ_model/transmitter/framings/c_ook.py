@@ -50,6 +50,87 @@ class _Division:
         return np.array([part >> place & 1 for place in places], dtype=np.uint8)
 
 
+def sub_packets(bits: int) -> int:
+    """Return how many sub-packets carry a payload of some bits; all have as many chips."""
+    return _Division.of(bits).parts
+
+
+def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray, str | None]:
+    """Read a single sub-packet.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8
+        Its chips, from its preamble on.
+    form
+        The format.
+
+    Returns
+    -------
+    number : int
+        Which one it is, from 0.
+    bits : ndarray of uint8
+        Its part of the payload.
+    problem
+        None, or a sentence that says what is wrong with it.
+    """
+    preamble, division = own_preamble(form.line_code), _Division.of(form.bits)
+    if not np.array_equal(chips[: len(preamble)], preamble):
+        return 0, chips[:0], "A sub-packet does not start with its preamble."
+    data = chips[len(preamble) : len(preamble) + form.line_code.chips_for(division.bits)]
+    read = form.line_code.decode(data, int(preamble[-1]))
+    number, problem = _number(read.bits, division)
+    first = division.asynchronous
+    part = read.bits[first : first + division.part_bits]
+    left = form.bits - number * division.part_bits
+    return number, part[: max(left, 0)], read.failure or problem
+
+
+def number_beside(
+    chips: ByteArray, preamble_at: int, form: FrameFormat
+) -> tuple[int | None, int | None]:
+    """Read the sub-packets' numbers after and before a preamble, as far as chips show them.
+
+    Returns
+    -------
+    after, before
+        The number of the sub-packet that the preamble starts, and of the one that it ends; None
+        where the chips do not show it.
+    """
+    code, preamble = form.line_code, own_preamble(form.line_code)
+    division = _Division.of(form.bits)
+    if division.parts == 1:
+        return 0, 0
+    # The last bits are filled up to a whole block: only whole blocks can be read.
+    length = code.chips_for(division.asynchronous)
+    start = preamble_at + len(preamble)
+    after = _own_number(chips[start : start + length], length, int(preamble[-1]), 0, form)
+    bits = -(-division.bits // code.block_bits) * code.block_bits
+    within = division.bits - division.asynchronous
+    first_block = within // code.block_bits
+    begin = preamble_at - code.chips_for(bits) + first_block * code.block_chips
+    level = int(chips[begin - 1]) if begin > 0 else 0
+    part = chips[max(begin, 0) : preamble_at] if begin > 0 else chips[:0]
+    skipped = within - first_block * code.block_bits
+    length = code.chips_for(bits) - first_block * code.block_chips
+    return after, _own_number(part, length, level, skipped, form)
+
+
+def _own_number(
+    chips: ByteArray, length: int, level: int, skipped: int, form: FrameFormat
+) -> int | None:
+    """Read a number from some blocks of chips, behind some bits that are skipped."""
+    division = _Division.of(form.bits)
+    if len(chips) < length:
+        return None
+    read = form.line_code.decode(chips, level)
+    bits = read.bits[skipped : skipped + division.asynchronous]
+    if read.failure is not None or len(bits) < division.asynchronous:
+        return None
+    number = int("".join(map(str, bits.tolist())), 2)
+    return number if number < division.parts else None
+
+
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
     preamble, division = own_preamble(form.line_code), _Division.of(len(bits))
     missing = division.parts * division.part_bits - len(bits)

@@ -30,6 +30,11 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
     return np.concatenate([preamble, form.line_code.encode(frame, int(preamble[-1]))])
 
 
+def length_bits(bits: int) -> int:
+    """Return how many bits state the number of bits of a payload."""
+    return len(_length_field(bits))
+
+
 def _length_field(bits: int) -> ByteArray:
     if bits < 1 << _SHORT - 1:
         return _binary(bits, _SHORT)

@@ -1,0 +1,265 @@
+"""Fit the chips' timing in one picture: where each chip lies, and how sure its value is.
+
+The light of column i is b(i) + a(i) p(i), with p the lit share of its exposure, which starts at
+phase + step i chips and lasts some chips; b and a are parabolas over the picture. All of it is
+linear in b and a and nearly so in the timing: least squares, a few times over (Gauss-Newton).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
+from occ_model.photo.stripes.period import correlated_columns
+
+_ROUNDS = 6
+"""Most improvements of the timing."""
+
+_SETTLED = 1e-5
+"""Change of the timing in chips below which it is found."""
+
+_MOST_STEP = 0.2
+"""Largest change of the phase in one improvement, in chips."""
+
+_SHIFTS = np.linspace(-0.75, 0.75, 13)
+"""Shifts in chips that are tried first: decoders count from different ends of an exposure."""
+
+_POWERS = 3
+"""Coefficients of each parabola."""
+
+_SHORTEST = 1e-3
+"""Shortest exposure in chips: a shorter one makes the same light."""
+
+_LEAST_NOISE = 1e-6
+"""Least variance of a column about its model that is believed, as a share of the swing squared."""
+
+_SUREST = 50.0
+"""Largest log-likelihood ratio of a chip: no model is surer."""
+
+_SINGULAR = 1e-9
+"""Share of the largest singular value below which one is rounding error."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ChipLattice:
+    """Where chips lie in a signal, and their values.
+
+    Parameters
+    ----------
+    step
+        Chips from one column to the next.
+    phase
+        Where the exposure of column 0 starts, in chips; chip ``first`` + k starts at ``first`` + k.
+    exposure
+        Chips that an exposure lasts.
+    first
+        The number of the first chip.
+    values : ndarray of uint8, shape (chips,)
+        The chips.
+    """
+
+    step: float
+    phase: float
+    exposure: float
+    first: int
+    values: ByteArray
+
+    def lit(self, columns: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the lit share of each column's exposure, and the chips at its start and its end.
+
+        Returns
+        -------
+        share, start, end : ndarray of float64, shape (columns,)
+        """
+        starts = self.phase - self.first + self.step * np.arange(columns)
+        ends = starts + self.exposure
+        chips = self.values.astype(np.float64)
+        running = np.concatenate([[0.0], np.cumsum(chips)])
+        places = np.arange(len(running), dtype=np.float64)
+        # Light outside the chips that are known is that of the outermost ones.
+        lit = np.interp(ends, places, running) - np.interp(starts, places, running)
+        lit += np.maximum(ends - len(chips), 0.0) * chips[-1] - np.minimum(starts, 0.0) * chips[0]
+        place = np.clip(np.floor(np.stack([starts, ends])), 0, len(chips) - 1).astype(np.int64)
+        return lit / self.exposure, chips[place[0]], chips[place[1]]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ChipTiming:
+    """The chips of one picture on their fitted lattice.
+
+    Parameters
+    ----------
+    lattice
+        The lattice; its columns count from the signal's first one.
+    middle
+        Place in chips of the middle of the exposure of the signal's middle column.
+    middle_error, step_error
+        Standard deviations of ``middle`` and of the lattice's step, in chips.
+    ratios : ndarray of float64, shape (chips,)
+        Log-likelihood ratio of each chip, positive where it is likelier lit.
+    unexplained
+        Share of the signal's variance that the chips do not explain.
+    """
+
+    lattice: ChipLattice
+    middle: float
+    middle_error: float
+    step_error: float
+    ratios: FloatArray
+    unexplained: float
+
+
+def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
+    """Fit the timing of chips to the light of columns.
+
+    Parameters
+    ----------
+    light : ndarray of float64, shape (columns,)
+        Proportional to the light of each column, up to a constant.
+    start
+        The chips as they were decoded, with a rough timing.
+
+    Returns
+    -------
+    ChipTiming or None
+        None where the light does not follow the chips.
+    """
+    if start.values.size == 0 or start.values.min() == start.values.max():
+        return None
+    tried = [replace(start, phase=start.phase + shift) for shift in _SHIFTS]
+    residuals = [_Levels.fitted(light, one).residual_power for one in tried]
+    lattice = tried[int(np.argmin(residuals))]
+    fitted = _improved(light, lattice)
+    if fitted is None:
+        return None
+    lattice, covariance, levels = fitted
+    ratios = _ratios(lattice, levels)
+    wrong = (ratios > 0.0) != (lattice.values == 1)
+    if wrong.any():
+        lattice = replace(lattice, values=(ratios > 0.0).astype(np.uint8))
+        if lattice.values.min() == lattice.values.max():
+            return None
+        again = _improved(light, lattice)
+        if again is not None:
+            lattice, covariance, levels = again
+            ratios = _ratios(lattice, levels)
+    variance = float(light.var()) * len(light)
+    return ChipTiming(
+        lattice=lattice,
+        middle=lattice.phase + 0.5 * lattice.exposure + 0.5 * lattice.step * (len(light) - 1),
+        middle_error=float(np.sqrt(covariance[0, 0])),
+        step_error=float(np.sqrt(covariance[1, 1])),
+        ratios=ratios,
+        unexplained=levels.residual_power / max(variance, 1e-300),
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Levels:
+    """The best parabolas of light without and with the lamp, at a timing."""
+
+    swing: FloatArray
+    residual: FloatArray
+
+    @property
+    def residual_power(self) -> float:
+        return float(self.residual @ self.residual)
+
+    @classmethod
+    def fitted(cls, light: FloatArray, lattice: ChipLattice) -> "_Levels":
+        share, _, _ = lattice.lit(len(light))
+        powers = _powers(len(light))
+        parts = np.concatenate([powers, powers * share[:, None]], axis=1)
+        found = _solved(parts, light)
+        return cls(powers @ found[_POWERS:], light - parts @ found)
+
+
+def _powers(count: int) -> FloatArray:
+    place = np.linspace(-1.0, 1.0, count)
+    return np.asarray(place[:, None] ** np.arange(_POWERS))
+
+
+def _solved(parts: FloatArray, light: FloatArray) -> FloatArray:
+    found = np.linalg.lstsq(parts.T @ parts, parts.T @ light, rcond=_SINGULAR)[0]
+    return np.asarray(found)
+
+
+def _improved(
+    light: FloatArray, lattice: ChipLattice
+) -> tuple[ChipLattice, FloatArray, _Levels] | None:
+    """Improve a timing; return it with the covariance of its middle and its step."""
+    count = len(light)
+    place, powers = np.linspace(-1.0, 1.0, count), _powers(count)
+    half = max(0.5 * (count - 1), 1.0)
+    levels = _Levels.fitted(light, lattice)
+    parts = np.empty((count, 0))
+    for _ in range(_ROUNDS):
+        share, start, end = lattice.lit(count)
+        swing = levels.swing
+        if not float(np.median(swing)) > 0.0:
+            return None
+        later = (end - start) / lattice.exposure * swing
+        longer = (0.5 * (end + start) - share) / lattice.exposure * swing
+        parts = np.column_stack([powers, powers * share[:, None], later, later * place, longer])
+        shift, turn, growth = _solved(parts, light)[2 * _POWERS :]
+        shift, turn = np.clip([shift, turn], -_MOST_STEP, _MOST_STEP).tolist()
+        longest = 0.5 * lattice.exposure + _SHORTEST
+        growth = float(np.clip(growth, -longest + 2.0 * _SHORTEST, longest))
+        moved = _moved(lattice, shift, turn / half, growth, count)
+        better = _Levels.fitted(light, moved)
+        if better.residual_power >= levels.residual_power:
+            break
+        lattice, levels = moved, better
+        if abs(shift) + abs(turn) < _SETTLED:
+            break
+    variance = _noise(levels) * correlated_columns(levels.residual)
+    products = parts.T @ parts
+    products[np.diag_indices_from(products)] *= 1.0 + 1e-10
+    covariance = np.linalg.pinv(products, rcond=1e-14) * variance
+    scale = np.diag([1.0, 1.0 / half])
+    inner = covariance[2 * _POWERS : 2 * _POWERS + 2, 2 * _POWERS : 2 * _POWERS + 2]
+    return lattice, scale @ inner @ scale, levels
+
+
+def _moved(
+    lattice: ChipLattice, shift: float, step: float, growth: float, count: int
+) -> ChipLattice:
+    """Shift the middle of the picture, and change the step and the exposure about it."""
+    exposure = max(lattice.exposure + growth, _SHORTEST)
+    phase = lattice.phase + shift - 0.5 * step * (count - 1)
+    phase -= 0.5 * (exposure - lattice.exposure)
+    return replace(lattice, phase=phase, step=lattice.step + step, exposure=exposure)
+
+
+def _noise(levels: _Levels) -> float:
+    """Return the variance of a column about the model."""
+    free = max(1, len(levels.residual) - 2 * _POWERS - 3)
+    least = _LEAST_NOISE * float(np.median(levels.swing)) ** 2
+    return max(levels.residual_power / free, least)
+
+
+def _ratios(lattice: ChipLattice, levels: _Levels) -> FloatArray:
+    """Return how much likelier each chip is lit than not, the others being as they are.
+
+    With w(i) the light of a chip in column i and r(i) the residual, the opposite value changes the
+    squared distance by the sum of w^2 -+ 2 w r.
+    """
+    count, chips = len(levels.residual), len(lattice.values)
+    starts = lattice.phase - lattice.first + lattice.step * np.arange(count)
+    reach = int(np.ceil(lattice.exposure)) + 1
+    chip = np.floor(starts).astype(np.int64)[:, None] + np.arange(reach)
+    overlap = np.minimum(starts[:, None] + lattice.exposure, chip + 1.0) - np.maximum(
+        starts[:, None], chip
+    )
+    weight = np.maximum(overlap, 0.0) * (levels.swing / lattice.exposure)[:, None]
+    inside = (chip >= 0) & (chip < chips)
+    weight = np.where(inside, weight, 0.0).ravel()
+    place: IndexArray = np.clip(chip, 0, chips - 1).ravel()
+    residual = np.repeat(levels.residual, reach)
+    power = np.bincount(place, weight**2, minlength=chips)
+    along = np.bincount(place, weight * residual, minlength=chips)
+    lit: BoolArray = lattice.values == 1
+    # For a lit chip: distance if dark, less the distance as it is.
+    margin = np.where(lit, power + 2.0 * along, -(power - 2.0 * along))
+    noise = _noise(levels) * correlated_columns(levels.residual)
+    return np.clip(margin / (2.0 * noise), -_SUREST, _SUREST)

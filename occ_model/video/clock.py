@@ -1,0 +1,121 @@
+"""State the clock of a film: frequency, readout time and gap, and what contradicts them."""
+
+import numpy as np
+
+from occ_model.results.video_reading import Clock, Measured
+from occ_model.scene.units import HERTZ, SECOND
+from occ_model.video.clock_fit import fit_clock
+from occ_model.video.frame_times import FrameTimes
+from occ_model.video.phases import ClockFit, Phases, mean_step
+
+READOUT_TOLERANCE = 0.01
+"""Share by which the readout time may differ from the rough one that is given."""
+
+_OVERLAP = 1e-3
+"""Share of a frame period by which reading out may seem to last longer: of measurement errors."""
+
+_FEWEST = 3
+"""Frames from which the clock is fitted."""
+
+_OUTLIERS = 0.1
+"""Share of phases that do not agree with the others that is told."""
+
+_WANDERING = 3.0
+"""Ratio of the phases' scatter to that from frame to frame from which they wander."""
+
+
+def fits_of(
+    phases: Phases, readout_time: float, tolerance: float, columns: int, period: float
+) -> tuple[ClockFit, ...]:
+    """Fit the clock to phases, with what a rough readout time allows.
+
+    Parameters
+    ----------
+    phases
+        Of the frames whose place is known.
+    readout_time
+        A rough value in seconds.
+    tolerance
+        The share by which it may be wrong.
+    columns
+        Of a frame.
+    period
+        The frame period in seconds: reading out a frame takes no longer.
+    """
+    if len(phases.times) < _FEWEST:
+        return ()
+    step, _ = mean_step(phases)
+    low = step / (readout_time * (1.0 + tolerance))
+    high = step / (readout_time * (1.0 - tolerance))
+    low = max(low, step * columns / (period * (1.0 + _OVERLAP)))
+    return fit_clock(phases, low, high) if low < high else ()
+
+
+def state(fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, columns: int) -> Clock:
+    """State what fits say of a film's clock.
+
+    Parameters
+    ----------
+    fits
+        The likeliest first; at least one.
+    phases
+        That they were fitted to.
+    times
+        The frames' times.
+    columns
+        Of a frame.
+    """
+    best = fits[0]
+    readout = best.step / best.frequency
+    relative = np.hypot(best.step_error / best.step, best.frequency_error / best.frequency)
+    readout_error = readout * float(relative)
+    gap = times.period.value - columns * readout
+    has_drift = best.drift_error > 0.0
+    return Clock(
+        switching_frequency=Measured(best.frequency, best.frequency_error),
+        drift=Measured(best.drift, best.drift_error) if has_drift else None,
+        readout_time=Measured(readout, readout_error),
+        frame_period=times.period,
+        gap=Measured(gap, float(np.hypot(times.period.error, columns * readout_error))),
+        timing_noise=best.noise / best.frequency,
+        frames=int(best.kept.sum()),
+        alternatives=tuple((fit.frequency, fit.step / fit.frequency) for fit in fits[1:]),
+        problems=(*times.problems, *_problems(fits, phases)),
+    )
+
+
+def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
+    best = fits[0]
+    problems = [
+        f"Between the frames before {SECOND.format(jump.time)} and after it, the stripes move by "
+        f"{SECOND.format(jump.chips / best.frequency)} that the frame times do not show: frames "
+        "were dropped, doubled or shifted there."
+        for jump in best.jumps
+    ]
+    if len(fits) > 1:
+        others = ", ".join(
+            f"{HERTZ.format(fit.frequency)} ({SECOND.format(fit.step / fit.frequency)} a column)"
+            for fit in fits[1:]
+        )
+        problems.append(
+            f"Several frequencies fit the frames alike: {HERTZ.format(best.frequency)} is stated, "
+            f"but also {others}; a surer readout time, or a longer packet, would tell them apart."
+        )
+    outliers = int((~best.kept).sum())
+    if outliers > _OUTLIERS * len(best.kept):
+        problems.append(
+            f"{outliers} of {len(best.kept)} frames show a phase that does not agree with the "
+            "others' times."
+        )
+    residuals = best.residuals[best.kept]
+    if len(residuals) >= 16:
+        steps = float(np.sqrt(np.mean(np.diff(residuals) ** 2) / 2.0))
+        scatter = float(np.std(residuals))
+        least = float(np.median(phases.errors))
+        if scatter > _WANDERING * max(steps, least):
+            problems.append(
+                "The stripes drift to and fro against the frame times by "
+                f"{SECOND.format(scatter / best.frequency)}: the film was stabilised, its frame "
+                "rate changes, or a clock wanders."
+            )
+    return problems

@@ -1,0 +1,133 @@
+"""Fit the switching frequency to the phases of frames, and tell its aliases apart.
+
+A frame shows the phase of the chips at its time only up to whole periods of what is sent. So
+frequencies that differ by a whole number of periods between frames fit alike (aliases). The rough
+frequency, from the chips a column and a rough readout time, says which of them it is. The phase is
+then counted on over longer and longer parts of the film, each of which foretells the next one.
+"""
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.video.phase_fit import fit_parabola
+from occ_model.video.phases import ClockFit, Phases, mean_step
+
+_FIRST = 64
+"""Frames of the part of a film in which aliases are searched."""
+
+_GRID = 8.0
+"""Frequencies that are tried while the phase at the part's end changes by a period."""
+
+_MOST_TRIED = 2**17
+"""Most frequencies that are tried; the part of the film is shortened to it."""
+
+_AS_COHERENT = 0.8
+"""Share of the best coherence from which another frequency is an alias to be fitted."""
+
+_LEAST_COHERENCE = 0.5
+"""Coherence of phases with the frame times below which they do not follow them."""
+
+_GROWTH = 1.3
+"""Factor by which the fitted part of the film grows, once its frequency is known."""
+
+_AS_LIKELY = 9.0
+"""Difference of chi-squared up to which an alias is not excluded: three standard deviations."""
+
+
+def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
+    """Fit the frequency to the phases of frames.
+
+    Parameters
+    ----------
+    phases
+        At least two frames.
+    low, high
+        The frequencies between which it lies, in Hz.
+
+    Returns
+    -------
+    tuple of ClockFit
+        The likeliest, and others that are about as likely; none where the phases follow no
+        frequency.
+    """
+    step, _ = mean_step(phases)
+    turned = np.mod(phases.places - step * phases.columns, phases.period)
+    fits = []
+    for frequency in _aliases(phases, turned, low, high):
+        fit = _followed(phases, turned, frequency)
+        if fit is not None and low <= fit.frequency <= high:
+            fits.append(fit)
+    if not fits:
+        return ()
+    fits = _distinct(fits)
+    best = fits[0]
+    free = max(1, int(best.kept.sum()) - 3)
+    # Jitter of the frame times is part of the scatter: the best fit says how much.
+    scale = max(1.0, best.chi_squared / free)
+    return tuple(
+        fit for fit in fits
+        if fit.chi_squared - best.chi_squared <= _AS_LIKELY * scale
+        and len(fit.jumps) <= len(best.jumps)
+    )  # fmt: skip
+
+
+def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
+    """Sort fits, those with few jumps and outliers first, and keep each frequency once."""
+    ordered = sorted(
+        fits, key=lambda fit: (len(fit.jumps), int((~fit.kept).sum()) // 2, fit.chi_squared)
+    )
+    kept: list[ClockFit] = []
+    for fit in ordered:
+        apart = 3.0 * fit.frequency_error
+        if all(abs(fit.frequency - other.frequency) > apart for other in kept):
+            kept.append(fit)
+    return kept
+
+
+def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> list[float]:
+    """Return the frequencies at which the phases of the first frames are coherent."""
+    count = min(len(turned), _FIRST)
+    while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MOST_TRIED:
+        count = max(2, count // 2)
+    times = phases.times[:count] - phases.times[0]
+    tried = np.linspace(low, high, _grid(phases.times[:count], low, high, phases.period))
+    coherent = _coherence(turned[:count], times, tried, phases.period)
+    best = float(coherent.max())
+    if best < max(_LEAST_COHERENCE, 1.2 / np.sqrt(count)) and count > 2:
+        return []
+    padded = np.concatenate([[-1.0], coherent, [-1.0]])
+    peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:])
+    chosen = np.flatnonzero(peaks & (coherent >= _AS_COHERENT * best))
+    return [float(tried[place]) for place in chosen]
+
+
+def _grid(times: FloatArray, low: float, high: float, period: float) -> int:
+    return int((high - low) * float(np.ptp(times)) / period * _GRID) + 3
+
+
+def _coherence(
+    turned: FloatArray, times: FloatArray, tried: FloatArray, period: float
+) -> FloatArray:
+    """Return the length of the mean phase factor at each frequency."""
+    coherent = np.empty(len(tried))
+    for start in range(0, len(tried), 4096):
+        part = slice(start, start + 4096)
+        angle = (turned - tried[part, None] * times) * (2.0 * np.pi / period)
+        coherent[part] = np.abs(np.exp(1j * angle).mean(axis=1))
+    return coherent
+
+
+def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit | None:
+    """Count the phase on over the film from a first frequency, and fit it."""
+    count, total = min(len(turned), _FIRST), len(turned)
+    times = phases.times - phases.times[0]
+    angle = np.exp(2j * np.pi * (turned[:count] - frequency * times[:count]) / phases.period)
+    start = float(np.angle(angle.mean())) / (2.0 * np.pi) * phases.period
+    foretold = start + frequency * times
+    while True:
+        rounds = np.rint((foretold[:count] - turned[:count]) / phases.period)
+        fit = fit_parabola(phases.first(count), turned[:count] + rounds * phases.period)
+        if fit is None or count == total:
+            return fit
+        count = min(total, max(count + 1, int(count * _GROWTH)))
+        foretold = fit.at_start(phases.times)

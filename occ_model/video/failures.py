@@ -1,0 +1,62 @@
+"""Sentences that say why a film's payload was not read."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.receiver.sequence.soft_frame import SoftFrame
+from occ_model.results.video_reading import FrameReading
+from occ_model.video.joining import Joined
+from occ_model.video.period import SentPeriod
+
+_LEAST_CERTAINTY = 0.9
+"""Least probability that all bits are right, of a payload that is read."""
+
+
+def why_unplaced(frames: Sequence[FrameReading]) -> str:
+    """Say why no frame could be placed in what is sent."""
+    if not frames:
+        return "The film holds no frames."
+    read = [frame for frame in frames if frame.chips.size]
+    if not read:
+        return f"None of {len(frames)} frames shows chips; of the first one: {frames[0].failure}"
+    return (
+        f"None of {len(read)} frames with chips shows a header, so that their place in the packet "
+        "is not known: come closer, or raise the frequency."
+    )
+
+
+def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> str | None:
+    """Say why the chips of all frames together give no payload; None where they do.
+
+    Parameters
+    ----------
+    soft
+        What the framing reads from them; None where some chips were not in view.
+    joined, period
+        The chips, and what is sent.
+    """
+    if period.scheme is None:
+        return "A raw chip pattern is sent, which holds no packets."
+    if soft is None:
+        return _why_incomplete(joined, period)
+    if soft.framed.failure is not None:
+        return soft.framed.failure
+    if soft.certainty < _LEAST_CERTAINTY and not period.scheme.framing.checks:
+        return (
+            f"The chips are not certain enough: that all {period.scheme.bits} bits are right has a "
+            f"probability of {soft.certainty:.2g}."
+        )
+    return None
+
+
+def _why_incomplete(joined: Joined, period: SentPeriod) -> str:
+    unseen = ~(joined.seen | (period.known != 0))
+    text = (
+        f"{int(unseen.sum())} of {period.length} chips were in no frame: they fell into the gap "
+        "each time, or the film is too short."
+    )
+    if period.parts > 1:
+        missing = np.flatnonzero(unseen.reshape(period.parts, -1).any(axis=1))
+        text += f" The first sub-packet that lacks some is number {int(missing[0]) + 1}."
+    return text

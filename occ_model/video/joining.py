@@ -1,0 +1,147 @@
+"""Join frames: find each one's place in what is sent, and add up what they say of each chip.
+
+A frame's place follows from a header in view, or from the chips that earlier frames have shown, or
+from the clock, or from all of them together: each place has a likelihood, and a frame is placed
+where one place is far likelier than all others. What is sent repeats, so the log-likelihood ratios
+of a chip that several frames show add up.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, FloatArray
+from occ_model.results.video_reading import FrameReading
+from occ_model.video.period import SentPeriod
+
+_MOST = 8.0
+"""Largest log-likelihood ratio that one frame gives to a chip: a frame may be misplaced."""
+
+_KNOWN = 30.0
+"""Log-likelihood ratio of a chip that is the same in every packet."""
+
+_SURE = 2.0
+"""Log-likelihood ratio from which a chip counts as known when places are compared."""
+
+_AHEAD = 7.0
+"""Logarithm of the odds of the best place against all others together from which it is taken."""
+
+_UNLIKE = -12.0
+"""Logarithm of the likelihood below which a place contradicts the chips that are known."""
+
+_LEAST_DEVIATION = 0.15
+"""Least standard deviation of a place that the clock foretells, in chips."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """The place of a frame's first chip in the period.
+
+    Parameters
+    ----------
+    chip
+        From 0 to below the period's length.
+    is_confirmed
+        Whether a header or the chips show it; else the clock alone does.
+    """
+
+    chip: int
+    is_confirmed: bool
+
+
+class Joined:
+    """The chips of one period, as frames show them.
+
+    Parameters
+    ----------
+    period
+        What is known of them before.
+    """
+
+    def __init__(self, period: SentPeriod) -> None:
+        self._period = period
+        self._votes = np.zeros(period.length)
+        self._counts = np.zeros(period.length, dtype=np.int64)
+        scheme = period.scheme
+        self._share = 1.0 if scheme is None else float(1 / scheme.line_code.chips_a_bit)
+
+    @property
+    def ratios(self) -> FloatArray:
+        """Log-likelihood ratio of each chip, 0 where nothing is known, shape (length,)."""
+        return self._votes + _KNOWN * self._period.known
+
+    @property
+    def seen(self) -> BoolArray:
+        """The chips that some frame shows whole."""
+        return np.asarray(self._counts > 0)
+
+    def place(
+        self, frame: FrameReading, foretold: float | None = None, deviation: float = 0.0
+    ) -> Place | None:
+        """Find the place of a frame's first chip.
+
+        Parameters
+        ----------
+        frame
+            The frame.
+        foretold, deviation
+            The place that the clock foretells, and its standard deviation in chips; None where it
+            does not.
+
+        Returns
+        -------
+        Place or None
+            None where no place is far likelier than others.
+        """
+        length = self._period.length
+        first, last = frame.whole
+        if last <= first:
+            return None
+        likelihood = by_chips = self._likelihood(frame)
+        if foretold is not None:
+            off = np.mod(np.arange(length) - foretold + 0.5 * length, length) - 0.5 * length
+            likelihood = likelihood - 0.5 * (off / max(deviation, _LEAST_DEVIATION)) ** 2
+        shown = self._period.places(frame.chips[first:last])
+        places = np.array([(place - first) % length for place in shown], dtype=np.int64)
+        if len(places) == 1:
+            place = int(places[0])
+            return Place(place, True) if by_chips[place] > _UNLIKE else None
+        if len(places):
+            elsewhere = np.full(length, -np.inf)
+            elsewhere[places] = likelihood[places]
+            likelihood = elsewhere
+        best = int(likelihood.argmax())
+        if by_chips[best] < _UNLIKE or _odds(likelihood, best) < _AHEAD:
+            return None
+        return Place(best, is_confirmed=_odds(by_chips, best) > _AHEAD)
+
+    def add(self, frame: FrameReading, place: int) -> None:
+        """Add what a frame says of its chips."""
+        length = self._period.length
+        ratios = np.clip(frame.ratios.astype(np.float64), -_MOST, _MOST)
+        at = (place + np.arange(len(ratios))) % length
+        np.add.at(self._votes, at, ratios)
+        np.add.at(self._counts, at[slice(*frame.whole)], 1)
+
+    def _likelihood(self, frame: FrameReading) -> FloatArray:
+        """Return the logarithm of the likelihood of each place, 0 for one that tells nothing."""
+        ratios, length = self.ratios, self._period.length
+        lit, dark = (ratios > _SURE).astype(np.float64), (ratios < -_SURE).astype(np.float64)
+        sureness = np.tanh(0.5 * np.clip(frame.ratios.astype(np.float64), -_MOST, _MOST))
+        folded = np.zeros((2, length))
+        at = np.arange(len(sureness)) % length
+        for row, agreed in enumerate((np.log1p(sureness), np.log1p(-sureness))):
+            # Chips of a line code follow from each other: agreement says no more than their bits.
+            np.add.at(folded[row], at, np.where(agreed > 0.0, self._share * agreed, agreed))
+        spectrum = np.fft.rfft(lit) * np.conj(np.fft.rfft(folded[0]))
+        spectrum += np.fft.rfft(dark) * np.conj(np.fft.rfft(folded[1]))
+        return np.asarray(np.fft.irfft(spectrum, length))
+
+
+def _odds(likelihood: FloatArray, place: int) -> float:
+    """Return the logarithm of the odds of a place against all others together."""
+    others = np.delete(likelihood, place)
+    if not others.size:
+        return np.inf
+    most = float(others.max())
+    return float(likelihood[place]) - most - float(np.log(np.exp(others - most).sum()))

@@ -1,0 +1,199 @@
+"""What is sent repeatedly: its length, its parts, and what a frame shows of a place in it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, IndexArray
+from occ_model.receiver.sequence.code_words import code_words
+from occ_model.scene.scene import Scene, Transmitter
+from occ_model.transmitter.framings import c_ook
+from occ_model.transmitter.framings.framing import (
+    find_preambles,
+    is_unique,
+    own_preamble,
+    preamble_of,
+)
+from occ_model.transmitter.framings.paper import FRAMING as PAPER
+from occ_model.transmitter.framings.paper import HEADER, find_headers
+from occ_model.transmitter.framings.preamble import FRAMING as PREAMBLE
+from occ_model.transmitter.framings.raw import FRAMING as RAW
+from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import Scheme, scheme_of
+
+_BY_CHANCE = 10
+"""Chips of a preamble from which a payload hardly holds it by chance."""
+
+
+@dataclass(frozen=True)
+class SentPeriod:
+    """One period of what is sent, as far as the receiver knows it before reading.
+
+    Parameters
+    ----------
+    transmitter
+        Its scheme and number of bits are known, not what it sends; of a raw pattern all is.
+    """
+
+    transmitter: Transmitter
+
+    @cached_property
+    def scheme(self) -> Scheme | None:
+        """The scheme; None of a raw pattern."""
+        return None if self.transmitter.pattern else scheme_of(self.transmitter)
+
+    @cached_property
+    def pattern(self) -> ByteArray | None:
+        """The chips of a raw pattern's shortest period; None of others."""
+        if not self.transmitter.pattern:
+            return None
+        chips = sent_chips(self.transmitter)
+        for length in range(1, len(chips) + 1):
+            if len(chips) % length == 0 and (chips.reshape(-1, length) == chips[:length]).all():
+                return chips[:length]
+        return chips
+
+    @cached_property
+    def length(self) -> int:
+        """Chips of the period."""
+        if self.pattern is not None:
+            return len(self.pattern)
+        assert self.scheme is not None  # noqa: S101 - it is no pattern
+        return self.scheme.length
+
+    @cached_property
+    def parts(self) -> int:
+        """Parts of equal length that can be read each by itself: sub-packets, or 1."""
+        if self.scheme is None or self.scheme.framing.name != c_ook.FRAMING.name:
+            return 1
+        return c_ook.sub_packets(self.scheme.form.bits)
+
+    @property
+    def part_length(self) -> int:
+        """Chips of a part."""
+        return self.length // self.parts
+
+    @cached_property
+    def known(self) -> IndexArray:
+        """The chips that are the same whatever the payload: 1, or -1 for dark, 0 where unknown."""
+        known = np.zeros(self.length, dtype=np.int64)
+        if self.pattern is not None:
+            return np.where(self.pattern == 1, 1, -1)
+        if self.parts > 1:
+            assert self.scheme is not None  # noqa: S101 - a pattern has one part
+            preamble = own_preamble(self.scheme.form.line_code)
+            starts = np.arange(self.parts)[:, None] * self.part_length
+            known[starts + np.arange(len(preamble))] = np.where(preamble == 1, 1, -1)
+            return known
+        header = np.array(self.header, dtype=np.int64)
+        known[: len(header)] = np.where(header == 1, 1, -1)
+        return known
+
+    @cached_property
+    def header(self) -> tuple[int, ...]:
+        """The chips at the start of every period, as far as they do not depend on the payload."""
+        return () if self.pattern is not None else code_words(self.transmitter, 1).header
+
+    @property
+    def data_start(self) -> int | None:
+        """The chip at which line-coded bits start; None where the framing hides it."""
+        if self.scheme is None:
+            return None
+        name = self.scheme.framing.name
+        if name == PAPER.name:
+            return len(HEADER)
+        if name in (PREAMBLE.name, RAW.name):
+            return len(preamble_of(self.scheme.form))
+        return None
+
+    def places(self, chips: ByteArray) -> tuple[int, ...]:
+        """Return the places in the period that a frame's first chip can have, as headers show it.
+
+        Parameters
+        ----------
+        chips : ndarray of uint8, shape (chips,)
+            Those in view, none of them cut off.
+
+        Returns
+        -------
+        tuple of int
+            One where a header shows it, several where it may be any of them, none where no header
+            is in view, or several contradict each other.
+        """
+        if self.scheme is None:
+            return ()
+        if self.scheme.framing.name == c_ook.FRAMING.name:
+            return self._of_sub_packets(chips)
+        return self._of_headers(chips)
+
+    def _of_headers(self, chips: ByteArray) -> tuple[int, ...]:
+        assert self.scheme is not None  # noqa: S101 - the caller has asked
+        form = self.scheme.form
+        if self.scheme.framing.name == PAPER.name:
+            longest = form.line_code.longest_run
+            unique = longest is not None and longest < sum(HEADER)
+            found = find_headers(chips) if unique else ()
+            # At the end of the view a run of ones may go on.
+            found = tuple(at for at in found if at + len(HEADER) <= len(chips))
+        elif self.scheme.framing.name in (PREAMBLE.name, RAW.name):
+            preamble = preamble_of(form)
+            unique = is_unique(preamble, form.line_code) or len(preamble) >= _BY_CHANCE
+            found = find_preambles(chips, preamble) if unique else ()
+        else:
+            return ()
+        places = {-at % self.length for at in found}
+        return tuple(places) if len(places) == 1 else ()
+
+    def _of_sub_packets(self, chips: ByteArray) -> tuple[int, ...]:
+        assert self.scheme is not None  # noqa: S101 - the caller has asked
+        form, length = self.scheme.form, self.part_length
+        found = find_preambles(chips, own_preamble(form.line_code))
+        if not found or len({at % length for at in found}) > 1:
+            return ()
+        numbered = set()
+        for at in found:
+            after, before = c_ook.number_beside(chips, at, form)
+            if after is not None:
+                numbered.add((after * length - at) % self.length)
+            if before is not None:
+                numbered.add(((before + 1) * length - at) % self.length)
+        if numbered:
+            return tuple(numbered) if len(numbered) == 1 else ()
+        return tuple((part * length - found[0]) % self.length for part in range(self.parts))
+
+    def part_bits(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
+        """Read one part by itself.
+
+        Parameters
+        ----------
+        chips : ndarray of uint8, shape (part_length,)
+            Its chips.
+
+        Returns
+        -------
+        part, bits
+            Which part it says it is, and its bits; None where it is not read.
+        """
+        if self.scheme is None:
+            return None
+        if self.parts > 1:
+            number, bits, problem = c_ook.read_sub_packet(chips, self.scheme.form)
+            return None if problem is not None else (number, bits)
+        read = self.scheme.decode(np.tile(chips, 3))
+        if read.failure is not None or len(read.bits) != self.scheme.bits:
+            return None
+        return 0, read.bits
+
+    def slice_of_part(self, part: int) -> slice:
+        """Return which of the bits that the framing was given a part carries."""
+        if self.scheme is None or self.parts == 1:
+            return slice(None)
+        bits = self.scheme.form.bits
+        size = -(-bits // self.parts)
+        return slice(part * size, min((part + 1) * size, bits))
+
+
+def period_of(scene: Scene) -> SentPeriod:
+    """Return the period of what a scene sends."""
+    return SentPeriod(scene.transmitter)

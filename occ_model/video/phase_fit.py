@@ -1,0 +1,154 @@
+"""Fit a parabola of time to phases that are counted on, with jumps where there are any."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, FloatArray, IndexArray
+from occ_model.photo.stripes.period import correlated_columns
+from occ_model.video.phases import ClockFit, PhaseJump, Phases, mean_step
+
+_FEWEST_FOR_DRIFT = 6
+"""Frames from which a drift is fitted too."""
+
+_OUTLYING = 6.0
+"""Deviations from which a phase is none of the others': a packet that was misread."""
+
+_JUMP = 10.0
+"""Deviations from which the phase jumps between two frames."""
+
+_MOST_JUMPS = 8
+
+_LEAST_PHASE = 1e-5
+"""Least standard deviation of a phase in chips that is believed."""
+
+
+def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
+    """Fit a parabola to phases that are counted on, with jumps where there are any."""
+    kept = np.ones(len(counted), dtype=bool)
+    jumps: list[int] = []
+    solution = _solve(phases, counted, kept, jumps)
+    for _ in range(_MOST_JUMPS + 3):
+        spread = _local_spread(solution.residuals[kept], phases.errors[kept])
+        jump = _largest_jump(solution.residuals, kept, spread, jumps)
+        outlying = kept & (np.abs(solution.residuals) > _OUTLYING * max(spread, _typical(solution)))
+        if jump is not None and len(jumps) < _MOST_JUMPS:
+            jumps.append(jump)
+        elif outlying.any() and (kept & ~outlying).sum() >= max(2, len(kept) // 2):
+            kept &= ~outlying
+        else:
+            break
+        solution = _solve(phases, counted, kept, jumps)
+    return solution.as_fit(phases, kept, jumps)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Solution:
+    """A least-squares fit of the phases."""
+
+    found: FloatArray
+    covariance: FloatArray
+    middle: float
+    residuals: FloatArray
+    noise: float
+    has_drift: bool
+
+    def as_fit(self, phases: Phases, kept: BoolArray, jumps: list[int]) -> ClockFit:
+        step, step_error = mean_step(phases)
+        errors = np.sqrt(np.diag(self.covariance))
+        chi = self.residuals[kept] / np.maximum(phases.errors[kept], _LEAST_PHASE)
+        heights = self.found[3:] if self.has_drift else self.found[2:]
+        return ClockFit(
+            frequency=float(self.found[1]),
+            frequency_error=float(errors[1]),
+            drift=float(self.found[2]) if self.has_drift else 0.0,
+            drift_error=float(errors[2]) if self.has_drift else 0.0,
+            step=step,
+            step_error=step_error,
+            middle=self.middle,
+            start=float(self.found[0]),
+            residuals=self.residuals,
+            kept=kept,
+            jumps=tuple(
+                PhaseJump(frame, float(phases.times[frame]), height)
+                for frame, height in zip(jumps, heights.tolist(), strict=True)
+            ),
+            chi_squared=float(chi @ chi),
+            noise=self.noise,
+        )
+
+
+def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int]) -> _Solution:
+    times = phases.times
+    middle = float(times[kept].mean())
+    later = times - middle
+    extent = max(float(np.ptp(later)), 1e-12)
+    has_drift = int(kept.sum()) >= _FEWEST_FOR_DRIFT + len(jumps)
+    parts = [np.ones(len(times)), later]
+    if has_drift:
+        # Of the frequency in the middle: the parabola has no slope there on the mean.
+        bend = 0.5 * later**2
+        parts.append(bend - float(bend[kept].mean()))
+    parts += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
+    design = np.column_stack(parts)
+    scale = np.array([1.0, extent, extent**2][: 2 + has_drift] + [1.0] * len(jumps))
+    errors = np.maximum(phases.errors, _LEAST_PHASE)
+    jitter = 0.0
+    for _ in range(8):
+        weights = np.where(kept, 1.0 / (errors**2 + jitter**2), 0.0)
+        products = (design * scale**-1.0).T * weights @ (design / scale)
+        inverse = np.linalg.pinv(products, rcond=1e-13)
+        found = inverse @ ((design / scale).T @ (weights * counted)) / scale
+        residuals = counted - design @ found
+        free = max(1, int(kept.sum()) - design.shape[1])
+        excess = float(weights @ residuals**2) / free
+        before = jitter
+        # The jitter with which the residuals are as large as they are.
+        jitter = float(
+            np.sqrt(max(0.0, float((residuals[kept] ** 2 - errors[kept] ** 2).sum()) / free))
+        )
+        if abs(jitter - before) <= 1e-3 * max(jitter, _LEAST_PHASE):
+            break
+    scatter = excess if kept.sum() - design.shape[1] >= _FEWEST_FOR_DRIFT else max(1.0, excess)
+    alike = correlated_columns(residuals[kept]) if kept.sum() >= 16 else 1.0
+    covariance = inverse * scatter * alike / np.outer(scale, scale)
+    noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))
+    if has_drift:
+        # The phase in the middle is without what the bend's own mean takes off.
+        found = found.copy()
+        found[0] -= found[2] * float((0.5 * later[kept] ** 2).mean())
+    return _Solution(found, covariance, middle, residuals, noise, has_drift)
+
+
+def _typical(solution: _Solution) -> float:
+    return 1.4826 * float(np.median(np.abs(solution.residuals)))
+
+
+def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
+    """Return the deviation of phases from that of the frame before: it knows of no slow change."""
+    least = float(np.median(errors))
+    if len(residuals) < 3:
+        return max(least, _LEAST_PHASE)
+    steps = np.abs(np.diff(residuals))
+    return max(1.4826 / math.sqrt(2.0) * float(np.median(steps)), least, _LEAST_PHASE)
+
+
+def _largest_jump(
+    residuals: FloatArray, kept: BoolArray, spread: float, jumps: list[int]
+) -> int | None:
+    """Find the largest jump of the residuals, which lasts: the frames to either side agree."""
+    frames: IndexArray = np.flatnonzero(kept)
+    if len(frames) < 8:
+        return None
+    values = residuals[frames]
+    heights = np.abs(np.diff(values))
+    for place in np.argsort(heights)[::-1][:4].tolist():
+        if heights[place] < _JUMP * spread:
+            return None
+        frame = int(frames[place + 1])
+        before, after = values[max(0, place - 2) : place + 1], values[place + 1 : place + 4]
+        lasts = abs(float(np.median(after)) - float(np.median(before))) > 0.6 * heights[place]
+        if lasts and len(before) > 2 and len(after) > 2 and frame not in jumps:
+            return frame
+    return None

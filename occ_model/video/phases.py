@@ -1,0 +1,148 @@
+"""The phases of frames, and the clock that was fitted to them."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, FloatArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Phases:
+    """What frames say of the clock, in the order of time.
+
+    Parameters
+    ----------
+    times : ndarray of float64, shape (frames,)
+        The frames' times in seconds.
+    columns : ndarray of float64, shape (frames,)
+        The column that each phase is that of.
+    places, errors : ndarray of float64, shape (frames,)
+        The phase of the chips there, in chips from 0 to below ``period``, and its deviation.
+    steps, step_errors : ndarray of float64, shape (frames,)
+        Chips from one column to the next, and its deviation.
+    period
+        Chips after which what is sent repeats.
+    """
+
+    times: FloatArray
+    columns: FloatArray
+    places: FloatArray
+    errors: FloatArray
+    steps: FloatArray
+    step_errors: FloatArray
+    period: float
+
+    def first(self, count: int) -> "Phases":
+        """Return the first frames."""
+        part = slice(0, count)
+        return replace(
+            self,
+            times=self.times[part],
+            columns=self.columns[part],
+            places=self.places[part],
+            errors=self.errors[part],
+            steps=self.steps[part],
+            step_errors=self.step_errors[part],
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class PhaseJump:
+    """A jump of the phase between two frames.
+
+    Parameters
+    ----------
+    frame, time
+        The first frame after it, and its time in seconds.
+    chips
+        The jump, up to whole periods.
+    """
+
+    frame: int
+    time: float
+    chips: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ClockFit:
+    """The phases of frames as a parabola of their times.
+
+    Parameters
+    ----------
+    frequency, frequency_error
+        Chips a second in the middle of the film's times, and its standard deviation.
+    drift, drift_error
+        Its change in Hz a second; 0 where too few frames show it.
+    step, step_error
+        Chips from one column to the next.
+    middle
+        The time that the frequency is that of, in seconds.
+    start
+        The phase at that time in column 0, in chips, counted on over periods.
+    residuals : ndarray of float64, shape (frames,)
+        Phases less those of the fit, in chips; of frames that are ``kept``.
+    kept : ndarray of bool, shape (frames,)
+        Frames whose phase agrees with the others'.
+    jumps
+        The jumps of the phase.
+    chi_squared
+        Sum of the squared residuals over the variances of the phases alone.
+    noise
+        Standard deviation of a phase about the fit, in chips.
+    """
+
+    frequency: float
+    frequency_error: float
+    drift: float
+    drift_error: float
+    step: float
+    step_error: float
+    middle: float
+    start: float
+    residuals: FloatArray
+    kept: BoolArray
+    jumps: tuple[PhaseJump, ...]
+    chi_squared: float
+    noise: float
+
+    def at_start(self, times: FloatArray) -> FloatArray:
+        """Return the phase in column 0 of frames at some times, in chips counted on over periods.
+
+        Parameters
+        ----------
+        times : ndarray of float64, any shape
+            In seconds.
+        """
+        later = np.asarray(times, dtype=np.float64) - self.middle
+        phase = self.start + self.frequency * later + 0.5 * self.drift * later**2
+        for jump in self.jumps:
+            phase = phase + jump.chips * (np.asarray(times) >= jump.time)
+        return np.asarray(phase)
+
+    def phase_error(self, time: float) -> float:
+        """Return the standard deviation of a foretold phase at a time, in chips."""
+        later = time - self.middle
+        drifted = 0.5 * self.drift_error * later**2
+        error = np.hypot(np.hypot(self.noise, self.frequency_error * later), drifted)
+        # Few frames may agree by chance.
+        return float(error) * (1.0 + 3.0 / max(int(self.kept.sum()) - 3, 1))
+
+
+def mean_step(phases: Phases) -> tuple[float, float]:
+    """Return the weighted mean of the chips a column, and its standard deviation.
+
+    The deviation is that of the frames' scatter, where there are enough of them.
+    """
+    weights = 1.0 / np.maximum(phases.step_errors, 1e-12) ** 2
+    # A single frame that is surer than all others may be so by mistake.
+    weights = np.minimum(weights, 4.0 * float(np.median(weights)))
+    total = float(weights.sum())
+    mean = float(weights @ phases.steps / total)
+    squares = float(weights**2 @ (phases.steps - mean) ** 2) / total**2
+    count = len(weights)
+    stated = float(weights**2 @ phases.step_errors**2) / total**2
+    if count < 4:
+        return mean, float(math.sqrt(max(stated, squares)))
+    return mean, float(math.sqrt(squares * count / (count - 1)))

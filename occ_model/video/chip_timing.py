@@ -217,8 +217,21 @@ def _improved(
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
     covariance = np.linalg.pinv(products, rcond=1e-14) * variance
     scale = np.diag([1.0, 1.0 / half])
-    inner = covariance[2 * _POWERS : 2 * _POWERS + 2, 2 * _POWERS : 2 * _POWERS + 2]
-    return lattice, scale @ inner @ scale, levels
+    inner = scale @ covariance[2 * _POWERS : 2 * _POWERS + 2, 2 * _POWERS : 2 * _POWERS + 2] @ scale
+    return lattice, inner + _unseen(lattice, count), levels
+
+
+def _unseen(lattice: ChipLattice, count: int) -> FloatArray:
+    """Return the covariance of middle and step by edges that fall between two exposures.
+
+    An exposure shorter than the time from column to column leaves a part of it out: wherever an
+    edge lies there, the columns are the same.
+    """
+    left_out = max(lattice.step - lattice.exposure, 0.0)
+    edges = max(1, int(np.count_nonzero(np.diff(lattice.values.astype(np.int64)))))
+    variance = left_out**2 / 12.0 / edges
+    # Edges evenly over the picture: the variance of a slope is 12 / n^2 of that of the mean.
+    return np.diag([variance, 12.0 * variance / count**2])
 
 
 def _moved(

@@ -20,6 +20,12 @@ _JUMP = 10.0
 
 _MOST_JUMPS = 8
 
+_FEWEST_TO_COMPARE = 16
+"""Frames from which it shows whether neighbouring residuals are alike."""
+
+_BY_CHANCE = 2.5
+"""Deviations of their correlation from which they are not so by chance."""
+
 _LEAST_PHASE = 1e-5
 """Least standard deviation of a phase in chips that is believed."""
 
@@ -111,7 +117,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         if abs(jitter - before) <= 1e-3 * max(jitter, _LEAST_PHASE):
             break
     scatter = excess if kept.sum() - design.shape[1] >= _FEWEST_FOR_DRIFT else max(1.0, excess)
-    alike = correlated_columns(residuals[kept]) if kept.sum() >= 16 else 1.0
+    alike = _alike(residuals[kept])
     covariance = inverse * scatter * alike / np.outer(scale, scale)
     noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))
     if has_drift:
@@ -119,6 +125,16 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         found = found.copy()
         found[0] -= found[2] * float((0.5 * later[kept] ** 2).mean())
     return _Solution(found, covariance, middle, residuals, noise, has_drift)
+
+
+def _alike(residuals: FloatArray) -> float:
+    """Return how many neighbouring residuals count as one, 1 where they are independent."""
+    count = len(residuals)
+    power = float(residuals @ residuals)
+    if count < _FEWEST_TO_COMPARE or power <= 0.0:
+        return 1.0
+    neighbours = float(residuals[1:] @ residuals[:-1]) / power
+    return correlated_columns(residuals) if neighbours > _BY_CHANCE / math.sqrt(count) else 1.0
 
 
 def _typical(solution: _Solution) -> float:

@@ -1,0 +1,149 @@
+"""Count by hand which chips and packets frames show whole, in exact arithmetic.
+
+A frame that starts at s shows the chips that lie whole between the start of its first column's
+exposure and the end of its last one's: chip n where n / f >= s + a t_r and (n + 1) / f <=
+s + b t_r + t, with a and b the first and the last column of the panel. Nothing is simulated: it is
+what a receiver without errors could read.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, floor
+
+import numpy as np
+
+from occ_model.arrays import IndexArray
+from occ_model.errors import ParameterError
+from occ_model.scene.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class ShutterTiming:
+    """What counting needs, as exact numbers.
+
+    Parameters
+    ----------
+    frequency
+        Chips a second.
+    exposure_time, readout_time
+        In seconds.
+    first, last
+        The first and the last column that show the panel.
+    """
+
+    frequency: Fraction
+    exposure_time: Fraction
+    readout_time: Fraction
+    first: int
+    last: int
+
+    @classmethod
+    def of(cls, scene: Scene, columns: tuple[int, int] | None = None) -> "ShutterTiming":
+        """Return the timing of a scene.
+
+        Parameters
+        ----------
+        scene
+            The scene.
+        columns
+            The first column that shows the panel and the one after the last; by default all.
+
+        Raises
+        ------
+        ParameterError
+            No column shows the panel.
+        """
+        first, end = columns or (0, scene.camera.columns)
+        if not 0 <= first < end:
+            raise ParameterError(
+                f"columns is {first} to {end}; allowed: the first column that shows the panel, and "
+                "the one after the last."
+            )
+        return cls(
+            Fraction(scene.transmitter.switching_frequency),
+            Fraction(scene.camera.exposure_time),
+            Fraction(scene.camera.readout_time),
+            first,
+            end - 1,
+        )
+
+    @property
+    def view(self) -> Fraction:
+        """Time from the start of the first column's exposure to the end of the last one's."""
+        return (self.last - self.first) * self.readout_time + self.exposure_time
+
+    def whole_chips(self, start: Fraction) -> tuple[int, int]:
+        """Return the first chip that a frame shows whole, and the one after the last.
+
+        Parameters
+        ----------
+        start
+            When the exposure of column 0 starts, in seconds; chip 0 starts at 0.
+        """
+        begin = (start + self.first * self.readout_time) * self.frequency
+        return ceil(begin), floor(begin + self.view * self.frequency)
+
+    def whole_packets(self, start: Fraction, length: int) -> int:
+        """Return how many packets of some chips a frame shows whole."""
+        first, end = self.whole_chips(start)
+        return max(end // length - -(-first // length), 0)
+
+
+def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -> IndexArray:
+    """Count how often frames show each chip of what is sent repeatedly.
+
+    Parameters
+    ----------
+    timings
+        The timing and the start of each frame.
+    period
+        Chips after which what is sent repeats.
+
+    Returns
+    -------
+    ndarray of int64, shape (period,)
+    """
+    counts = np.zeros(period, dtype=np.int64)
+    for timing, start in timings:
+        first, end = timing.whole_chips(start)
+        np.add.at(counts, np.arange(first, end) % period, 1)
+    return counts
+
+
+def packets_received(
+    timing: ShutterTiming, frame_period: Fraction, length: int, start: Fraction = Fraction(0)
+) -> Fraction:
+    """Return the share of packets that a film without end shows whole, exactly.
+
+    The starts of frames within a packet repeat after b frames, with f T / length = a / b.
+
+    Parameters
+    ----------
+    timing
+        Of each frame.
+    frame_period
+        T in seconds.
+    length
+        Chips of a packet.
+    start
+        When the first frame starts, in seconds.
+    """
+    packets_a_frame = timing.frequency * frame_period / length
+    frames = packets_a_frame.denominator
+    whole = sum(
+        timing.whole_packets(start + number * frame_period, length) for number in range(frames)
+    )
+    return Fraction(whole) / (frames * packets_a_frame)
+
+
+def packets_received_on_average(
+    timing: ShutterTiming, frame_period: Fraction, length: int
+) -> Fraction:
+    """Return the share of packets that frames show whole, on average over the time of the start.
+
+    A view of V chips holds a packet of L chips whole from V - L of all starts, of every L where
+    V >= L: the mean number is (V - L) / L.
+    """
+    view = timing.view * timing.frequency
+    return max(view - length, Fraction(0)) / (timing.frequency * frame_period)

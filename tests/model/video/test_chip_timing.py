@@ -1,0 +1,104 @@
+"""The timing of chips in one picture, against closed forms of the exposure."""
+
+import numpy as np
+import pytest
+
+from occ_model.video.chip_timing import ChipLattice, ChipTiming, fit_timing
+
+
+def _light(lattice: ChipLattice, columns: int, noise: float, seed: int) -> np.ndarray:
+    """Light of a panel that is brighter on one side, with noise."""
+    random = np.random.default_rng(seed)
+    place = np.linspace(-1.0, 1.0, columns)
+    share, _, _ = lattice.lit(columns)
+    swing = 1.0 + 0.3 * place - 0.2 * place**2
+    return np.asarray(0.1 + 0.05 * place + swing * share + noise * random.standard_normal(columns))
+
+
+def _lattice(exposure: float, seed: int, step: float = 0.0713) -> ChipLattice:
+    random = np.random.default_rng(seed)
+    values = random.integers(0, 2, 90, dtype=np.uint8)
+    return ChipLattice(step, random.uniform(0.0, 1.0), exposure, 0, values)
+
+
+def _rough(lattice: ChipLattice, seed: int) -> ChipLattice:
+    shift = float(np.random.default_rng(seed).uniform(-0.4, 0.4))
+    return ChipLattice(
+        lattice.step * (1.0 + 1e-3), lattice.phase + shift, 0.9 * lattice.exposure, 0,
+        lattice.values,
+    )  # fmt: skip
+
+
+def _fit(exposure: float, noise: float, seed: int) -> tuple[ChipLattice, ChipTiming]:
+    lattice = _lattice(exposure, seed)
+    fitted = fit_timing(_light(lattice, 1200, noise, seed), _rough(lattice, seed))
+    assert fitted is not None
+    return lattice, fitted
+
+
+def _middle(lattice: ChipLattice, columns: int = 1200) -> float:
+    return lattice.phase + 0.5 * lattice.exposure + 0.5 * lattice.step * (columns - 1)
+
+
+@pytest.mark.parametrize("exposure", [0.2, 0.5, 0.97, 1.8])
+def test_without_noise_phase_and_step_are_exact(exposure: float) -> None:
+    lattice, fitted = _fit(exposure, 1e-6, 7)
+    assert fitted.middle == pytest.approx(_middle(lattice), abs=1e-3)
+    assert fitted.lattice.step == pytest.approx(lattice.step, rel=1e-5)
+
+
+def test_an_exposure_shorter_than_a_column_has_an_error_that_is_not_understated() -> None:
+    found = []
+    for seed in range(60):
+        lattice, fitted = _fit(0.02, 1e-6, seed)
+        found.append((fitted.middle - _middle(lattice)) / fitted.middle_error)
+    # How much of it edges hide depends on where they lie: the error is for the worst places.
+    assert float(np.sqrt(np.mean(np.square(found)))) < 1.2
+
+
+def test_stated_errors_of_phase_and_step_cover_68_percent() -> None:
+    found = []
+    for seed in range(120):
+        lattice, fitted = _fit(0.5, 0.05, seed)
+        found.append((fitted.middle - _middle(lattice)) / fitted.middle_error)
+        found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
+    # Standard deviation of the share in 240 values: 3 %.
+    assert np.mean(np.abs(found) < 1.0) == pytest.approx(0.68, abs=0.08)
+
+
+def test_a_chip_that_was_misread_is_set_right() -> None:
+    lattice = _lattice(0.5, 11)
+    values = lattice.values.copy()
+    values[[20, 45]] ^= 1
+    rough = ChipLattice(lattice.step, lattice.phase, 0.5, 0, values)
+    fitted = fit_timing(_light(lattice, 1200, 0.02, 11), rough)
+    assert fitted is not None
+    inside = slice(1, 85)
+    np.testing.assert_array_equal(fitted.lattice.values[inside], lattice.values[inside])
+    assert ((fitted.ratios > 0.0) == (lattice.values == 1))[inside].all()
+
+
+def test_a_ratio_is_that_of_the_likelihoods_by_the_definition() -> None:
+    lattice = _lattice(0.6, 12)
+    noise = 0.6
+    light = _light(lattice, 1200, noise, 12)
+    fitted = fit_timing(light, lattice)
+    assert fitted is not None
+    # Flip one chip, and compare both squared distances at the fitted levels.
+    swing = 1.0 + 0.3 * np.linspace(-1.0, 1.0, 1200) - 0.2 * np.linspace(-1.0, 1.0, 1200) ** 2
+    shares = []
+    for value in (0, 1):
+        values = lattice.values.copy()
+        values[40] = value
+        shares.append(
+            ChipLattice(lattice.step, lattice.phase, lattice.exposure, 0, values).lit(1200)[0]
+        )
+    dark = 0.1 + 0.05 * np.linspace(-1.0, 1.0, 1200)
+    distances = [float(((light - dark - swing * share) ** 2).sum()) for share in shares]
+    expected = (distances[0] - distances[1]) / (2.0 * noise**2)
+    assert fitted.ratios[40] == pytest.approx(expected, rel=0.25, abs=1.0)
+
+
+def test_chips_that_never_change_have_no_timing() -> None:
+    lattice = ChipLattice(0.07, 0.2, 0.5, 0, np.ones(80, dtype=np.uint8))
+    assert fit_timing(np.ones(1000), lattice) is None

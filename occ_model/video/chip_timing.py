@@ -36,6 +36,9 @@ _LEAST_NOISE = 1e-6
 _SUREST = 50.0
 """Largest log-likelihood ratio of a chip: no model is surer."""
 
+_MOST_RIM = 8
+"""Share of the columns, as a divisor, that are left out at either end at most."""
+
 _SINGULAR = 1e-9
 """Share of the largest singular value below which one is rounding error."""
 
@@ -129,20 +132,20 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
     tried = [replace(start, phase=start.phase + shift) for shift in _SHIFTS]
     residuals = [_Levels.fitted(light, one).residual_power for one in tried]
     lattice = tried[int(np.argmin(residuals))]
-    fitted = _improved(light, lattice)
+    fitted = _timed(light, lattice)
     if fitted is None:
         return None
-    lattice, covariance, levels = fitted
+    lattice, covariance = fitted
+    levels = _Levels.fitted(light, lattice)
     ratios = _ratios(lattice, levels)
-    wrong = (ratios > 0.0) != (lattice.values == 1)
-    if wrong.any():
+    if ((ratios > 0.0) != (lattice.values == 1)).any():
         lattice = replace(lattice, values=(ratios > 0.0).astype(np.uint8))
-        if lattice.values.min() == lattice.values.max():
+        fitted = _timed(light, lattice)
+        if fitted is None:
             return None
-        again = _improved(light, lattice)
-        if again is not None:
-            lattice, covariance, levels = again
-            ratios = _ratios(lattice, levels)
+        lattice, covariance = fitted
+        levels = _Levels.fitted(light, lattice)
+        ratios = _ratios(lattice, levels)
     variance = float(light.var()) * len(light)
     return ChipTiming(
         lattice=lattice,
@@ -152,6 +155,24 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
         ratios=ratios,
         unexplained=levels.residual_power / max(variance, 1e-300),
     )
+
+
+def _timed(light: FloatArray, lattice: ChipLattice) -> tuple[ChipLattice, FloatArray] | None:
+    """Improve a timing by the columns that do not show the outermost chips.
+
+    Where those are cut off is where the picture was: a bright one is seen further out than a dark
+    one, which would lengthen all chips.
+    """
+    if lattice.values.min() == lattice.values.max():
+        return None
+    rim = min(int(np.ceil((1.0 + lattice.exposure) / lattice.step)), len(light) // _MOST_RIM)
+    inner = light[rim : len(light) - rim]
+    moved = replace(lattice, phase=lattice.phase + lattice.step * rim)
+    fitted = _improved(inner, moved)
+    if fitted is None:
+        return None
+    better, covariance = fitted
+    return replace(better, phase=better.phase - better.step * rim), covariance
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -184,9 +205,7 @@ def _solved(parts: FloatArray, light: FloatArray) -> FloatArray:
     return np.asarray(found)
 
 
-def _improved(
-    light: FloatArray, lattice: ChipLattice
-) -> tuple[ChipLattice, FloatArray, _Levels] | None:
+def _improved(light: FloatArray, lattice: ChipLattice) -> tuple[ChipLattice, FloatArray] | None:
     """Improve a timing; return it with the covariance of its middle and its step."""
     count = len(light)
     place, powers = np.linspace(-1.0, 1.0, count), _powers(count)
@@ -218,7 +237,7 @@ def _improved(
     covariance = np.linalg.pinv(products, rcond=1e-14) * variance
     scale = np.diag([1.0, 1.0 / half])
     inner = scale @ covariance[2 * _POWERS : 2 * _POWERS + 2, 2 * _POWERS : 2 * _POWERS + 2] @ scale
-    return lattice, inner + _unseen(lattice, count), levels
+    return lattice, inner + _unseen(lattice, count)
 
 
 def _unseen(lattice: ChipLattice, count: int) -> FloatArray:

@@ -6,7 +6,6 @@ from functools import cached_property
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.receiver.sequence.code_words import code_words
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter.framings import c_ook
 from occ_model.transmitter.framings.framing import (
@@ -24,6 +23,9 @@ from occ_model.transmitter.scheme import Scheme, scheme_of
 
 _BY_CHANCE = 10
 """Chips of a preamble from which a payload hardly holds it by chance."""
+
+_SAMPLES = 8
+"""Payloads that show which chips are the same in all."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +95,14 @@ class SentPeriod:
     @cached_property
     def header(self) -> tuple[int, ...]:
         """The chips at the start of every period, as far as they do not depend on the payload."""
-        return () if self.pattern is not None else code_words(self.transmitter, 1).header
+        if self.scheme is None:
+            return ()
+        random = np.random.default_rng(1)
+        payloads = random.integers(0, 2, (_SAMPLES, self.scheme.bits), dtype=np.uint8)
+        payloads[:2] = [[0], [1]]
+        periods = np.array([self.scheme.encode(payload) for payload in payloads])
+        same = (periods == periods[0]).all(axis=0)
+        return tuple(periods[0][: int(np.argmin(same))].tolist())
 
     @property
     def data_start(self) -> int | None:

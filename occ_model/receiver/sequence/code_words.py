@@ -26,8 +26,8 @@ _MOST_ENCODER_STATES = 16
 _MOST_BLOCK = 8
 """Bits of a block above which its words are not listed."""
 
-_SAMPLE_BITS = 64
-"""Most bits of the payloads that show what is at the start of every frame."""
+_SHORT = 64
+"""Bits of payloads up to which all samples are tried whether they are sequences of words."""
 
 _SAMPLES = 8
 """Random payloads beside those of zeros and of ones."""
@@ -76,7 +76,7 @@ def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
         transmitter.framing,
         transmitter.preamble,
         transmitter.error_correction,
-        min(scheme_of(transmitter).bits, _SAMPLE_BITS),
+        scheme_of(transmitter).bits,
     )
     if most_states(whole.words, memory) <= MOST_STATES:
         return whole
@@ -97,7 +97,9 @@ def _of_scheme(
         header = tuple(common[:length].tolist())
         ends = product(states, states) if header else ()
         words = (*blocks, *(Word(before, header, after) for before, after in ends))
-        if all(_accepts(words, period) for period in periods):
+        # The number of bits is part of some headers, so that samples are as long as the payload.
+        tried = periods if bits <= _SHORT else periods[-2:]
+        if all(_accepts(words, period) for period in tried):
             return CodeWords(words, header)
     return CodeWords(FREE_CHIPS)
 

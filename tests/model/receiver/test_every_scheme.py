@@ -139,3 +139,17 @@ def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) 
         levels += random.normal(0.0, 0.3, len(levels))
         for decoder in ("threshold", "matched"):
             assert occ.decode(levels, scene, decoder).code in (None, scene.transmitter.code)
+
+
+@pytest.mark.parametrize("bits", [63, 65, 127, 128])
+def test_the_number_of_bits_in_a_header_is_that_of_the_payload(bits: int) -> None:
+    # A frame of 128 bits states its length in 16 bits, one of 65 in 8 that differ from those of 64.
+    payload = "bits:" + "".join(map(str, np.random.default_rng(bits).integers(0, 2, bits)))
+    scene = SCENE.replace(
+        payload=payload, framing="raw", line_code="manchester", enhancement="none",
+        switching_frequency=15e3,
+    )  # fmt: skip
+    for decoder in ("threshold", "sequence"):
+        result = occ.decode(signal(scene, 1.37e-3), scene, decoder)
+        assert result.failure is None
+        assert tuple(result.bits.tolist()) == scene.transmitter.payload_bits

@@ -12,7 +12,7 @@ from occ_model.video.phases import Phases
 _NOISE = 0.01
 
 
-def _phases(  # noqa: PLR0913 - what a film can differ in
+def _phases(
     frequency: float,
     times: np.ndarray,
     period: float,

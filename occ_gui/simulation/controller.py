@@ -3,14 +3,14 @@
 The results of a change arrive in this order, each by a signal:
 
 1. ``submitted``: what is shown is of an earlier scene from now on.
-2. ``reading_shown`` with a Reading by the profile path, a few milliseconds later: the profile, the
-   band model and the verdict of every decoder, without a pixel. Scenes whose rows differ (a lens, a
-   file, a panel that is not level) have none.
-3. ``picture_ready`` with a Picture of some rows, a draft, where the whole one takes long; and
-   ``reading_shown`` with the Reading of that draft, where the profile path had none. While the
+2. ``picture_ready`` with a Picture of some rows, a draft, where the whole one takes long; and with
+   it, so that both are painted at once, ``reading_shown`` with a Reading: the profile, the band
+   model and the verdict of every decoder. It is read by the profile path, without a pixel; of
+   scenes whose rows differ (a lens, a file, a panel that is not level), from the draft. While the
    scene goes on changing, it begins again at 1.
-4. ``picture_ready`` with the exact Picture, before it is decoded.
-5. ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read from that picture.
+3. ``picture_ready`` with the exact Picture, before it is decoded. Where there is no draft, the
+   Reading comes with it; or before it, where the picture is small but not there at once.
+4. ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read from that picture.
    It is a Reading, too, and has the last word.
 
 A reading is never replaced by one of an earlier scene. ``failed`` says why a scene has no picture.
@@ -29,7 +29,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.jobs import (
     draft_of,
-    needs_pixels,
+    is_soon,
     reading_by_profile,
     reading_of_draft,
     snapshot_of,
@@ -105,7 +105,10 @@ class SimulationController(QObject):
     """
 
     picture_ready = Signal(object)
-    """The Picture of a scene, before it is decoded; emitted once the event loop runs."""
+    """The Picture of a scene, before it is decoded; emitted once the event loop runs.
+
+    The Reading that it may have is shown first, before anything is painted.
+    """
 
     reading_shown = Signal(object)
     """The Reading that the panes show from now on; a Snapshot where it is the picture's."""
@@ -123,7 +126,7 @@ class SimulationController(QObject):
     """The scene or a setting has changed: results of the last request are outdated."""
 
     _rendered = Signal(object)
-    _drafted = Signal(object)
+    _read_early = Signal(object)
 
     def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
         super().__init__()
@@ -137,14 +140,11 @@ class SimulationController(QObject):
         self._more: tuple[str, ...] = ()
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
-        self._drafted.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
+        self.picture_ready.connect(self._show_with_picture)
+        self._read_early.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
         )
-        self.early: LatestWins[SimulationRequest, Reading | None] = LatestWins(
-            reading_by_profile, "reading of the profile"
-        )
-        self.early.finished.connect(self._show_early)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         self.runner.failed_for.connect(self.failed_for)
@@ -157,7 +157,7 @@ class SimulationController(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all results of the present scene are shown."""
-        return self.runner.is_idle and self.early.is_idle
+        return self.runner.is_idle
 
     def show_in(self, views: Sequence[SnapshotView], readers: Sequence[ReadingView] = ()) -> None:
         """Set the panes that show the results; none arrives before the event loop runs.
@@ -203,35 +203,30 @@ class SimulationController(QObject):
         if request == self.ages.present:  # one step has changed both stores
             return
         self.ages.begin(request)
-        self.early.submit(request)
         self.runner.submit(request)
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
+        reading = reading_by_profile(request)
+        draft = draft_of(request)
         # Without a draft something must be shown of every scene that is begun.
-        heartbeat = self.runner.give_way if self._draft(request) else _go_on
+        heartbeat: Callable[[], None] = _go_on
+        if draft is not None:
+            reading = reading or reading_of_draft(request, draft)
+            self._rendered.emit(Picture.of(draft, request.whose, request, reading))
+            reading, heartbeat = None, self.runner.give_way
+            self.runner.give_way(self.ages.rest(_REST))
+        elif reading is not None and not is_soon(request):
+            self._read_early.emit(reading)
+            reading = None
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
-        self._rendered.emit(Picture.of(frame, request.whose, request))
+        self._rendered.emit(Picture.of(frame, request.whose, request, reading))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)
         return snapshot_of(request, frame)
 
-    def _draft(self, request: SimulationRequest) -> bool:
-        """Show a draft of a picture that takes long, and wait until the hand rests.
-
-        Returns
-        -------
-        bool
-            Whether there is one.
-        """
-        draft = draft_of(request)
-        if draft is None:
-            return False
-        self._rendered.emit(Picture.of(draft, request.whose, request))
-        if needs_pixels(request):
-            self._drafted.emit(reading_of_draft(request, draft))
-        self.runner.give_way(self.ages.rest(_REST))
-        return True
+    def _show_with_picture(self, picture: Picture) -> None:
+        self._show_early(picture.reading)
 
     def _show_early(self, reading: Reading | None) -> None:
         if reading is not None and self._is_news(reading):
@@ -256,7 +251,7 @@ class SimulationController(QObject):
         if shown is None:
             return True
         if reading.request == shown.request:
-            # During a movement the next early reading is sooner there than this would be drawn.
+            # During a movement the next scene's reading is sooner there than this would be drawn.
             is_present = reading.request == self.ages.present
             return is_present and SOURCES.index(reading.source) >= SOURCES.index(shown.source)
         return self.ages.age(reading.request) <= self.ages.age(shown.request)
@@ -264,5 +259,4 @@ class SimulationController(QObject):
     def stop(self) -> None:
         """Stop simulating; no picture or snapshot arrives from now on."""
         self.runner.stop()
-        self.early.stop()
         self.blockSignals(True)

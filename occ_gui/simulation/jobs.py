@@ -9,7 +9,6 @@ import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import check_size
-from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import called_for_by_signal, plan_with
 from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
@@ -17,7 +16,7 @@ from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import enhanced_band_profile
 from occ_model.simulation.render import render_with
-from occ_model.study.profile_reading import has_profile_path, read_profile, signal_plan
+from occ_model.study.profile_reading import read_profile
 
 SMALL = 1_000_000
 """Pixels of a picture up to which it is there at once, with whatever effects."""
@@ -61,6 +60,12 @@ def reading_by_profile(request: SimulationRequest) -> Reading | None:
     )
 
 
+def is_soon(request: SimulationRequest) -> bool:
+    """Return whether a picture is there within milliseconds: its rows are copies of one."""
+    check_size(request.scene.camera)
+    return plan_with(request.scene, request.settings).kinds <= {"column"}
+
+
 def draft_of(request: SimulationRequest) -> Frame | None:
     """Simulate some rows of a picture; None where the whole one is there as soon.
 
@@ -71,18 +76,12 @@ def draft_of(request: SimulationRequest) -> Frame | None:
     ProjectionError
         The panel has no picture in this pose.
     """
-    scene, settings = request.scene, request.settings
-    camera = scene.camera
-    check_size(camera)
-    if camera.rows * camera.columns <= SMALL or plan_with(scene, settings).kinds <= {"column"}:
+    camera = request.scene.camera
+    if camera.rows * camera.columns <= SMALL or is_soon(request):
         return None
-    return render_with(scene, settings, request.draft_step)
-
-
-def needs_pixels(request: SimulationRequest) -> bool:
-    """Return whether a scene cannot be read by its profile."""
-    view = paper_view_of(request.scene)
-    return not has_profile_path(request.scene, signal_plan(view, request.settings))
+    # Noise drawn for each pixel is no nearer to that of the picture, which is drawn anew.
+    settings = replace(request.settings, noise="reused")
+    return render_with(request.scene, settings, request.draft_step)
 
 
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:

@@ -6,7 +6,7 @@ from typing import Self
 import cv2
 import numpy as np
 
-from occ_gui.simulation.snapshot import SimulationRequest
+from occ_gui.simulation.snapshot import Reading, SimulationRequest
 from occ_model.arrays import ByteArray
 from occ_model.results import Frame
 
@@ -28,12 +28,15 @@ class Picture:
         The picture at a half of its size, at a quarter and so on; each pixel is the mean of four.
     request
         The scene and the settings that it was simulated from, where they are known.
+    reading
+        What is shown of the same scene together with the picture, where that is known already.
     """
 
     frame: Frame
     whose: str
     halves: tuple[ByteArray, ...]
     request: SimulationRequest | None = None
+    reading: Reading | None = None
 
     @property
     def is_draft(self) -> bool:
@@ -41,14 +44,20 @@ class Picture:
         return self.frame.rows_step > 1
 
     @classmethod
-    def of(cls, frame: Frame, whose: str, request: SimulationRequest | None = None) -> Self:
+    def of(
+        cls,
+        frame: Frame,
+        whose: str,
+        request: SimulationRequest | None = None,
+        reading: Reading | None = None,
+    ) -> Self:
         """Compute the smaller copies; to be called on a background thread."""
         halves = []
         pixels = frame.picture(whose)
         while min(pixels.shape) >= 2 * _SMALLEST:
             pixels = halved(pixels)
             halves.append(pixels)
-        return cls(frame, whose, tuple(halves), request)
+        return cls(frame, whose, tuple(halves), request, reading)
 
 
 def halved(pixels: ByteArray) -> ByteArray:

@@ -54,11 +54,6 @@ def signal_plan(view: PaperView, settings: SimulationSettings) -> Plan:
     return plan_of(view, replace(settings, observable="signal").checked(NAMES))
 
 
-def has_profile_path(scene: Scene, chosen: Plan) -> bool:
-    """Return whether rows differ by noise at most: a level panel, and no image effect."""
-    return "image" not in chosen.kinds and panel_span(scene) is not None
-
-
 def read_profile(
     scene: Scene, settings: SimulationSettings, decoders: Sequence[str] = QUICK_DECODERS
 ) -> ProfileReading | None:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.simulation.bench import Bench
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.simulation import controller, jobs
@@ -41,14 +42,15 @@ def test_a_scene_is_read_before_its_picture_is_there(
 def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
     bench: Bench, held: Event, qtbot: QtBot
 ) -> None:
+    reader = bench.views[0]
+    before = len(reader.read)
     bench.store.change(iso=150.0)
     bench.store.change(iso=200.0)
-    reader = bench.views[0]
-    qtbot.waitUntil(lambda: bench.controller.early.is_idle)
+    qtbot.waitUntil(lambda: reader.read[-1].scene.camera.iso == 150.0)
     held.set()
     bench.wait_until_idle()
     assert [scene.camera.iso for scene in bench.scenes[1:]] == [150.0, 200.0]
-    of_pictures = [reading for reading in reader.read[1:] if reading.source == "picture"]
+    of_pictures = [reading for reading in reader.read[before:] if reading.source == "picture"]
     assert [reading.scene.camera.iso for reading in of_pictures] == [200.0]
     assert reader.read[-1] is of_pictures[-1]
 
@@ -72,6 +74,36 @@ def test_a_draft_of_the_scene_comes_before_its_exact_picture(
     assert draft.frame.scene == exact.frame.scene == bench.store.scene
     assert draft.frame.plan == exact.frame.plan
     assert bench.views[0].shown[-1].frame is exact.frame
+
+
+@pytest.mark.parametrize("jpeg", [0, 80])
+def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
+    bench: Bench, pictures: list[Picture], jpeg: int
+) -> None:
+    """Qt paints once no other event waits, so the event that stands for it is posted as low."""
+
+    class Painted(QObject):
+        def __init__(self) -> None:
+            super().__init__()
+            self.scenes: list[tuple[Scene, Scene]] = []
+
+        def event(self, event: QEvent) -> bool:
+            if event.type() == QEvent.Type.User:
+                of_reading = bench.views[1].read[-1].scene
+                self.scenes.append((pictures[-1].frame.scene, of_reading))
+            return super().event(event)
+
+    painted = Painted()
+    bench.controller.picture_ready.connect(
+        lambda _: QApplication.postEvent(
+            painted, QEvent(QEvent.Type.User), Qt.EventPriority.LowEventPriority.value
+        )
+    )
+    for iso in (110.0, 120.0, 130.0):
+        bench.store.change(iso=iso, jpeg_quality=jpeg)
+        bench.wait_until_idle()
+    assert len(painted.scenes) >= 3
+    assert all(of_picture == of_reading for of_picture, of_reading in painted.scenes)
 
 
 def test_drafts_have_the_rows_that_the_screen_shows(bench: Bench, pictures: list[Picture]) -> None:

@@ -116,6 +116,8 @@ def one_line(text: str, longest: int = _LONGEST_NAME) -> str:
     start = text[: longest + 1]
     if len(start) > longest:
         start = f"{start[: longest - 1]}…"
+    if start.isprintable():
+        return start
     return "".join(
         letter if letter.isprintable() else letter.encode("unicode_escape").decode("ascii")
         for letter in start

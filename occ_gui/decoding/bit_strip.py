@@ -51,8 +51,10 @@ class BitStrip(QWidget):
 
     def show_bits(self, sent: Sequence[int], received: Sequence[int]) -> None:
         """Show bits in the order of sending; bits that were not received are missing at the end."""
-        self._sent = tuple(int(bit) for bit in sent)
-        self._received = tuple(int(bit) for bit in received)[: len(self._sent)]
+        bits = tuple(map(int, sent)), tuple(map(int, received))[: len(sent)]
+        if bits == (self._sent, self._received):
+            return
+        self._sent, self._received = bits
         self._describe()
         self.update()
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
 
 from occ_gui.decoding.bit_strip import BitStrip
@@ -148,7 +149,9 @@ class DecodeView(QWidget):
             mark = " ✓" if is_right(result, self._sent) else " ✗"
             mark = " …" if self._is_outdated else mark
             mark = mark if result.decoder in there else ""
-            self.decoders.setTabText(place, f"{result.decoder}{mark}")
+            text = f"{result.decoder}{mark}"
+            if text != self.decoders.tabText(place):  # each text lays all tabs out anew
+                self.decoders.setTabText(place, text)
 
     def _chosen(self, reading: Reading) -> DecodeResult:
         return self._results(reading)[max(0, self.decoders.currentIndex())]
@@ -181,8 +184,23 @@ class DecodeView(QWidget):
         self.reason.setText(decoded.failure or "")
         self.reason.setVisible(decoded.failure is not None)
         for name, text in self._measured(decoded).items():
-            self._steps[name].setText(text)
-            self._form.setRowVisible(self._steps[name], bool(text))
+            step = self._steps[name]
+            if step.text() != text:
+                step.setText(text)
+                self._form.setRowVisible(step, bool(text))
+        if self.isVisible():
+            self._draw_steps()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw what has been read since the pane was seen."""
+        super().showEvent(event)
+        self._draw_steps()
+
+    def _draw_steps(self) -> None:
+        reading = self._reading
+        if reading is None:
+            return
+        decoded = self._chosen(reading)
         if not _same_steps(decoded, self._drawn):  # painting takes longer than comparing
             self._drawn = decoded
             self.signal.show_result(decoded, reading.packet_columns)

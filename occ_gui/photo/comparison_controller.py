@@ -69,7 +69,7 @@ class ComparisonController(QObject):
         self._reading: Reading | None = None
         self._stripes: Stripes | None = None
         self._sentence = ""
-        self._enhanced = False
+        self._enhanced, self._is_shown = False, True
         self.runner: LatestWins[tuple[Photo, Lamp | Region | None], StripeSearch] = LatestWins(
             search_stripes, "search for stripes"
         )
@@ -136,8 +136,11 @@ class ComparisonController(QObject):
     def _compare(self) -> None:
         photo, reading = self._photo, self._reading
         if photo is None or reading is None:
-            self._pane.show_photo_profile(None)
+            if self._is_shown:
+                self._is_shown = False
+                self._pane.show_photo_profile(None)
             return
+        self._is_shown = True
         placement = self._placements.placement
         comparison, sentence = None, self._sentence
         method = reading.scene.model.enhancement

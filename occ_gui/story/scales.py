@@ -124,9 +124,10 @@ class TimeScale(Scale):
 
     def show_scene(self, scene: Scene) -> None:
         """Count from the start time of this scene, by its readout time."""
-        self._start = scene.model.start_time * _MICRO
-        self._step = scene.camera.readout_time * _MICRO
-        self.update()
+        counted = (scene.model.start_time * _MICRO, scene.camera.readout_time * _MICRO)
+        if counted != (self._start, self._step):
+            self._start, self._step = counted
+            self.update()
 
     def value_of(self, column: float) -> float:
         """Return the time at a column, in microseconds."""

@@ -46,17 +46,28 @@ class ChipLabel(QWidget):
 
     def __init__(self, chip: Chip, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.chip = chip
-        self._text = QStaticText(chip.text)
+        self._text = QStaticText()
         self._text.setTextFormat(Qt.TextFormat.RichText)
         option = QTextOption()
         option.setWrapMode(QTextOption.WrapMode.NoWrap)
         self._text.setTextOption(option)
+        self.chip = chip
+        self._take(chip)
+
+    def show_chip(self, chip: Chip) -> None:
+        """Show this chip in place of the previous one."""
+        if chip != self.chip:
+            self.chip = chip
+            self._take(chip)
+
+    def _take(self, chip: Chip) -> None:
+        self._text.setText(chip.text)
         self._text.prepare(font=self.font())
         self._left = _PADDING + (0 if chip.state is State.NEUTRAL else _ICON + 4)
         self.setAccessibleName(plain_text_of(chip.text))
         self.setAccessibleDescription(chip.meaning)
         self.setToolTip(in_tool_tip(chip.meaning))
+        self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the size of icon and text."""
@@ -94,8 +105,12 @@ class ChipRow(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.chips: tuple[Chip, ...] = ()
+        # Labels that are not needed are kept hidden: making and deleting one at each movement of a
+        # slider took longer than drawing it.
         self._labels: list[ChipLabel] = []
-        self._more: ChipLabel | None = None
+        self._spare: list[ChipLabel] = []
+        self._more = ChipLabel(Chip("more", "", ""), self)
+        self._more.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_chips(self, chips: Sequence[Chip]) -> None:
@@ -103,20 +118,15 @@ class ChipRow(QWidget):
         if tuple(chips) == self.chips:
             return
         self.chips = tuple(chips)
-        kept = {label.chip: label for label in self._labels}
-        self._labels = [
-            kept.pop(chip) if chip in kept else ChipLabel(chip, self) for chip in self.chips
-        ]
-        for label in kept.values():
-            _remove(label)
+        former = [*self._labels, *self._spare]
+        self._labels = [_taken(former, chip) or ChipLabel(chip, self) for chip in self.chips]
+        self._spare = former
+        for label in self._spare:
+            label.hide()
         self._place()
-        self.updateGeometry()
 
     def _place(self) -> None:
         """Place the labels from the right, the last ones only where there is room for them."""
-        if self._more is not None:
-            _remove(self._more)
-            self._more = None
         widths = [label.sizeHint().width() for label in self._labels]
         fitting = len(widths)
         if sum(widths) + _GAP * (fitting - 1) > self.width():
@@ -125,18 +135,19 @@ class ChipRow(QWidget):
             fitting = sum(end <= room for end in ends)
         hidden = self._labels[fitting:]
         shown = self._labels[:fitting]
+        self._more.setVisible(bool(hidden))
         if hidden:
             meaning = "\n".join(plain_text_of(label.chip.text) for label in hidden)
-            self._more = ChipLabel(Chip("more", f"+ {len(hidden)}", meaning), self)
+            self._more.show_chip(Chip("more", f"+ {len(hidden)}", meaning))
             shown = [*shown, self._more]
         for label in hidden:
             label.hide()
         right = self.width()
         for label in reversed(shown):
-            size = label.sizeHint()
-            label.setGeometry(right - size.width(), 0, size.width(), self.height())
+            width = label.sizeHint().width()
+            label.setGeometry(right - width, 0, width, self.height())
             label.show()
-            right -= size.width() + _GAP
+            right -= width + _GAP
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Show as many chips as fit."""
@@ -159,7 +170,11 @@ def plain_text_of(html: str) -> str:
     return html.replace("<sub>", "_").replace("</sub>", "")
 
 
-def _remove(label: ChipLabel) -> None:
-    label.hide()
-    label.setParent(None)
-    label.deleteLater()
+def _taken(labels: list[ChipLabel], chip: Chip) -> ChipLabel | None:
+    """Take a label for a chip, best one that shows the like; None where there is none left."""
+    if not labels:
+        return None
+    alike = (place for place, label in enumerate(labels) if label.chip.key == chip.key)
+    label = labels.pop(next(alike, len(labels) - 1))
+    label.show_chip(chip)
+    return label

@@ -1,6 +1,6 @@
 """Elided label: a text that is too long is shortened by dots."""
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
@@ -29,19 +29,31 @@ class ElidedLabel(QLabel):
     ) -> None:
         super().__init__(parent)
         self._how = how
+        self._full = ""
+        self._fitted: tuple[str, int] | None = None
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.set_full_text(text)
 
     def set_full_text(self, text: str) -> None:
         """Show a text in one line."""
-        self._full = one_line(text, LONGEST)
-        self.setToolTip(in_tool_tip(self._full))
+        full = one_line(text, LONGEST)
+        if full != self._full:
+            self._full = full
+            self.setToolTip(in_tool_tip(full))
         self._fit()
 
     def _fit(self) -> None:
-        self.setText(
-            self.fontMetrics().elidedText(self._full, self._how, self.contentsRect().width())
-        )
+        wanted = (self._full, self.contentsRect().width())
+        if wanted != self._fitted:  # a text that is set anew lays its surroundings out anew
+            self._fitted = wanted
+            self.setText(self.fontMetrics().elidedText(self._full, self._how, wanted[1]))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Fit the text in another font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "_how"):
+            self._fitted = None
+            self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Fit the text to the new size."""

@@ -48,6 +48,8 @@ class OutdatedMark(QWidget):
         text
             Why it is outdated.
         """
+        if age == 0.0 and self.isHidden() and not self._waiting.isActive():
+            return
         self._set_text(text)
         if age == 0.0 or (self.isHidden() and age < DELAY) or age < _FRESH:
             self.hide()

@@ -27,6 +27,7 @@ class StateBar(QWidget):
         super().__init__(parent)
         self._title = ""
         self._sentences: tuple[str, ...] = ("",)
+        self._shown: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
         self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
         font = self.title.font()
@@ -107,6 +108,10 @@ class StateBar(QWidget):
         chips
             What holds beside.
         """
+        shown = (state, title, sentences, tuple(chips))
+        if shown == self._shown:
+            return
+        self._shown = shown
         if state is not self.icon.state:
             self.icon.show_state(state)
             self._take_colours()

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 
+from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_controller import UNSEEN
 from occ_gui.detection_map.rate_map import lattice
@@ -108,7 +109,8 @@ def _job(request: SliderStripRequest, name: str, places: list[int]) -> Job:
 class SliderStripController(QObject):
     """Connects the stores, the job channel and the strips.
 
-    The strip under a slider does not change while that slider is moved.
+    The strip under a slider does not change while that slider is moved. The others are measured
+    once it rests: until then the cores are free for the picture that follows the slider.
 
     Parameters
     ----------
@@ -138,6 +140,10 @@ class SliderStripController(QObject):
         self._seen = False
         self._asked: SliderStripRequest | None = None
         self._known: dict[str, tuple[SliderStripRequest, dict[int, float | None]]] = {}
+        self._missing: dict[str, tuple[SliderStripRequest, set[int]]] = {}
+        self._resting = QTimer(self, singleShot=True)
+        self._resting.setInterval(round(1e3 * PAUSE))
+        self._resting.timeout.connect(self._measure)
         channel.results_ready.connect(self._take)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
@@ -145,7 +151,7 @@ class SliderStripController(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all that is measured is shown."""
-        return self._channel.is_idle
+        return self._channel.is_idle and not self._resting.isActive()
 
     def set_seen(self, seen: bool) -> None:
         """Measure while the strips are seen, and stop when they are not."""
@@ -153,6 +159,7 @@ class SliderStripController(QObject):
         if seen:
             self._move_on()
         else:
+            self._resting.stop()
             self._channel.cancel()
             self._asked = None
 
@@ -170,16 +177,25 @@ class SliderStripController(QObject):
         request = self._present()
         if request == self._asked:
             return
-        self._asked = request
-        missing: dict[str, tuple[SliderStripRequest, set[int]]] = {}
+        is_first, self._asked = self._asked is None, request
         for name in self._names:
             along = request.along(name)
             known = self._known.get(name)
             is_present = known is not None and known[0] == along
             self._pane.show_outdated(name, known is not None and not is_present)
             there = set(known[1]) if known is not None and is_present else set()
-            missing[name] = (along, set(range(POSITIONS)) - there)
-        self._channel.put(request, partial(strip_stages, missing, request))
+            self._missing[name] = (along, set(range(POSITIONS)) - there)
+        if is_first:
+            self._measure()
+        else:
+            self._resting.start()
+
+    def _measure(self) -> None:
+        """Measure what is not known of the present strips."""
+        request = self._asked
+        if request is not None:
+            missing, self._missing = self._missing, {}
+            self._channel.put(request, partial(strip_stages, missing, request))
 
     def _take(self, request: SliderStripRequest, results: list[Along]) -> None:
         for result in results:

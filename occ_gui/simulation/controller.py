@@ -18,6 +18,7 @@ A reading is never replaced by one of an earlier scene. ``failed`` says why a sc
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from time import sleep
 from typing import Protocol
 
@@ -220,6 +221,8 @@ class SimulationController(QObject):
             self._read_early.emit(reading)
             reading = None
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
+        if reading is not None:
+            reading = replace(reading, has_picture=True)
         self._rendered.emit(Picture.of(frame, request.whose, request, reading))
         # Decoding at once would delay the painting, which needs the same interpreter and memory.
         sleep(_PAINT_TIME)

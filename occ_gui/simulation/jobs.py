@@ -129,6 +129,7 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         decoded=decoded,
         others=tuple(_decode_with_others(decoded, scene, request.more)),
         called_for=called_for_by_signal(frame.plan, scene),
+        has_picture=True,
         frame=frame,
         reading_seconds=seconds,
         **_beside(scene),

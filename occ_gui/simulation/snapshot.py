@@ -78,6 +78,8 @@ class Reading:
         A sentence, empty where there is a profile.
     called_for
         Effects that were left out and the studies of the same scene take in, by label.
+    has_picture
+        Whether the exact picture is shown with it.
     """
 
     request: SimulationRequest
@@ -94,6 +96,7 @@ class Reading:
     enhanced_band: FloatArray | None
     band_undefined: str
     called_for: tuple[str, ...] = ()
+    has_picture: bool = False
 
     @property
     def scene(self) -> Scene:

@@ -14,7 +14,7 @@ from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.column_means import envelope
 from occ_gui.story.curve_lines import DASH, lines_of
 from occ_gui.story.story_row import StoryRow
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.contrast import mixed, seen_on
 from occ_gui.widgets.plot import BAND, PHOTO, SIMULATION, THRESHOLD
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
@@ -29,6 +29,9 @@ _ROUNDED = 20.0
 """The largest level is rounded up to a multiple of this, so that the axis rarely changes."""
 
 _GRID = 38
+_SHADE = 22 / 255
+"""Share of the text's colour in that of the columns that the decoder does not read."""
+
 _WIDTH, _THIN = 2.0, 1.2
 _CROWDED = 2
 """Columns a pixel of the screen from which a curve is drawn thinner."""
@@ -170,11 +173,12 @@ class ProfileRow(StoryRow):
         region = None if self._decoded is None else self._decoded.region
         if region is None:
             return
-        shade = QColor(self.colour(QPalette.ColorRole.Text))
-        shade.setAlpha(22)
+        ink, paper = self.colour(QPalette.ColorRole.Text), self.colour(QPalette.ColorRole.Base)
+        shade = mixed(ink, paper, _SHADE)  # opaque, which is filled many times faster
         left, right = self.x_of(region.first_column - 0.5), self.x_of(region.last_column - 0.5)
-        painter.fillRect(QRectF(area.left(), area.top(), left - area.left(), area.height()), shade)
-        painter.fillRect(QRectF(right, area.top(), area.right() - right, area.height()), shade)
+        for low, high in ((area.left(), left), (right, area.right())):
+            if low < high:
+                painter.fillRect(QRectF(low, area.top(), high - low, area.height()), shade)
 
     def _ticks(self, area: QRectF) -> list[float]:
         fitting = (area.height() - 16) / _LEAST_SPACING

@@ -34,7 +34,7 @@ def computing() -> Chip:
 
 def _followed(reading: Reading) -> list[Chip]:
     """Say that what is shown was read before the picture, which has the last word."""
-    if reading.source == "picture":
+    if reading.has_picture:
         return []
     meaning = _tr("Read from the column profile or a draft; the exact picture is computed.")
     return [Chip("computing", _tr("picture follows"), meaning, State.WAITING)]

@@ -42,6 +42,12 @@ def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
     return ink
 
 
+def mixed(one: QColor, other: QColor, share: float) -> QColor:
+    """Return the opaque colour that a share of one colour over another has."""
+    parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
+    return QColor(*(round(share * a + (1.0 - share) * b) for a, b in parts))
+
+
 def pen_on(palette: QPalette, pen: QPen) -> QPen:
     """Return a pen with a colour of sufficient contrast to the palette's background."""
     seen = QPen(pen)

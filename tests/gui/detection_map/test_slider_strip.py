@@ -116,6 +116,20 @@ def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
     assert after["iso"] != before["iso"]
 
 
+def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
+    bench.controller.set_seen(True)
+    bench.wait_until_idle()
+    bench.measured()
+    bench.scenes.change(switching_frequency=40e3)
+    bench.wait_until_idle()
+    of_one = bench.measured()
+    for frequency in (20e3, 25e3, 30e3):
+        bench.scenes.change(switching_frequency=frequency)
+    bench.wait_until_idle()
+    assert bench.measured() == of_one != []
+    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
+
+
 def test_a_scene_that_the_model_refuses_is_unknown(bench: Bench) -> None:
     bench.scenes.change(pattern="10")
     bench.controller.set_seen(True)

@@ -153,8 +153,12 @@ def test_a_slow_decoder_is_waited_for(bar: VerdictBar, snapshot_of: SnapshotOf) 
 
 
 def test_what_is_read_before_the_picture_says_so(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
-    bar.show_reading(replace(snapshot_of(), source="profile"))
+    early = replace(snapshot_of(), source="profile", has_picture=False)
+    bar.show_reading(early)
     assert (bar.state, texts(bar)["computing"]) == (State.GOOD, "picture follows")
+    bar.show_reading(replace(early, has_picture=True))
+    assert "computing" not in texts(bar)
+    bar.show_reading(early)
     bar.show_reading(snapshot_of())
     assert "computing" not in texts(bar)
 

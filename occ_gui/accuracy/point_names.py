@@ -1,13 +1,16 @@
 """Names beside the points of a plot, placed so that they cover neither points nor each other."""
 
 import math
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, QSizeF
 from PySide6.QtGui import QColor, QPen
+
+from occ_model.arrays import BoolArray, FloatArray
 
 _GAP = 4.0
 """Least distance in pixels from a point's centre to its name."""
@@ -17,6 +20,9 @@ _STEP = 6.0
 
 _STEPS = 20
 """Possible places of a name on each side of its point."""
+
+_PARTS = (24, 96, 384)
+"""Where the possible places, from near to far, are divided to be looked at one part at a time."""
 
 _LINE_POINTS = 12
 """Points of a line at which it is checked that it crosses no name."""
@@ -67,7 +73,7 @@ class PointNames:
         self._texts: list[pg.TextItem] = []
         self._lines: list[pg.PlotCurveItem] = []
         self._shown: dict[str, QRectF] = {}
-        self._taken: list[QRectF] = []
+        self._arranged: tuple[object, ...] = ()
         plot.getViewBox().sigRangeChanged.connect(self._arrange)
         plot.getViewBox().sigResized.connect(self._arrange)
 
@@ -98,27 +104,25 @@ class PointNames:
 
     def _arrange(self) -> None:
         box = self._plot.getViewBox()
+        area = box.sceneBoundingRect()
         places = [box.mapViewToScene(QPointF(point.x, point.y)) for point in self._points]
-        self._taken = [_around(place, _POINT, _POINT) for place in places]
+        # One step of a wheel changes the range of each axis, and may say so several times.
+        wanted = (area, tuple(places), tuple(self._points), self._colour)
+        if wanted == self._arranged:
+            return
+        self._arranged = wanted
+        free = _FreePlaces(area, places)
         self._shown = {}
         for item in (*self._texts, *self._lines):
             item.hide()
         for point, place, text, line in zip(
             self._points, places, self._texts, self._lines, strict=False
         ):
-            text.setText(point.name, self._colour)
-            size = text.textItem.boundingRect().size()
-            others = [other for other in places if _distance(other, place) > _POINT]
-            # A line may cross a name, or a name stand by another point, only where there is no
-            # other way.
-            rect = (
-                self._free(place, size, others, self._shown.values())
-                or self._free(place, size, others, ())
-                or self._free(place, size, (), ())
-            )
+            if (text.toPlainText(), text.color) != (point.name, self._colour):
+                text.setText(point.name, self._colour)
+            rect = free.take(place, text.textItem.boundingRect().size())
             if rect is None:
                 continue
-            self._taken.append(rect)
             self._shown[point.name] = rect
             text.setPos(box.mapSceneToView(rect.center()))
             text.show()
@@ -129,55 +133,110 @@ class PointNames:
                 line.setData([point.x, to.x()], [point.y, to.y()])
                 line.show()
 
-    def _free(
-        self,
-        place: QPointF,
-        size: QSizeF,
-        others: Iterable[QPointF],
-        names: Collection[QRectF],
-    ) -> QRectF | None:
-        """Find the nearest place for a name that covers nothing and stands by no other point.
 
-        Parameters
-        ----------
-        place, size
-            The point's place, and the size of its name.
-        others
-            Other points: the name must not stand nearer to one of them than to its own.
-        names
-            Names that the line to it must not cross.
-        """
-        area = self._plot.getViewBox().sceneBoundingRect()
-        for offset in _offsets(size.width(), size.height()):
-            rect = _around(place + offset, size.width(), size.height())
-            if not area.contains(rect) or any(rect.intersects(other) for other in self._taken):
-                continue
-            end = _nearest(rect, place)
-            own = min(_distance(place, end), _LED_FROM)
-            if any(_distance(other, _nearest(rect, other)) <= own for other in others):
-                continue
-            if _crosses(place, end, names):
-                continue
-            return rect
-        return None
+class _FreePlaces:
+    """The places of a plot at which no point and no name stands yet.
+
+    Parameters
+    ----------
+    area
+        The plot.
+    points
+        Its points.
+    """
+
+    def __init__(self, area: QRectF, points: Sequence[QPointF]) -> None:
+        self._area = _ends([area])[0]
+        self._points = np.array([(point.x(), point.y()) for point in points]).reshape(-1, 2)
+        self._taken = [_around(point, _POINT, _POINT) for point in points]
+        self._names: list[QRectF] = []
+
+    def take(self, point: QPointF, size: QSizeF) -> QRectF | None:
+        """Take the nearest place for the name of a point; None where there is none."""
+        at = np.array([point.x(), point.y()])
+        centres = at + _offsets(size.width(), size.height())
+        # A line may cross a name, or a name stand by another point, only where there is no other
+        # way.
+        last: list[FloatArray] = [centres[:0], centres[:0]]
+        for part in np.split(centres, _PARTS):  # mostly there is a place near by
+            free = part[self._is_free(part, size)]
+            alone = free[~self._is_by_another(free, size, at)]
+            best = alone[~self._is_crossing(alone, size, at)]
+            if len(best):
+                return self._fill(best[0], size)
+            last = [
+                former if len(former) else new
+                for former, new in zip(last, (alone, free), strict=True)
+            ]
+        found = next((places for places in last if len(places)), None)
+        return None if found is None else self._fill(found[0], size)
+
+    def _fill(self, centre: FloatArray, size: QSizeF) -> QRectF:
+        rect = _around(QPointF(*centre.tolist()), size.width(), size.height())
+        self._taken.append(rect)
+        self._names.append(rect)
+        return rect
+
+    def _is_free(self, centres: FloatArray, size: QSizeF) -> BoolArray:
+        """Return which names would lie within the plot and cover nothing."""
+        low, high = _corners(centres, size)
+        inside = (low >= self._area[:2]).all(axis=1) & (high <= self._area[2:]).all(axis=1)
+        taken = _ends(self._taken)
+        apart = (low[:, None] >= taken[:, 2:]) | (high[:, None] <= taken[:, :2])
+        free: BoolArray = inside & np.all(np.any(apart, axis=2), axis=1)
+        return free
+
+    def _is_by_another(self, centres: FloatArray, size: QSizeF, at: FloatArray) -> BoolArray:
+        """Return which names would stand nearer to another point than to their own."""
+        own = np.minimum(_distances(centres, size, at[None, :])[:, 0], _LED_FROM)
+        apart = np.hypot(*(self._points - at).T) > _POINT
+        others = _distances(centres, size, self._points[apart])
+        return np.asarray((others <= own[:, None]).any(axis=1), dtype=np.bool_)
+
+    def _is_crossing(self, centres: FloatArray, size: QSizeF, at: FloatArray) -> BoolArray:
+        """Return which names' lines would cross another name."""
+        ends = np.clip(at, *_corners(centres, size))
+        shares = np.linspace(0.0, 1.0, _LINE_POINTS + 1)
+        along = at + (ends[:, None] - at) * shares[:, None]
+        crossed = np.zeros(len(centres), dtype=np.bool_)
+        for rect in _ends(self._names):
+            within = (along >= rect[:2]) & (along <= rect[2:])
+            crossed |= within.all(axis=2).any(axis=1)
+        return crossed
 
 
 @lru_cache(maxsize=64)
-def _offsets(width: float, height: float) -> tuple[QPointF, ...]:
-    """Return places for a name's centre, from near to far."""
-    steps = [_STEP * step for step in range(_STEPS)]
-    found = [
-        QPointF(across, along)
-        for across in (0.0, *(side * (width / 2 + _GAP + s) for s in steps for side in (1, -1)))
-        for along in (0.0, *(side * (height / 2 + _GAP + s) for s in steps for side in (-1, 1)))
-        if across or along
-    ]
+def _offsets(width: float, height: float) -> FloatArray:
+    """Return places for a name's centre from near to far, shape (places, 2)."""
+    steps = _STEP * np.arange(_STEPS)
+    beside, below = (half + _GAP + steps for half in (width / 2, height / 2))
+    # At each distance first to the right, and first above.
+    across = np.concatenate([[0.0], np.stack([beside, -beside], axis=1).ravel()])
+    along = np.concatenate([[0.0], np.stack([-below, below], axis=1).ravel()])
+    found = np.stack(np.meshgrid(across, along, indexing="ij"), axis=-1).reshape(-1, 2)[1:]
+    distance = np.hypot(*np.maximum(np.abs(found) - [width / 2, height / 2], 0.0).T)
+    found = found[np.argsort(distance, kind="stable")]
+    found.flags.writeable = False  # it is cached and shared
+    return np.asarray(found)
 
-    def distance(centre: QPointF) -> float:
-        right, down = abs(centre.x()) - width / 2, abs(centre.y()) - height / 2
-        return math.hypot(max(right, 0.0), max(down, 0.0))
 
-    return tuple(sorted(found, key=distance))
+def _corners(centres: FloatArray, size: QSizeF) -> tuple[FloatArray, FloatArray]:
+    """Return the upper left and the lower right corners of rectangles, shape (rectangles, 2)."""
+    half = np.array([size.width(), size.height()]) / 2
+    return centres - half, centres + half
+
+
+def _ends(rects: Sequence[QRectF]) -> FloatArray:
+    """Return left, top, right and bottom of rectangles, shape (rectangles, 4)."""
+    ends = [(rect.left(), rect.top(), rect.right(), rect.bottom()) for rect in rects]
+    return np.array(ends, dtype=np.float64).reshape(-1, 4)
+
+
+def _distances(centres: FloatArray, size: QSizeF, points: FloatArray) -> FloatArray:
+    """Return the distance from each rectangle to each point, shape (rectangles, points)."""
+    low, high = _corners(centres, size)
+    nearest = np.clip(points, low[:, None], high[:, None])
+    return np.asarray(np.hypot(*np.moveaxis(points - nearest, -1, 0)))
 
 
 def _distance(one: QPointF, other: QPointF) -> float:
@@ -188,13 +247,6 @@ def _nearest(rect: QRectF, point: QPointF) -> QPointF:
     """Return the point of a rectangle that is nearest to another point."""
     x = min(max(point.x(), rect.left()), rect.right())
     return QPointF(x, min(max(point.y(), rect.top()), rect.bottom()))
-
-
-def _crosses(start: QPointF, end: QPointF, rects: Iterable[QRectF]) -> bool:
-    """Return whether a line crosses any of some rectangles."""
-    steps = [step / _LINE_POINTS for step in range(_LINE_POINTS + 1)]
-    between = [start + (end - start) * step for step in steps]
-    return any(rect.contains(point) for rect in rects for point in between)
 
 
 def _around(centre: QPointF, width: float, height: float) -> QRectF:

@@ -93,7 +93,12 @@ class Desktop(QObject):
         window, preferences = parts.window, parts.preferences
         comparison = parts.photo_wiring.comparison.comparison
         self.figures = Figures(
-            parts.settings, comparison, parts.profile, parts.accuracy.plot, QUICK_DECODERS
+            parts.settings,
+            comparison,
+            parts.image.overlay,
+            parts.profile,
+            parts.accuracy.plot,
+            QUICK_DECODERS,
         )
         self.figures.add_map(lambda: parts.detection_map.map.full)
         self.figures.add_bench(lambda: parts.bench.full, parts.frame_rate)

@@ -12,6 +12,7 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.sweep_table import table_of
 from occ_gui.export.jobs import FigureRequest
+from occ_gui.picture.placement import Placement
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.snapshot import Snapshot
@@ -76,6 +77,26 @@ class BenchFigureRequest(FigureRequest):
         return bench_provenance(self.measured, self.frames_a_second, self.date)
 
 
+class Overlay(Protocol):
+    """The photo over the simulated picture."""
+
+    @property
+    def mode(self) -> str:
+        """How the photo is shown; ``"blend"`` and ``"split"`` lay it over the picture."""
+
+    @property
+    def placement(self) -> Placement:
+        """Where the photo lies."""
+
+    @property
+    def opacity(self) -> float:
+        """The opacity of a blended photo, from 0 to 1."""
+
+    @property
+    def split_row(self) -> float:
+        """The row from which downwards the photo is seen where the picture is split."""
+
+
 Source = Callable[[Snapshot], FigureRequest]
 """Returns the request for a figure of some results, or raises NothingToDraw."""
 
@@ -89,6 +110,8 @@ class Figures(QObject):
         The store of the settings of the simulation.
     comparison
         Returns the comparison of the photo's profile with the simulated one, if there is one.
+    overlay
+        The photo over the picture.
     profile, accuracy
         The panes that determine the content of their figures.
     decoders
@@ -99,13 +122,14 @@ class Figures(QObject):
         self,
         settings: SettingsStore,
         comparison: Callable[[], Comparison | None],
+        overlay: Overlay,
         profile: ProfilePane,
         accuracy: AccuracyPane,
         decoders: tuple[str, ...],
     ) -> None:
         super().__init__()
         self._settings = settings
-        self._comparison = comparison
+        self._comparison, self._overlay = comparison, overlay
         self._profile, self._accuracy = profile, accuracy
         self._photo: Photo | None = None
         self._whose = PICTURES[0]
@@ -191,11 +215,18 @@ class Figures(QObject):
     def _of_picture(self, shown: Snapshot) -> FigureRequest:
         photo = None if self._photo is None else self._photo.image
         frame, region, whose = shown.frame, shown.decoded.region, self._whose
+        over, place = self._overlay, self._overlay.placement
+        opacities = {"blend": (over.opacity, None), "split": (1.0, over.split_row)}
+        laid = opacities.get(over.mode)
 
         def draw() -> "Drawing":
+            from occ_model.figures.overlay import PhotoLayer
             from occ_model.figures.window_panes import picture_drawing
 
-            return picture_drawing(frame, region, photo, whose)
+            layer = None
+            if laid is not None:
+                layer = PhotoLayer(place.column, place.row, place.scale, *laid)
+            return picture_drawing(frame, region, photo, whose, layer)
 
         return self.request(frame.scene, draw)
 

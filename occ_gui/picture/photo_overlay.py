@@ -101,6 +101,26 @@ class PhotoOverlay(QObject):
         self._movable = movable
         self._arrange()
 
+    @property
+    def mode(self) -> str:
+        """The way of showing the photo, one of MODES."""
+        return self._mode
+
+    @property
+    def placement(self) -> Placement:
+        """Where the photo lies."""
+        return self._placement
+
+    @property
+    def opacity(self) -> float:
+        """The opacity of a blended photo, from 0 to 1."""
+        return self._opacity
+
+    @property
+    def split_row(self) -> float:
+        """The row from which downwards the photo is seen where the picture is split."""
+        return float(self.line.value())
+
     def _arrange(self) -> None:
         photo = self._photo
         over = photo is not None and self._mode != "beside"

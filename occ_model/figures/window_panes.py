@@ -12,6 +12,7 @@ from matplotlib.patches import Rectangle
 from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, Drawing
+from occ_model.figures.overlay import PhotoLayer, lay_over
 from occ_model.results import Comparison, Frame, Region
 from occ_model.results.frame import PICTURES
 from occ_model.scene.parameters import PARAMETERS
@@ -38,8 +39,9 @@ def picture_drawing(
     region: Region | None = None,
     photo: ByteArray | None = None,
     whose: str = PICTURES[0],
+    layer: PhotoLayer | None = None,
 ) -> Drawing:
-    """Draw a simulated picture, with the decoder's region and a photo beside it.
+    """Draw a simulated picture, with the decoder's region and a photo beside it or over it.
 
     The table holds the means of cells of pixels, as small as print can resolve.
 
@@ -53,18 +55,26 @@ def picture_drawing(
         The photo.
     whose
         Whose picture is drawn, the ``"camera"``'s or the ``"receiver"``'s.
+    layer
+        How the photo lies over the picture; None for a photo beside it.
     """
     image, name = frame.picture(whose), frame.picture_title(whose)
     cells, size = _cells(image)
+    laid = "" if photo is None or layer is None else f"; {layer.words}"
+    title_of_picture = f"{name}{laid}"
 
     def draw() -> Figure:
-        pictures = [image] if photo is None else [image, photo]
+        pictures = [image] if photo is None or layer is not None else [image, photo]
         rows, columns = image.shape
         figure = Figure(figsize=(3.6 * len(pictures), 0.9 + 3.1 * min(rows / columns, 1.6)))
         axes = figure.subplots(1, len(pictures), squeeze=False)[0]
         for ax, picture in zip(axes, pictures, strict=True):
             _show(ax, picture)
-            ax.set_title("Photo" if picture is photo else name, fontsize=9)
+            ax.set_title("Photo" if picture is photo else title_of_picture, fontsize=9)
+        if photo is not None and layer is not None:
+            seen = photo[layer.first_row(len(photo)) :]
+            if len(seen):
+                lay_over(axes[0], _cells(seen)[0], layer, photo.shape)
         if region is not None:
             corner = (region.first_column - 0.5, region.first_row - 0.5)
             style: dict[str, Any] = {"fill": False, "linewidth": 1.0, "color": colours.REGION}

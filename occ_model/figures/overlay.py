@@ -1,0 +1,75 @@
+"""Draw a photo over a simulated picture: blended, or below a line."""
+
+from dataclasses import dataclass
+
+from matplotlib.axes import Axes
+
+from occ_model import colours
+from occ_model.arrays import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoLayer:
+    """Where a photo lies over a simulated picture, and how much of it is seen.
+
+    Parameters
+    ----------
+    column, row
+        The pixel of the simulated picture under the centre of the photo's first pixel.
+    scale
+        Pixels of the simulated picture per pixel of the photo.
+    opacity
+        Opacity of the photo, from 0 to 1.
+    from_row
+        The row of the simulated picture from which downwards the photo is seen; None for all of it.
+    """
+
+    column: float = 0.0
+    row: float = 0.0
+    scale: float = 1.0
+    opacity: float = 1.0
+    from_row: float | None = None
+
+    def first_row(self, rows: int) -> int:
+        """Return the first row of a photo of ``rows`` rows that is seen; ``rows`` if none is."""
+        if self.from_row is None:
+            return 0
+        top = self.row - self.scale / 2
+        return min(max(round((self.from_row - top) / self.scale), 0), rows)
+
+    def extent(self, rows: int, columns: int, first: int = 0) -> tuple[float, float, float, float]:
+        """Return the left, right, lower and upper edge of a photo from its row ``first`` on."""
+        left, top = self.column - self.scale / 2, self.row - self.scale / 2
+        right, bottom = left + columns * self.scale, top + rows * self.scale
+        return left, right, bottom, top + first * self.scale
+
+    @property
+    def words(self) -> str:
+        """How the photo is shown, for a title."""
+        if self.from_row is None:
+            return f"photo over it, opacity {100 * self.opacity:.0f} %"
+        return f"photo from row {self.from_row:.0f} on"
+
+
+def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:
+    """Draw a photo over the picture that is drawn already, within that picture's limits.
+
+    Parameters
+    ----------
+    ax
+        The axes of the picture.
+    cells : ndarray of float64, shape (cell rows, cell columns)
+        The part of the photo that is seen, averaged for print.
+    layer
+        Place and opacity of the photo.
+    shape
+        Rows and columns of the whole photo.
+    """
+    limits = ax.get_xlim(), ax.get_ylim()
+    rows, columns = shape
+    extent = layer.extent(rows, columns, layer.first_row(rows))
+    ax.imshow(cells, cmap="gray", vmin=0, vmax=255, alpha=layer.opacity, extent=extent)
+    if layer.from_row is not None:
+        ax.axhline(layer.from_row, color=colours.REGION, linewidth=1.0)
+    ax.set_xlim(limits[0])
+    ax.set_ylim(limits[1])

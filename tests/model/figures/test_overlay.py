@@ -1,0 +1,60 @@
+"""A photo laid over a picture is printed where it lies, as much of it as is seen."""
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+import occ_model as occ
+from occ_model.arrays import ByteArray
+from occ_model.figures.drawing import Drawing
+from occ_model.figures.overlay import PhotoLayer
+from occ_model.figures.window_panes import picture_drawing
+
+SCENE = occ.load_preset("phone-68us").replace(rows=300, columns=400, panel_height=0.01)
+FRAME = occ.render(SCENE, tolerance=np.inf)
+PHOTO: ByteArray = np.full((50, 100), 200, dtype=np.uint8)
+ROUNDING = 3.0
+"""Levels: matplotlib cuts opacity, products and sum to eight bits, each by up to a level."""
+
+DARK = float(FRAME.camera_image[5, 5])
+
+
+def printed(drawing: Drawing, column: float, row: float) -> float:
+    """Return the grey level that is printed at a pixel of the simulated picture."""
+    figure = drawing.draw()
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    levels = np.asarray(canvas.buffer_rgba())
+    x, y = figure.axes[0].transData.transform((column, row))
+    return float(levels[levels.shape[0] - 1 - round(y), round(x), 0])
+
+
+@pytest.mark.parametrize("opacity", [0.25, 0.5, 1.0])
+def test_a_blended_photo_is_mixed_by_its_opacity_and_only_where_it_lies(opacity: float) -> None:
+    layer = PhotoLayer(column=20.0, row=10.0, scale=1.5, opacity=opacity)
+    drawing = picture_drawing(FRAME, None, PHOTO, "camera", layer)
+    mixed = opacity * 200.0 + (1 - opacity) * DARK
+    assert printed(drawing, 90.0, 40.0) == pytest.approx(mixed, abs=ROUNDING)
+    # It ends 100 columns of 1.5 pixels further right.
+    assert printed(drawing, 160.0, 40.0) == pytest.approx(mixed, abs=ROUNDING)
+    assert printed(drawing, 180.0, 40.0) == pytest.approx(DARK, abs=ROUNDING)
+
+
+def test_a_split_shows_the_picture_above_the_line_and_the_photo_below() -> None:
+    layer = PhotoLayer(column=20.0, row=10.0, from_row=40.0)
+    drawing = picture_drawing(FRAME, None, PHOTO, "camera", layer)
+    assert printed(drawing, 60.0, 30.0) == pytest.approx(DARK, abs=ROUNDING)
+    assert printed(drawing, 60.0, 50.0) == pytest.approx(200.0, abs=ROUNDING)
+    assert "row 40" in drawing.draw().axes[0].get_title()
+
+
+@pytest.mark.parametrize("line", [-500.0, 500.0])
+def test_a_line_beside_the_photo_shows_all_of_it_or_nothing(line: float) -> None:
+    layer = PhotoLayer(column=20.0, row=10.0, from_row=line)
+    level = printed(picture_drawing(FRAME, None, PHOTO, "camera", layer), 60.0, 30.0)
+    assert level == pytest.approx(200.0 if line < 0 else DARK, abs=ROUNDING)
+
+
+def test_a_photo_that_is_not_laid_over_the_picture_stands_beside_it() -> None:
+    figure = picture_drawing(FRAME, None, PHOTO).draw()
+    assert [ax.get_title() for ax in figure.axes][1] == "Photo"

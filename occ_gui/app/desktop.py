@@ -1,7 +1,7 @@
 """Desktop features of the window: export, session, layout, theme, command palette, shortcuts."""
 
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
@@ -45,6 +45,9 @@ from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
+
+if TYPE_CHECKING:
+    from occ_gui.transmitter.transmitter_controller import TransmitterController
 
 _THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
 _HOLD, _YES = "edit/hold_brightness", "yes"
@@ -126,6 +129,7 @@ class Desktop(QObject):
         parts.video.film_changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
         self.pointer = CursorReadout(parts.profile, parts.image)
+        self.transmitter: TransmitterController | None = None
         self._connect()
 
     def _connect(self) -> None:
@@ -150,6 +154,7 @@ class Desktop(QObject):
             "save_scene": self.document.save,
             "save_scene_as": parts.files.ask_to_save_scene,
             "export_all": self.export.ask_for_folder,
+            "transmitter": self.show_transmitter,
             "copy_figure": self.export.copy_current,
             "reset_scene": self._reset_scene,
             "reset_layout": window.modes.reset,
@@ -172,10 +177,25 @@ class Desktop(QObject):
         )
         show_report(parts.window, text)
 
+    def show_transmitter(self) -> None:
+        """Show what a board needs to blink the scene."""
+        # Asked for rarely, as the report is.
+        from occ_gui.transmitter.transmitter_controller import TransmitterController
+
+        parts = self._parts
+        if self.transmitter is None:
+            self.transmitter = TransmitterController(parts.window, parts.store, parts.preferences)
+            self.transmitter.status_message.connect(parts.window.say)
+        self.transmitter.show()
+
     @property
     def is_idle(self) -> bool:
         """Whether all requested figures have been written."""
-        return self.export.is_idle and self.animation.is_idle
+        return (
+            self.export.is_idle
+            and self.animation.is_idle
+            and (self.transmitter is None or self.transmitter.is_idle)
+        )
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
         """Restore the last session before the window is shown, and store this one.
@@ -252,4 +272,6 @@ class Desktop(QObject):
         """Stop all work in the background."""
         self.export.stop()
         self.animation.stop()
+        if self.transmitter is not None:
+            self.transmitter.stop()
         self.error_reports.remove()

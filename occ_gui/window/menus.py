@@ -90,6 +90,7 @@ class Menus(QObject):
         self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
         menu.addSeparator()
         self._make_export_menu(menu)
+        self._add(menu, "transmitter", self.tr("&Transmitter…"))
         menu.addSeparator()
         self._add(menu, "delete_preset", self.tr("&Delete preset…"))
         menu.addSeparator()

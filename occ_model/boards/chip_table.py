@@ -81,7 +81,7 @@ def frequency_lines(sent: Transmission) -> list[str]:
     """State the frequency that is sent, its error, and what is not known of the clock."""
     timing = sent.timing
     asked = "as asked"
-    if timing.error_ppm != 0:
+    if not timing.is_as_asked:
         error, wanted = float(timing.error_ppm), HERTZ.format(float(timing.asked), 9)
         asked = f"{error:+.3g} ppm from the {wanted} asked"
     return [

@@ -56,6 +56,11 @@ class ChipTiming:
         """By how much more than asked is sent, in parts per million of the frequency."""
         return (self.frequency / self.asked - 1) * 10**6
 
+    @property
+    def is_as_asked(self) -> bool:
+        """Whether the frequency is the one asked for, as exactly as a scene can hold it."""
+        return float(self.frequency) == float(self.asked)
+
 
 def best_timing(board: Board, frequency: float) -> ChipTiming:
     """Choose the setting whose frequency is nearest; of several the one with the finest timer.

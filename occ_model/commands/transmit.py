@@ -55,7 +55,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _facts(sent: Transmission) -> list[str]:
     facts = [" ".join(frequency_lines(sent))]
-    if sent.timing.error_ppm != 0:
+    if not sent.timing.is_as_asked:
         facts.append(f"{SCENE} has the frequency that is sent: match your photos with it.")
     return facts
 

@@ -68,6 +68,7 @@ def test_the_frequency_that_is_sent_is_sent_again_as_it_is(board: Board, frequen
     assert again.timing.cycles == first.timing.cycles
     # A float holds 1/3 to 16 digits.
     assert abs(again.timing.error_ppm) < Fraction(1, 10**9)
+    assert again.timing.is_as_asked
     assert again.sent_scene == first.sent_scene
 
 

@@ -1,0 +1,1 @@
+"""The dialog that writes what a board needs to blink the scene."""

@@ -1,0 +1,146 @@
+"""Transmitter controller: asks the model what a board makes of the scene, and writes its files."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from occ_gui.background.latest_wins import LatestWins
+from occ_gui.files.preferences import Preferences
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
+from occ_gui.transmitter.transmitter_jobs import (
+    Drawn,
+    Saved,
+    SaveJob,
+    draw_wiring,
+    save_files,
+)
+from occ_model.boards.chip_table import frequency_lines
+from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named
+from occ_model.boards.transmission import Transmission, transmission
+from occ_model.errors import OccError, one_line
+from occ_model.scene.scene import Scene
+
+_BOARD = "transmitter/board"
+"""Key of the preference that stores the board."""
+
+
+class TransmitterController(QObject):
+    """Fills the dialog, which follows the scene, and carries out what it asks for.
+
+    Parameters
+    ----------
+    window
+        The parent of the dialogs.
+    store
+        The store of the scene.
+    preferences
+        Stores the board and the folder.
+    """
+
+    status_message = Signal(str)
+    """What became of saving, where the dialog is closed."""
+
+    def __init__(self, window: QWidget, store: SceneStore, preferences: Preferences) -> None:
+        super().__init__(window)
+        self._window = window
+        self._store = store
+        self._preferences = preferences
+        self._sent: Transmission | None = None
+        stored = preferences.recall(_BOARD)
+        self._board = stored if stored in BOARDS else DEFAULT_BOARD
+        self.dialog: TransmitterDialog | None = None
+        self.drawing: LatestWins[Transmission, Drawn] = LatestWins(draw_wiring, "wiring")
+        self.saving: LatestWins[SaveJob, Saved] = LatestWins(save_files, "transmitter files")
+        self.drawing.finished.connect(self._show_wiring)
+        self.drawing.failed.connect(self._show_drawing_failure)
+        self.saving.finished.connect(self._report)
+        self.saving.failed.connect(self._say)
+        store.changed.connect(self._follow)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that was asked for is drawn and written."""
+        return self.drawing.is_idle and self.saving.is_idle
+
+    def show(self) -> None:
+        """Open the dialog, or bring it to the front."""
+        if self.dialog is None:
+            titles = {name: board.title for name, board in BOARDS.items()}
+            self.dialog = TransmitterDialog(titles, self._window)
+            self.dialog.board.show_key(self._board)
+            self.dialog.board_chosen.connect(self._choose)
+            self.dialog.frequency_asked.connect(self._take_frequency)
+            self.dialog.save_asked.connect(self.ask_to_save)
+            self.dialog.finished.connect(self._forget)
+            self._follow(self._store.scene)
+        self.dialog.show()
+        self.dialog.activateWindow()
+
+    def _forget(self) -> None:
+        self.dialog = None
+        self._sent = None
+
+    def _choose(self, board: str) -> None:
+        self._board = board
+        self._preferences.keep(_BOARD, board)
+        self._follow(self._store.scene)
+
+    def _follow(self, scene: Scene) -> None:
+        """Show what the board makes of a scene."""
+        if self.dialog is None:
+            return
+        self.dialog.show_note("")
+        try:
+            self._sent = transmission(scene, board_named(self._board))
+        except OccError as error:
+            self._sent = None
+            self.dialog.show_refusal(str(error))
+            return
+        facts = " ".join(frequency_lines(self._sent))
+        self.dialog.show_sent(facts, differs=not self._sent.timing.is_as_asked)
+        self.drawing.submit(self._sent)
+
+    def _show_wiring(self, drawn: Drawn) -> None:
+        # That of an earlier scene or board is not shown.
+        if self.dialog is not None and drawn.sent is self._sent:
+            self.dialog.show_wiring(drawn.png, drawn.text)
+
+    def _show_drawing_failure(self, sentence: str) -> None:
+        if self.dialog is not None:
+            self.dialog.show_drawing_failure(sentence)
+
+    def _take_frequency(self) -> None:
+        if self._sent is not None:
+            self._store.change(switching_frequency=float(self._sent.timing.frequency))
+
+    def ask_to_save(self) -> None:
+        """Let the user choose the folder in which a new one is made."""
+        title = self.tr("Make a folder for the board in")
+        folder = QFileDialog.getExistingDirectory(self.dialog, title, self._preferences.folder)
+        if folder:
+            self.save(Path(folder))
+
+    def save(self, parent: Path) -> None:
+        """Write the files into a new folder."""
+        if self._sent is not None:
+            self._say(self.tr("Writing…"))
+            self.saving.submit(SaveJob(self._sent, parent))
+
+    def _report(self, saved: Saved) -> None:
+        self._preferences.visit(saved.folder)
+        said = self.tr("Saved {count} files into {folder}; scene.toml has the sent frequency.")
+        text = said.format(count=saved.files, folder=one_line(str(saved.folder)))
+        self._say(f"{text} {saved.missing}".strip())
+
+    def _say(self, text: str) -> None:
+        if self.dialog is not None:
+            self.dialog.show_note(text)
+        else:
+            self.status_message.emit(text)
+
+    def stop(self) -> None:
+        """Stop all work in the background."""
+        self.drawing.stop()
+        self.saving.stop()

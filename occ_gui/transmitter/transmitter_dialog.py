@@ -1,0 +1,126 @@
+"""The dialog of the transmitter: board, frequency that is sent, wiring, saving."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+
+_FIGURE = QSize(700, 553)
+"""Size of the wiring on the screen, in the proportions of its figure."""
+
+
+class TransmitterDialog(QDialog):
+    """Shows what a board makes of the present scene.
+
+    Parameters
+    ----------
+    boards
+        The boards' titles by their names.
+    parent
+        The window.
+    """
+
+    board_chosen = Signal(str)
+    """The name of the board that the user has chosen."""
+
+    frequency_asked = Signal()
+    """The scene is to take the frequency that is sent."""
+
+    save_asked = Signal()
+    """The files are to be written."""
+
+    def __init__(self, boards: Mapping[str, str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(self.tr("Transmitter: blink this scene"))
+        self.board = KeyedComboBox(
+            self.tr("Board"), self.tr("The board that blinks the LED."), boards
+        )
+        self.board.chosen.connect(self.board_chosen)
+        self.facts = self._text(self.tr("What is sent"))
+        self.note = self._text(self.tr("Result of saving"))
+        self.wiring = QLabel()
+        self.wiring.setFixedSize(_FIGURE)
+        self.wiring.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.wiring.setWordWrap(True)
+        self.wiring.setTextFormat(Qt.TextFormat.PlainText)
+        self.wiring.setAccessibleName(self.tr("Wiring"))
+        form = QFormLayout()
+        form.addRow(self.tr("&Board"), self.board)
+        form.addRow(self.tr("Sent"), self.facts)
+        layout = QVBoxLayout(self)
+        layout.addLayout(form)
+        layout.addWidget(self.wiring, alignment=Qt.AlignmentFlag.AlignHCenter)
+        layout.addWidget(self.note)
+        layout.addWidget(self._make_buttons())
+
+    def _text(self, name: str) -> QLabel:
+        label = QLabel()
+        label.setWordWrap(True)
+        label.setTextFormat(Qt.TextFormat.PlainText)
+        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        label.setAccessibleName(name)
+        return label
+
+    def _make_buttons(self) -> QDialogButtonBox:
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        roles = QDialogButtonBox.ButtonRole
+        self.save = buttons.addButton(self.tr("&Save files…"), roles.ActionRole)
+        self.save.setToolTip(
+            self.tr("Choose where a new folder is made: sketch, waveform, wiring and scene.")
+        )
+        self.take = buttons.addButton(self.tr("&Take the sent frequency"), roles.ActionRole)
+        self.take.setToolTip(self.tr("Set the scene to the frequency that the board really sends."))
+        close: QPushButton = buttons.button(QDialogButtonBox.StandardButton.Close)
+        close.setToolTip(self.tr("Close this dialog."))
+        self.save.clicked.connect(self.save_asked)
+        self.take.clicked.connect(self.frequency_asked)
+        buttons.rejected.connect(self.reject)
+        return buttons
+
+    def show_sent(self, facts: str, differs: bool) -> None:
+        """Say what is sent, and whether its frequency differs from the scene's."""
+        self.facts.setText(facts)
+        self.take.setEnabled(differs)
+        self.save.setEnabled(True)
+        self._say_of_wiring(self.tr("Drawing the wiring…"))
+
+    def show_refusal(self, sentence: str) -> None:
+        """Say why the board cannot send the scene."""
+        self.facts.setText(sentence)
+        self.take.setEnabled(False)
+        self.save.setEnabled(False)
+        self._say_of_wiring("")
+
+    def show_wiring(self, png: bytes, text: str) -> None:
+        """Show the figure of the wiring; the text is what it says."""
+        image = QImage.fromData(png)
+        image.setDevicePixelRatio(
+            max(image.width() / _FIGURE.width(), image.height() / _FIGURE.height())
+        )
+        self.wiring.setPixmap(QPixmap.fromImage(image))
+        self.wiring.setAccessibleDescription(text)
+
+    def show_drawing_failure(self, sentence: str) -> None:
+        """Say why there is no figure."""
+        self._say_of_wiring(sentence)
+
+    def show_note(self, text: str) -> None:
+        """Say what became of saving."""
+        self.note.setText(text)
+
+    def _say_of_wiring(self, text: str) -> None:
+        self.wiring.clear()  # an empty text would leave the figure
+        self.wiring.setText(text)
+        self.wiring.setAccessibleDescription("")

@@ -1,0 +1,186 @@
+"""The dialog of the transmitter: what the board sends of the present scene, and its files."""
+
+from collections.abc import Callable, Iterator
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from gui.user import User
+from PIL import Image
+from PySide6.QtWidgets import QFileDialog, QWidget
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.app.application import Application
+from occ_gui.files.preferences import Preferences
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.transmitter import transmitter_controller
+from occ_gui.transmitter.transmitter_controller import TransmitterController
+from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
+from occ_gui.transmitter.transmitter_jobs import Drawn
+from occ_model.boards.transmission import Transmission
+from occ_model.figures import transmitter_files
+
+
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch: pytest.MonkeyPatch, png_of: Callable[[str], bytes]) -> None:
+    """Leave out what takes long: drawing the wiring."""
+
+    def draw(sent: Transmission) -> Drawn:
+        return Drawn(sent, png_of(sent.board.name), sent.board.title)
+
+    monkeypatch.setattr(transmitter_controller, "draw_wiring", draw)
+    monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda sent, format_name: b"")
+
+
+@pytest.fixture
+def png_of() -> Callable[[str], bytes]:
+    """Give a small picture for each board."""
+
+    def png(name: str) -> bytes:
+        buffer = BytesIO()
+        Image.new("L", (70, 55), len(name)).save(buffer, format="PNG")
+        return buffer.getvalue()
+
+    return png
+
+
+@pytest.fixture
+def store() -> SceneStore:
+    return SceneStore(occ.load_preset("phone-68us").replace(switching_frequency=14.7e3))
+
+
+@pytest.fixture
+def transmitter(qtbot: QtBot, store: SceneStore) -> Iterator[TransmitterController]:
+    window = QWidget()
+    qtbot.addWidget(window)
+    controller = TransmitterController(window, store, Preferences())
+    yield controller
+    controller.stop()
+
+
+def wait(qtbot: QtBot, transmitter: TransmitterController) -> None:
+    qtbot.waitUntil(lambda: transmitter.is_idle)
+
+
+@pytest.fixture
+def dialog(transmitter: TransmitterController, qtbot: QtBot) -> TransmitterDialog:
+    transmitter.show()
+    wait(qtbot, transmitter)
+    assert transmitter.dialog is not None
+    return transmitter.dialog
+
+
+def choose_board(dialog: TransmitterDialog, name: str) -> None:
+    dialog.board.show_key(name)
+    dialog.board.activated.emit(dialog.board.currentIndex())
+
+
+def test_the_menu_opens_it_on_the_scene_at_hand(application: Application, user: User) -> None:
+    user.choose("&Transmitter…")
+    user.wait_until_idle()
+    assert application.desktop.transmitter is not None
+    opened = application.desktop.transmitter.dialog
+    assert opened is not None
+    assert opened.isVisible()
+    assert opened.facts.text().startswith("Switching frequency: 10 kHz, as asked")
+    application.store.change(switching_frequency=14.7e3)
+    user.wait_until_idle()
+    assert opened.take.isEnabled()
+
+
+def test_it_states_the_frequency_that_is_sent_and_its_error(dialog: TransmitterDialog) -> None:
+    assert "14.7058824 kHz, +400 ppm from the 14.7 kHz asked" in dialog.facts.text()
+    assert "5,000 ppm" in dialog.facts.text()
+    assert dialog.wiring.accessibleDescription() == "Arduino Uno"
+    assert not dialog.wiring.pixmap().isNull()
+
+
+def test_another_board_sends_another_frequency_and_is_there_again(
+    transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot
+) -> None:
+    choose_board(dialog, "esp32")
+    wait(qtbot, transmitter)
+    assert "14.7004778 kHz" in dialog.facts.text()
+    assert dialog.wiring.accessibleDescription() == "ESP32"
+    dialog.reject()
+    transmitter.show()
+    again = transmitter.dialog
+    assert again is not None
+    assert again is not dialog
+    assert again.board.key() == "esp32"
+    wait(qtbot, transmitter)
+
+
+def test_the_scene_takes_the_sent_frequency_in_a_step_that_can_be_undone(
+    store: SceneStore, dialog: TransmitterDialog
+) -> None:
+    dialog.take.click()
+    assert store.scene.transmitter.switching_frequency == 16e6 / 1088
+    assert "as asked" in dialog.facts.text()
+    assert not dialog.take.isEnabled()
+    store.undo_stack.undo()
+    assert store.scene.transmitter.switching_frequency == 14.7e3
+    assert dialog.take.isEnabled()
+
+
+def test_a_scene_that_the_board_cannot_send_leaves_no_old_figure(
+    store: SceneStore, transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot
+) -> None:
+    store.change(switching_frequency=300e3)
+    wait(qtbot, transmitter)
+    assert dialog.facts.text().startswith("switching_frequency is 300 kHz; allowed on Arduino Uno")
+    assert dialog.wiring.pixmap().isNull()
+    assert dialog.wiring.accessibleDescription() == ""
+    assert not dialog.save.isEnabled()
+    assert not dialog.take.isEnabled()
+    store.change(switching_frequency=10e3)
+    assert dialog.wiring.text() == "Drawing the wiring…"
+    wait(qtbot, transmitter)
+    assert dialog.save.isEnabled()
+    assert not dialog.wiring.pixmap().isNull()
+
+
+def test_saving_makes_a_new_folder_each_time(
+    store: SceneStore,
+    transmitter: TransmitterController,
+    dialog: TransmitterDialog,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *a: str(tmp_path))
+    for name in ("blink-arduino-uno", "blink-arduino-uno-2"):
+        dialog.save.click()
+        wait(qtbot, transmitter)
+        assert dialog.note.text() == (
+            f"Saved 8 files into {tmp_path / name}; scene.toml has the sent frequency."
+        )
+        sketch = (tmp_path / name / f"{name}.ino").read_text()
+        assert sketch == occ.transmitter_sketch(store.scene, "arduino-uno")
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_what_cannot_be_saved_is_said_in_the_dialog(
+    transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot, tmp_path: Path
+) -> None:
+    (tmp_path / "file").touch()
+    transmitter.save(tmp_path / "file")
+    wait(qtbot, transmitter)
+    assert "cannot be made" in dialog.note.text()
+
+
+def test_a_closed_dialog_tells_of_saving_in_the_status_line(
+    transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot, tmp_path: Path
+) -> None:
+    said: list[str] = []
+    transmitter.status_message.connect(said.append)
+    transmitter.save(tmp_path)
+    dialog.reject()
+    qtbot.waitUntil(lambda: bool(said))
+    assert said[-1].startswith("Saved 8 files")
+
+
+def test_each_control_has_a_name_and_says_what_it_does(dialog: TransmitterDialog) -> None:
+    assert dialog.board.accessibleName() == "Board"
+    assert all(control.toolTip() for control in (dialog.save, dialog.take, dialog.board))

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, pulse
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import Explanation, explain, polished
+from occ_model.photo.fit.best_timing import Explanation, explain, explain_near, polished
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.least_squares import StripeFit, Tone
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, canonical, read_patterns
@@ -22,6 +22,9 @@ _NEAR = np.arange(-4, 5) / 8.0
 
 _EXPLAINED = 0.98
 """Correlation from which chips need not be fitted again at the period of the stripes."""
+
+_UNCLIPPED = 0.02
+"""Share of white pixels up to which they hardly change the width of the stripes."""
 
 _SURELY = 100.0
 """Bits by which they must be better than chance, for other chips to be read from the edges only."""
@@ -79,8 +82,9 @@ class Candidates:
         explained = as_sent is not None and as_sent.fit.correlation >= _EXPLAINED
         sure = explained and as_sent is not None and as_sent.information >= _SURELY
         read = read_patterns(
-            stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure
-        )
+            stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure,
+            is_clipped=stripes.saturated > _UNCLIPPED,
+        )  # fmt: skip
         if explained and as_sent is not None:
             known = canonical(as_sent.chips)
             read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
@@ -140,9 +144,12 @@ class Candidates:
         chips = nearest_other(self.stripes.profile, found, self.scene.transmitter)
         if chips is None:
             return None
-        steps = [self._near(found.fit.timing.step)]
         bits = max(found.bits, float(self.scene.transmitter.bits))
-        return self._fitted(f"{self._named(chips)} instead", chips, steps, bits=bits, was_read=True)
+        # They differ so little that what explains them best is near: it need not be searched.
+        other = explain_near(
+            self.stripes, chips, self._checked_cameras(), found.fit.timing, self.fit_gamma
+        )
+        return self._supposed(f"{self._named(chips)} instead", other, bits=bits, was_read=True)
 
     def _checked(self, tone: Tone) -> Tone:
         """Check too whenever a fit evaluates the camera's response."""
@@ -170,14 +177,27 @@ class Candidates:
         bits: float,
         was_read: bool,
     ) -> Hypothesis | None:
-        cameras = [replace(camera, tone=self._checked(camera.tone)) for camera in self.cameras]
         gamma = self.scene.camera.gamma
         found = explain(
-            self.stripes, chips, cameras, gamma, self.fit_gamma, steps, check=self.check
+            self.stripes,
+            chips,
+            self._checked_cameras(),
+            gamma,
+            self.fit_gamma,
+            steps,
+            check=self.check,
         )
+        return self._supposed(sent, found, bits=bits, was_read=was_read)
+
+    def _supposed(
+        self, sent: str, found: Explanation | None, *, bits: float, was_read: bool
+    ) -> Hypothesis | None:
         if found is None:
             return None
         return Hypothesis(sent, found, self.chosen(found), bits, was_read)
+
+    def _checked_cameras(self) -> list[CameraTone]:
+        return [replace(camera, tone=self._checked(camera.tone)) for camera in self.cameras]
 
 
 def _code(scene: Scene) -> str:

@@ -1,7 +1,5 @@
 """The chips besides those found that explain stripes best at the same timing."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
@@ -9,7 +7,6 @@ from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.packet import packet_length, packets, sends_paper_code
-from occ_model.transmitter.waveform import Waveform
 
 _MOST_BITS = 12
 """Bits of a packet up to which all codes are compared; beyond, those that differ in one chip."""
@@ -80,14 +77,16 @@ def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
 
 
 def _responses(timing: Timing, chips: int, columns: int) -> FloatArray:
-    """Give the lit fraction of each column that each chip alone makes, shape (columns, chips)."""
-    one = np.zeros(chips, dtype=np.uint8)
-    one[0] = 1
-    first = Waveform(one)
-    return np.stack(
-        [
-            replace(timing, middle=timing.middle - chip).lit_fraction(first, columns)
-            for chip in range(chips)
-        ],
-        axis=1,
-    )
+    """Give the lit fraction of each column that each chip alone makes, shape (columns, chips).
+
+    A chip's running integral over time rises by one while it lasts, once a period.
+    """
+    start = timing.start(columns) + timing.step * np.arange(columns, dtype=np.float64)
+    chip = np.arange(chips)
+
+    def until(place: FloatArray) -> FloatArray:
+        turns = np.floor(place / chips)
+        within = np.clip((place - turns * chips)[:, None] - chip, 0.0, 1.0)
+        return np.asarray(within + turns[:, None])
+
+    return np.asarray((until(start + timing.exposure) - until(start)) / timing.exposure)

@@ -93,8 +93,21 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
     return ReadPattern(chips[best], float(explained[best]), *found)
 
 
-def refined(lines: Harmonics, found: ReadPattern) -> ReadPattern:
-    """Refine exposure and phase, and let bright runs be longer or shorter than their chips."""
+def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -> ReadPattern:
+    """Refine exposure and phase, and let bright runs be longer or shorter than their chips.
+
+    Parameters
+    ----------
+    lines
+        The harmonics.
+    found
+        Chips, with a rough exposure and phase.
+    column
+        Chips a column, where no pixel is white. The light then passes half its height within each
+        edge's ramp, whatever the tone curve: bright runs are longer by less than a ramp, which
+        lasts the exposure and, by blur, a column. White hides the upper part of a ramp, so that
+        this tells nothing of saturated stripes.
+    """
     # Imported only when a photo is matched: it is slow.
     from scipy.optimize import minimize
 
@@ -120,7 +133,8 @@ def refined(lines: Harmonics, found: ReadPattern) -> ReadPattern:
         options={"initial_simplex": steps, "maxfev": _REFINEMENTS, "xatol": 0.01, "fatol": 1e-4},
     )
     exposure, phase, longer = best.x.tolist()
-    if abs(longer) > _MOST_LONGER:
+    most = _MOST_LONGER if column is None else min(_MOST_LONGER, abs(exposure) + column)
+    if abs(longer) > most:
         return found
     return ReadPattern(found.chips, -float(best.fun), abs(exposure), phase + 0.5)
 

@@ -65,6 +65,7 @@ def read_patterns(
     check: Callable[[], object] = lambda: None,
     *,
     by_edges_only: bool = False,
+    is_clipped: bool = False,
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
@@ -80,6 +81,8 @@ def read_patterns(
         Called every few hundredths of a second; what it raises ends the reading.
     by_edges_only
         Whether only the edges are read, which takes far less time than to try each number of chips.
+    is_clipped
+        Whether white pixels may lengthen bright runs by more than an edge's ramp.
 
     Returns
     -------
@@ -94,28 +97,32 @@ def read_patterns(
     lines = harmonics_of(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
     counts = _counts_by_edges(edges_of(flattened), period, most)
-    found = [_fewest(lines, counts, check)]
+    column = None if is_clipped else 1.0 / period
+    found = [_fewest(lines, counts, column, check)]
     by_edges = found[0]
     if not by_edges_only and (
         by_edges is None
         or _unexplained(by_edges) > _WELL_EXPLAINED
         or by_edges.exposure > _LONGEST_FOR_EDGES
     ):
-        found.append(_chips_by_lines(lines, most, check))
+        found.append(_chips_by_lines(lines, most, column, check))
     read = [_shortened(one) for one in found if one is not None]
     return list({one.chips.tobytes(): one for one in read}.values())
 
 
 def _fewest(
-    lines: Harmonics, counts: Sequence[int], check: Callable[[], object]
+    lines: Harmonics, counts: Sequence[int], column: float | None, check: Callable[[], object]
 ) -> ReadPattern | None:
-    """Find the fewest chips that explain the harmonics about as well as the best number does."""
+    """Find the fewest chips that explain the harmonics about as well as the best number does.
+
+    ``column`` is the share of a period that a column takes, where no pixel is white.
+    """
     read = []
     for count in counts:
         check()
         rough = best_chips(lines, count)
         if rough is not None:
-            read.append(refined(lines, rough))
+            read.append(refined(lines, rough, column and count * column))
             if _unexplained(read[-1]) <= _WELL_EXPLAINED:
                 return read[-1]
     left = [_unexplained(one) for one in read]
@@ -142,7 +149,9 @@ def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
     return [*divisors, *good[:_MOST_COUNTS]]
 
 
-def _chips_by_lines(lines: Harmonics, most: int, check: Callable[[], object]) -> ReadPattern | None:
+def _chips_by_lines(
+    lines: Harmonics, most: int, column: float | None, check: Callable[[], object]
+) -> ReadPattern | None:
     """Find the smallest number of chips that explains the harmonics far better than its neighbours.
 
     This method needs no edges: an exposure of several chips leaves none.
@@ -157,7 +166,7 @@ def _chips_by_lines(lines: Harmonics, most: int, check: Callable[[], object]) ->
         beside = [left[count + step] for step in _BESIDE if count + step in left]
         stands_out = bool(beside) and left[count] <= _DIP * float(np.median(beside))
         if one is not None and left[count] <= enough and stands_out:
-            return refined(lines, one)
+            return refined(lines, one, column and count * column)
     return None
 
 

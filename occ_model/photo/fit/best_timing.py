@@ -34,6 +34,9 @@ _MOST_FINISHED = 6
 _AROUND = (0.85, 0.93, 1.07, 1.15)
 """Factors by which an exposure is changed to fit it again."""
 
+_BESIDE = (0.8, 1.25)
+"""Factors by which an exposure is changed to explain other chips."""
+
 _VALLEY = 1e-3
 """Difference of exposures, in chips, below which fits count as the same."""
 
@@ -145,6 +148,28 @@ def explain(
     fits, camera = best
     timings = tuple(fit.timing for fit in fits)
     return Explanation(chips, tuple(_as_good(fits)), camera, timings)
+
+
+def explain_near(
+    stripes: Stripes,
+    chips: ByteArray,
+    cameras: Sequence[CameraTone],
+    timing: Timing,
+    with_gamma: bool = False,
+) -> Explanation | None:
+    """Find the timing near a given one with which given chips fit a photo's stripes best.
+
+    Returns
+    -------
+    Explanation or None
+        None where no fit has the levels of a picture.
+    """
+    starts = [replace(timing, exposure=share * timing.exposure) for share in (1.0, *_BESIDE)]
+    best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
+    if best is None:
+        return None
+    fits, camera = best
+    return Explanation(chips, tuple(_as_good(fits)), camera, tuple(fit.timing for fit in fits))
 
 
 def polished(stripes: Stripes, explanation: Explanation) -> Explanation:

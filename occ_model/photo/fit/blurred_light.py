@@ -4,6 +4,7 @@ What a camera and an LED add to the exposure integral: image processing blurs co
 that turns on faster than off (or a driver that does) is on a little longer than its chips say.
 """
 
+import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
@@ -69,7 +70,8 @@ class BlurredLight:
             return np.asarray(turns * a_period + within)
 
         lit = (until(place + timing.exposure) - until(place)) / timing.exposure
-        return np.asarray(np.convolve(lit, blur_kernel(blur, tails), mode="valid"))
+        kernel = blur_kernel(blur, tails)[None]
+        return np.asarray(cv2.filter2D(lit[None], -1, kernel)[0, _REACH:-_REACH])
 
 
 def blur_kernel(blur: float, tails: float = 0.0) -> FloatArray:

@@ -1,5 +1,6 @@
 """A camera's unknown tone curve: a gamma, bent by a shoulder and by contrast."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,9 @@ _TOE = 0.03
 
 _GRID = np.linspace(-0.1, 1.0, 441)
 _LEAST_SLOPE = 0.05
+
+_ROOTS = 2049
+"""Tabulated roots of light: between them a gamma of 2.2 is less than 0.01 levels off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +51,29 @@ class ToneCurve:
         return ToneTable(light, np.diff(u)[0] / np.gradient(light))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+class EvenTable:
+    """A function tabulated at equal distances: looked up far faster than at unequal ones.
+
+    Parameters
+    ----------
+    first, last
+        The ends; beyond them the function is constant.
+    values : ndarray of float64
+        From one end to the other.
+    """
+
+    def __init__(self, first: float, last: float, values: FloatArray) -> None:
+        self._first, self._most = first, len(values) - 1
+        self._rate = self._most / (last - first)
+        self._values, self._rise = values, np.append(np.diff(values), 0.0)
+
+    def at(self, places: FloatArray) -> FloatArray:
+        """Give the function at some places, by linear interpolation."""
+        place = np.clip((places - self._first) * self._rate, 0.0, self._most)
+        below = place.astype(np.intp)
+        return np.asarray(self._values[below] + (place - below) * self._rise[below])
+
+
 class ToneTable:
     """A tabulated tone curve.
 
@@ -57,23 +83,34 @@ class ToneTable:
         The light of each tabulated pixel value, and the pixel value's slope over light.
     """
 
-    light: FloatArray
-    slope: FloatArray
+    def __init__(self, light: FloatArray, slope: FloatArray) -> None:
+        self.light, self.slope = light, slope
+        self._darkest, brightest = float(light[0]), float(light[-1])
+        # Over the root of light a curve is nearly straight.
+        most = math.sqrt(brightest - self._darkest)
+        even = self._darkest + np.linspace(0.0, most, _ROOTS) ** 2
+        self._light = EvenTable(_GRID[0], _GRID[-1], light)
+        self._slope = EvenTable(_GRID[0], _GRID[-1], slope)
+        self._value_of_root = EvenTable(0.0, most, np.interp(even, light, _GRID))
+        self._slope_of_root = EvenTable(0.0, most, np.interp(even, light, slope))
 
     def light_of(self, values: FloatArray) -> FloatArray:
         """Give the light of grey levels; 1 makes white."""
-        return np.interp(values / WHITE, _GRID, self.light)
+        return self._light.at(values / WHITE)
 
     def slope_at(self, values: FloatArray) -> FloatArray:
         """Give the slope of grey levels over light."""
-        return np.asarray(WHITE * np.interp(values / WHITE, _GRID, self.slope))
+        return np.asarray(WHITE * self._slope.at(values / WHITE))
 
     def slope_of(self, light: FloatArray) -> FloatArray:
         """Give the slope of grey levels over light, at light."""
-        return np.asarray(WHITE * np.interp(light, self.light, self.slope))
+        return np.asarray(WHITE * self._slope_of_root.at(self._root(light)))
 
     def value_of(self, light: FloatArray) -> FloatArray:
         """Give the grey levels of light; it goes on straight beyond both ends."""
         over = np.maximum(light - self.light[-1], 0.0) * self.slope[-1]
-        under = np.minimum(light - self.light[0], 0.0) * self.slope[0]
-        return np.asarray(WHITE * (np.interp(light, self.light, _GRID) + over + under))
+        under = np.minimum(light - self._darkest, 0.0) * self.slope[0]
+        return np.asarray(WHITE * (self._value_of_root.at(self._root(light)) + over + under))
+
+    def _root(self, light: FloatArray) -> FloatArray:
+        return np.sqrt(np.maximum(light - self._darkest, 0.0))

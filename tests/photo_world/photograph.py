@@ -17,6 +17,9 @@ KNOWN_GAMMA = 2.22
 
 MOST_SATURATED = 0.6
 
+_REACH = 12
+"""Pixels to which blur reaches."""
+
 _SEEN_PERIODS = 1.6
 """Smallest number of periods of the sent chips within the lamp."""
 
@@ -37,6 +40,8 @@ class World:
         The brightest light of a lamp that is not saturated, as a share of what makes white.
     blur
         Standard deviation in columns of the blur by image processing.
+    blur_shape
+        ``"normal"``; ``"box"``, as resizing blurs; or ``"exponential"``, with long tails.
     blur_of_values
         Whether pixel values are blurred (noise reduction, resizing) instead of light (demosaicing).
     full_well, read_noise
@@ -60,6 +65,7 @@ class World:
     peak: float
     vignetting: float
     blur: float
+    blur_shape: str
     blur_of_values: bool
     full_well: float
     read_noise: float
@@ -110,6 +116,7 @@ def random_world(seed: int) -> World:
         peak=between(0.15, 0.9),
         vignetting=between(0.0, 0.5),
         blur=between(0.0, 1.5),
+        blur_shape=_random_shape(seed),
         blur_of_values=bool(random.integers(2)),
         full_well=over_decades(300.0, 8000.0),
         read_noise=between(1.0, 6.0),
@@ -129,6 +136,12 @@ def _random_chips(random: np.random.Generator, most: int) -> str:
         chips = "".join(map(str, random.integers(0, 2, int(random.integers(5, min(most, 30) + 1)))))
         if "10" in chips + chips[0] and "1111" not in 2 * chips and "0000" not in 2 * chips:
             return chips
+
+
+def _random_shape(seed: int) -> str:
+    # By its own seed, so that all else is drawn as it would be without.
+    random = np.random.default_rng([1951, seed])
+    return str(random.choice(["normal", "normal", "box", "exponential"]))
 
 
 def lit_fraction(world: World) -> np.ndarray:
@@ -184,16 +197,25 @@ def photograph(world: World) -> np.ndarray:
     electrons += world.read_noise * random.standard_normal(electrons.shape)
     light = np.clip(electrons / world.full_well, 0.0, 1.0)
     if not world.blur_of_values:
-        light = _blurred(light, world.blur)
+        light = _blurred(light, world.blur, world.blur_shape)
     values = 255.0 * world.curve.apply(light)
     if world.blur_of_values:
-        values = _blurred(values, world.blur)
+        values = _blurred(values, world.blur, world.blur_shape)
     return compressed(np.rint(values).astype(np.uint8), world.quality)
 
 
-def _blurred(values: np.ndarray, deviation: float) -> np.ndarray:
-    # A narrower one has no weight beyond its own pixel.
-    return cv2.GaussianBlur(values, (0, 0), deviation) if deviation > 0.1 else values
+def _blurred(values: np.ndarray, deviation: float, shape: str) -> np.ndarray:
+    if deviation <= 0.1:  # no shape has weight beyond its own pixel
+        return values
+    if shape == "normal":
+        return cv2.GaussianBlur(values, (0, 0), deviation)
+    off = np.abs(np.arange(-_REACH, _REACH + 1))
+    if shape == "box":
+        kernel = np.clip(math.sqrt(3.0) * deviation + 0.5 - off, 0.0, 1.0)
+    else:
+        kernel = np.exp(-math.sqrt(2.0) / deviation * off)
+    kernel /= kernel.sum()
+    return cv2.sepFilter2D(values, -1, kernel, kernel)
 
 
 def compressed(image: np.ndarray, quality: int) -> np.ndarray:

@@ -128,7 +128,7 @@ def refined(
         stripes.profile, Waveform(chips), explanation.camera.tone, step,
         explanation.camera.rank_resolution,
     )  # fmt: skip
-    found = _modes(models, explanation)
+    found = _modes(models, explanation, model.is_possible)
     seen = models[0].edges_seen(found[0].values)
     if seen < _LEAST_EDGES:
         found = [_with_step_of(mode, explanation) for mode in found]
@@ -140,7 +140,9 @@ def refined(
     return Refined(tuple(possible), tuple(_doubts(seen)))
 
 
-def _modes(models: Sequence[JointModel], explanation: Explanation) -> list[JointFit]:
+def _modes(
+    models: Sequence[JointModel], explanation: Explanation, is_possible: Callable[[Timing], bool]
+) -> list[JointFit]:
     """Find the exposures that are about as likely as the most likely one, that one first."""
     first = models[0]
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
@@ -150,8 +152,9 @@ def _modes(models: Sequence[JointModel], explanation: Explanation) -> list[Joint
     for model in models[1:]:
         model.take_noise(first)
     groups = [_possible(models, usual.values)]
-    least = min(one.fit.misfit for one in groups[0])
-    for start in other_starts(explanation, best):
+    # Of the same model: another one may explain every exposure better.
+    least = min(one.fit.misfit for one in groups[0] if one.model is first)
+    for start in filter(is_possible, other_starts(explanation, best)):
         other = first.fit(first.start(start))
         exposures = [one.fit.exposure for group in groups for one in group]
         if other.misfit < least + _HOPELESS and all(

@@ -213,11 +213,15 @@ class StripeModel:
         covariance[1, 1] += spread**2 / 3.0 + _blur_deviation(timing) ** 2
         return self.described(timing, covariance)
 
+    def is_possible(self, timing: Timing) -> bool:
+        """Whether the levels that a timing needs can be a picture's."""
+        low, swing, _ = self.levels(timing)
+        return _can_be_levels(low, swing)
+
     def described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
         """Give the fit of a timing with a covariance, shape (4, 4), of its fields."""
         low, swing, profile = self.levels(timing)
-        usual = float(np.median(swing))
-        possible = usual > 0.0 and float(np.median(low)) > _DARKEST * usual
+        possible = _can_be_levels(low, swing)
         # Bounded below, since flattening divides by it.
         swing = np.maximum(swing, _LEAST_SWING * max(float(swing.max()), FLAT))
         correlation = _flattened_correlation(self._profile, profile, low, swing)
@@ -227,6 +231,12 @@ class StripeModel:
         return StripeFit(
             timing, covariance, low, swing, profile, correlation, power, likely, possible
         )
+
+
+def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
+    """Whether lit is above dark, and dark not negative."""
+    usual = float(np.median(swing))
+    return usual > 0.0 and float(np.median(low)) > _DARKEST * usual
 
 
 def level_freedom(chips: float) -> int:

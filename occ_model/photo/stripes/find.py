@@ -9,7 +9,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo, column_means
@@ -27,6 +27,12 @@ _ALIKE = 0.25
 
 _EDGE = 0.3
 """Share of a steep edge's slope from which a slope is an edge, also where a lens darkens it."""
+
+_FAINTER = 0.6
+"""Share of the steepness of the edges beside it that an edge outside these must have."""
+
+_FAINTEST = 0.08
+"""Share of a steep edge's slope below which a slope is noise, or what compression leaves."""
 
 _SLOPE_COLUMNS = 4
 """Number of columns over which a slope is measured."""
@@ -190,13 +196,39 @@ def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     edges = edges[
         int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
     ]
-    gaps = np.diff(edges)
-    if np.count_nonzero(gaps > 1) + 1 < _LEAST_EDGES:
+    if max(np.count_nonzero(np.diff(edges) > 1) + 1, _reversals(profile, edges)) < _LEAST_EDGES:
         raise MatchError(
             "No stripes: fewer than three edges between bright and dark columns; come closer to "
             "the panel, or raise its frequency."
         )
-    return int(edges[0]), int(edges[-1]) + 1, int(gaps.max())
+    gap = int(np.diff(edges).max())
+    first = _faintest(slopes, int(edges[0]), gap, steep)
+    after = len(slopes) - _faintest(slopes[::-1], len(slopes) - 1 - int(edges[-1]), gap, steep)
+    return first, after, gap
+
+
+def _reversals(profile: FloatArray, edges: IndexArray) -> int:
+    """Count the edges by the slopes that change their sign: narrow stripes are edges throughout."""
+    if edges.size == 0:
+        return 0
+    slopes = np.diff(profile[edges[0] : edges[-1] + 2])
+    steep = slopes[np.abs(slopes) > _EDGE * float(np.quantile(np.abs(slopes), _STEEP))]
+    return 1 + int(np.count_nonzero(np.diff(np.sign(steep)))) if steep.size else 0
+
+
+def _faintest(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
+    """Follow the edges from the first steep one to lower columns while they slowly become fainter.
+
+    A round lamp covers ever fewer rows towards its ends; at a panel's rim the stripes end at once.
+    """
+    beside = float(slopes[edge : edge + gap + 1].max())
+    while True:
+        window = slopes[max(0, edge - gap) : edge]
+        here = float(window.max(initial=0.0))
+        if here < max(_FAINTER * beside, _FAINTEST * steep):
+            return edge
+        edge += int(np.flatnonzero(window > _FAINTEST * steep)[0]) - len(window)
+        beside = here
 
 
 def _local_range(profile: FloatArray) -> FloatArray:

@@ -32,17 +32,21 @@ _AS_LIKELY, _RATIO = 9.0, 1.3
 _TRUSTED = 6.0
 """Differences of the misfit are divided by it: the residual is no mere noise."""
 
-_UNKNOWN_BLUR = 0.29
-"""Standard deviation in columns of blur that the model's does not describe: that of the box over
-which a pixel gathers light."""
+_UNKNOWN_BLUR = 0.03
+"""Share of the blur's variance that the model's blur does not describe: compression, clipping and
+the rounding to pixels shape an edge too, the more columns it covers. With it the stated errors of
+exposures below three columns and above are exceeded equally often on the photographs named below.
+"""
 
 _UNKNOWN_RAMP = 0.005
 """Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
 change a ramp's shape."""
 
 _TOO_SURE = 1.7
-"""Ratio of an exposure's errors to its fit's deviation, on simulated photographs: no tone curve or
-blur of a camera is exactly one of the model's."""
+"""Ratio of an exposure's errors to its fit's deviation: no tone curve of a camera is exactly one of
+the model's. On 107 simulated photographs whose match was sure (of those with the seeds 20000 to
+20170) 75 % of the errors are then within the stated deviation, and 93 % within two: errors are not
+normally distributed, so that no factor gives 68 % and 95 %."""
 
 _LEAST_EDGES = 0.3
 """Share of the edges' columns that must be seen without clipping."""
@@ -180,18 +184,17 @@ def _modes(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Possible:
-    """A model's fit, its steps once the noise is known, and what is held fixed."""
+    """A model's fit, and the number of its steps once the noise is known."""
 
     model: JointModel
     fit: JointFit
     rounds: int = 1
-    fixed: tuple[int, ...] = ()
 
     def again(self) -> list[JointFit]:
         """Fit again, the noise having been estimated, also with each blur where all are likely."""
-        free = self.model.fit(self.fit.values, self.fixed, self.rounds)
+        free = self.model.fit(self.fit.values, rounds=self.rounds)
         short = free.values[1] < _BLURRED * free.values[0]
-        if self.fixed or not short or free.covariance[7, 7] < _KNOWN_BLUR**2:
+        if not short or free.covariance[7, 7] < _KNOWN_BLUR**2:
             return [free]
         others = [_with_blur(free.values, blur) for blur in _BLURS]
         return [free, *(self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others)]
@@ -205,15 +208,12 @@ def _possible(models: Sequence[JointModel], values: FloatArray) -> list[_Possibl
     found = []
     for model in models:
         here = model.adapted(values)
-        if model.is_wide:
-            # Gamma is asked for: it must not start anew from what is usual.
-            for blur in _BLURS:
-                fit = model.fit(_with_blur(here, blur), _FIXED_BLUR, rounds=3)
-                found.append(_Possible(model, fit, fixed=_FIXED_BLUR))
-                here = fit.values
-            continue
-        # Each blur starts from what is usual of all else: tone and switching can make up for it.
-        starts = [here, *(model.with_usual(_with_blur(here, blur)) for blur in _BLURS)]
+        others = [_with_blur(here, blur) for blur in _BLURS]
+        if not model.is_wide:
+            # Each blur starts from what is usual of all else: tone and switching can make up for
+            # it. Where gamma is asked for, it must not start anew.
+            others = [model.with_usual(other) for other in others]
+        starts = [here, *others]
         fits = [model.fit(start, rounds=5) for start in starts]
         best = min(fits, key=lambda fit: fit.misfit)
         found.append(_Possible(model, best, _LAST_ROUNDS))
@@ -273,11 +273,12 @@ def _blur_deviation(values: FloatArray) -> float:
     """Give the chips by which blur beside the model's changes an exposure.
 
     An edge is the exposure's box, of variance t^2/12, convolved with the blur; variances add. So a
-    blur of sigma that is taken for a part of the exposure makes t^2 larger by 12 sigma^2.
+    blur of variance sigma^2 that is taken for a part of the exposure makes t^2 larger by
+    12 sigma^2.
     """
     step = float(values[0])
-    columns = float(values[1]) / step
-    return step * (math.sqrt(columns**2 + 12.0 * _UNKNOWN_BLUR**2) - columns)
+    columns, variance = float(values[1]) / step, _UNKNOWN_BLUR * float(values[7]) ** 2
+    return step * (math.sqrt(columns**2 + 12.0 * variance) - columns)
 
 
 def _doubts(seen: float) -> list[str]:

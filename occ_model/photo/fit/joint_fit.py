@@ -22,6 +22,8 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
 
 USUAL = {
     "gamma": (0.0, 0.12),
@@ -34,8 +36,9 @@ USUAL = {
 """Mean and standard deviation of what is usual: the logarithm of gamma over the scene's gamma, the
 tone curve's bends, the blur in columns, and the chips by which the LED is on longer."""
 
-_TAILS = 1.5
-"""Standard deviation of the blur's excess kurtosis: a box has -1.2, exponential tails have 3. It is
+_TAILS = 1.6
+"""Standard deviation of the blur's excess kurtosis: its root mean square if half of all blur is
+normal (0), a quarter of it resizing's (a box, -1.2), and a quarter has exponential tails (3). It is
 not fitted, since what the model leaves unexplained would be taken for it."""
 
 _KURTOSIS = 0.2
@@ -107,7 +110,7 @@ class JointModel:
     values_blurred
         Whether pixel values are blurred (noise reduction, resizing), or light (demosaicing).
     wide
-        Whether gamma may be any.
+        Whether gamma may be any that a scene's may be.
     check
         Called whenever the model is evaluated; what it raises ends the fit.
     """
@@ -140,6 +143,9 @@ class JointModel:
         self._deviation[5] = math.hypot(self._deviation[5], _SHIFTED * step)
         if wide:
             self._deviation[0] = _ANY_GAMMA
+        allowed = PARAMETERS["gamma"]
+        assert isinstance(allowed, Quantity)  # noqa: S101 - it is one
+        self._allowed = np.array([allowed.low, allowed.high])
         self._free = np.array(
             [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
         )
@@ -185,6 +191,9 @@ class JointModel:
         scale = self._scale[index]
         bounds = _LOW.copy(), _HIGH.copy()
         bounds[0][0], bounds[1][0] = 0.5 * self._step, 2.0 * self._step
+        if self.is_wide:
+            inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
+            bounds[0][3], bounds[1][3] = np.log(self._allowed * inside / self._gamma)
         first = np.clip(first, *bounds)
         # The exposure's logarithm: it is positive, and known by ratio.
         scale = np.where(index == 1, 0.05, scale)

@@ -196,15 +196,16 @@ def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     edges = edges[
         int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
     ]
-    if max(np.count_nonzero(np.diff(edges) > 1) + 1, _reversals(profile, edges)) < _LEAST_EDGES:
+    apart = int(np.count_nonzero(np.diff(edges) > 1)) + 1
+    if max(apart, _reversals(profile, edges)) < _LEAST_EDGES:
         raise MatchError(
             "No stripes: fewer than three edges between bright and dark columns; come closer to "
             "the panel, or raise its frequency."
         )
     gap = int(np.diff(edges).max())
-    first = _faintest(slopes, int(edges[0]), gap, steep)
-    after = len(slopes) - _faintest(slopes[::-1], len(slopes) - 1 - int(edges[-1]), gap, steep)
-    return first, after, gap
+    start = _faintest(slopes, int(edges[0]), gap, steep)
+    end = len(slopes) - _faintest(slopes[::-1], len(slopes) - 1 - int(edges[-1]), gap, steep)
+    return start, end, gap
 
 
 def _reversals(profile: FloatArray, edges: IndexArray) -> int:
@@ -227,7 +228,7 @@ def _faintest(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
         here = float(window.max(initial=0.0))
         if here < max(_FAINTER * beside, _FAINTEST * steep):
             return edge
-        edge += int(np.flatnonzero(window > _FAINTEST * steep)[0]) - len(window)
+        edge += int(np.flatnonzero(window >= _FAINTEST * steep)[0]) - len(window)
         beside = here
 
 

@@ -41,6 +41,34 @@ def test_the_period_is_that_of_the_packet_within_its_uncertainty() -> None:
     assert np.mean(np.array(off) < 3.0) > 0.85
 
 
+def _lamp(columns_a_chip: float, covered: np.ndarray) -> occ.Photo:
+    """A lamp of alternating chips on a dark background; ``covered`` are its columns and rows."""
+    columns = np.arange(covered.shape[1])
+    light = np.where((columns // columns_a_chip) % 2 == 0, 200.0, 60.0)
+    noise = np.random.default_rng(5).normal(10.0, 1.0, covered.shape)
+    return photo_of(np.clip(noise + covered * light, 0, 255).astype(np.uint8))
+
+
+def test_stripes_as_narrow_as_edges_are_found() -> None:
+    covered = np.zeros((90, 700))
+    covered[10:80, 50:650] = 1.0
+    region = occ.find_stripes(_lamp(2.0, covered)).region
+    assert region.first_column == pytest.approx(50, abs=6)
+    assert region.last_column == pytest.approx(650, abs=6)
+
+
+def test_the_faint_outer_stripes_of_a_round_lamp_belong_to_it() -> None:
+    rows, columns = np.mgrid[:200, :1400]
+    off = np.hypot((rows - 100) / 90, (columns - 700) / 600)
+    glow = np.clip(1.0 - off, 0.0, 1.0)  # fades from its middle to its rim
+    region = occ.find_stripes(_lamp(12.0, glow)).region
+    # Edges of a third of the steepest one's slope are found up to 0.7 of the way to the rim.
+    assert region.first_column < 700 - 0.8 * 600
+    assert region.last_column > 700 + 0.8 * 600
+    assert region.first_column > 700 - 600 - 24
+    assert region.last_column < 700 + 600 + 24
+
+
 @given(period=st.floats(6.0, 120.0), phase=st.floats(0.0, 1.0), seed=st.integers(0, 999))
 def test_a_noisy_waves_period_is_found(period: float, phase: float, seed: int) -> None:
     columns = np.arange(900)

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.measured import with_error
 from occ_model.results import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -26,13 +27,7 @@ def known_of(match: Match) -> str:
 
 def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
     """Format a value with its standard deviation, to the digits that are significant."""
-    if spread is None or not 0.0 < spread < math.inf:
-        return quantity.format(value)
-    symbol, factor = quantity.unit.display(value)
-    # Two digits of the uncertainty, and the value to the same decimal place.
-    decimals = min(max(0, 1 - math.floor(math.log10(spread / factor))), 12)
-    number = f"{value / factor:.{decimals}f} ± {spread / factor:.{decimals}f}"
-    return f"{number} {symbol}".rstrip()
+    return with_error(quantity.unit, value, spread)
 
 
 class MatchValues(QWidget):

@@ -99,15 +99,17 @@ def shown_frame(request: FrameRequest) -> ShownFrame:
         story = _story(frame, request.scene, None, title)
         film = _shown(frame.image, story, f"{title}: {_at(frame)}")
     simulated, instead, own = None, "", None
+    start = None if story is None else start_of(story.reading.decoded, request.scene)
     try:
-        own = _simulated(request)
+        own = _simulated(request, start)
     except OccError as error:
         instead = str(error)
     if own is not None and own.scene is not None:
         step = len(range(0, request.scene.camera.rows, request.draft_step))
         is_draft = step != request.scene.camera.rows
         seen = _story(own, own.scene, request, "Simulated")
-        simulated = _shown(own.image, seen, f"Simulated{' (draft)' * is_draft}: {_at(own)}")
+        when = _at(own) if start is None else "in phase with the film"
+        simulated = _shown(own.image, seen, f"Simulated{' (draft)' * is_draft}: {when}")
         story = story or seen
     time = frame.time if frame is not None else None if own is None else own.time
     return ShownFrame(request, time, film, simulated, instead, story)
@@ -117,15 +119,52 @@ def _at(frame: VideoFrame) -> str:
     return f"frame {frame.index + 1}, {frame.time:.4f} s"
 
 
-def _simulated(request: FrameRequest) -> VideoFrame:
-    """Simulate the frame of the film's number."""
-    camera = request.scene.camera
+def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
+    """Return the start time with which the scene sends what was read, in seconds.
+
+    Parameters
+    ----------
+    decoded
+        What was read of a frame.
+    scene
+        The scene.
+
+    Returns
+    -------
+    float or None
+        From 0 to below the length of a packet; None where another code was read than the scene
+        sends, or the decoder does not say where a packet begins.
+    """
+    transmitter, region = scene.transmitter, decoded.region
+    starts = decoded.chip_starts
+    if transmitter.pattern or starts is None or region is None or not decoded.headers:
+        return None
+    if tuple(decoded.bits.tolist()) != transmitter.payload_bits:
+        return None
+    camera, period = scene.camera, transmitter.switching_period
+    changes = np.flatnonzero(np.diff(decoded.chips)) + 1
+    if not changes.size:
+        return None
+    # The edge lies before the first column beyond the threshold. Where it is not in the middle of
+    # the levels, it moves rising and falling edges apart: their mean stays.
+    columns = region.first_column + starts[changes] - 0.5
+    chips = changes - decoded.headers[0]
+    begin = float(np.mean(columns * camera.readout_time - chips * period))
+    # A chip is read from where the exposure has passed over its edge by half.
+    return float(-(begin + camera.exposure_time / 2.0) % (len(occ.packet(scene)) * period))
+
+
+def _simulated(request: FrameRequest, start: float | None) -> VideoFrame:
+    """Simulate the frame of the film's number, or one that begins at the same phase."""
+    camera, scene = request.scene.camera, request.scene
     step = request.draft_step if camera.rows * camera.columns > _SMALL else 1
+    if start is not None:
+        scene = scene.replace(start_time=start)
     video = occ.render_video(
-        request.scene, None, request.recording, settings=request.settings,
+        scene, None, request.recording, settings=request.settings,
         rows_step=min(step, camera.rows),
     )  # fmt: skip
-    return video.frame(request.index)
+    return video.frame(request.index if start is None else 0)
 
 
 def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:

@@ -65,6 +65,7 @@ class LiveController(QObject):
         self._turns.timeout.connect(self._show)
         self._answered.connect(self._on_answer, Qt.ConnectionType.QueuedConnection)
         self._shown = -1
+        self._last: LiveVideo | None = None
 
     @property
     def is_filming(self) -> bool:
@@ -91,7 +92,7 @@ class LiveController(QObject):
             What of its pictures the shutter scans; by default what the source says.
         """
         self.stop_filming()
-        self.video = LiveVideo(source, axis or source.axis)
+        self.video = LiveVideo(source, axis or source.axis, self._last)
         self._shown = -1
         self._films.put(self.video, is_live=True)
         self.video.start()
@@ -119,7 +120,8 @@ class LiveController(QObject):
         video, self.video = self.video, None
         if video is not None:
             self._readings.cancel()
-            video.stop()
+            video.end()
+            self._last = video
 
     def _show(self) -> None:
         video = self.video
@@ -144,4 +146,6 @@ class LiveController(QObject):
     def stop(self) -> None:
         """Release the camera and stop all work."""
         self.stop_filming()
+        if self._last is not None:
+            self._last.join()
         self.finder.stop()

@@ -30,9 +30,13 @@ class LiveVideo(Video):
         Gives the pictures.
     axis
         What of them the rolling shutter scans, one of AXES.
+    after
+        The film before, whose device is to be released first.
     """
 
-    def __init__(self, source: FrameSource, axis: str = AXES[0]) -> None:
+    def __init__(
+        self, source: FrameSource, axis: str = AXES[0], after: "LiveVideo | None" = None
+    ) -> None:
         self.title = source.title
         self.shape = (0, 0)
         self.frame_rate = self.frame_count = None
@@ -40,6 +44,7 @@ class LiveVideo(Video):
         """What gives the pictures."""
         self.axis = axis
         """What of its pictures the rolling shutter scans, one of AXES."""
+        self._after = after
         self._changed = Condition()
         self._newest: LivePicture | None = None
         self._arrived = 0
@@ -74,12 +79,20 @@ class LiveVideo(Video):
         """Begin to film."""
         self._thread.start()
 
-    def stop(self) -> None:
-        """End filming, and wait until the device is released."""
+    def end(self) -> None:
+        """End filming: the device is released as soon as it answers."""
         with self._changed:
             self._is_stopped = self._has_ended = True
             self._newest = None
             self._changed.notify_all()
+
+    def stop(self) -> None:
+        """End filming, and wait until the device is released."""
+        self.end()
+        self.join()
+
+    def join(self) -> None:
+        """Wait until the device is released; not for ever, as a driver may hang."""
         if self._thread.ident is not None:
             self._thread.join(_JOIN_SECONDS)
 
@@ -131,6 +144,9 @@ class LiveVideo(Video):
 
     def _film(self) -> None:
         problem: str | None = None
+        after, self._after = self._after, None
+        if after is not None:
+            after.join()
         try:
             self.source.open()
             while not self._is_stopped:

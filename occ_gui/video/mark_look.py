@@ -37,6 +37,11 @@ def ink_of(state: MarkState, palette: QPalette) -> QColor:
     return colours_of(_STATES[state], palette).ink
 
 
+def brush_of(state: MarkState, palette: QPalette) -> QBrush:
+    """Return the pattern of a state's marks in its colour; none where it is to come."""
+    return QBrush(ink_of(state, palette), _PATTERNS.get(state, Qt.BrushStyle.NoBrush))
+
+
 def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPalette) -> None:
     """Draw a mark at the bottom of its place, as high as its state says."""
     height = place.height() * HEIGHTS[state]
@@ -50,7 +55,7 @@ def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPale
     else:
         is_wide = bar.width() >= _LEAST_OUTLINE
         painter.setPen(QPen(ink, 1) if is_wide else Qt.PenStyle.NoPen)
-        painter.setBrush(QBrush(ink, _PATTERNS[state] if is_wide else Qt.BrushStyle.SolidPattern))
+        painter.setBrush(brush_of(state, palette) if is_wide else QBrush(ink))
     if bar.width() >= _LEAST_OUTLINE:
         bar.adjust(0.5, 0.5, -0.5, -0.5)
     painter.drawRect(bar)
@@ -64,10 +69,12 @@ class MarkLegend(LineLegend):
         self.setAccessibleName(self.tr("Legend of the timeline"))
         texts = {
             MarkState.READ: (
-                self.tr("read"), self.tr("Read, and right by its check or by what was sent."),
+                self.tr("read"),
+                self.tr("A frame whose place is known; a packet as all others have it."),
             ),
             MarkState.UNCHECKED: (
-                self.tr("not checked"), self.tr("Read; nothing says whether it is right."),
+                self.tr("not checked"),
+                self.tr("Read, but nothing says whether it is right, or where it belongs."),
             ),
             MarkState.LOST: (self.tr("lost"), self.tr("Not read, or read wrong.")),
             MarkState.PENDING: (self.tr("to come"), self.tr("Not looked at yet.")),

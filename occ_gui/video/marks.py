@@ -15,9 +15,9 @@ class MarkState(IntEnum):
     PENDING = 0
     """Not looked at yet."""
     READ = 1
-    """Read, and right by its check or by what was sent."""
+    """Read: a frame whose place in what is sent is known, a packet that is as all others."""
     UNCHECKED = 2
-    """Read, and nothing says whether it is right."""
+    """Read, but nothing says whether it is right, or where it belongs."""
     LOST = 3
     """Not read, or read wrong."""
 

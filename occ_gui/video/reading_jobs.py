@@ -8,10 +8,16 @@ import numpy as np
 
 import occ_model as occ
 from occ_gui.background.cancellable import Report
-from occ_gui.video.film_reading import Figure, FilmReading
-from occ_gui.video.marks import MarkState
-from occ_model.results import DecodeResult
-from occ_model.results.video import Video
+from occ_gui.video.film_reading import FilmReading
+from occ_gui.video.marks import Marks, MarkState
+from occ_gui.video.reading_words import figures_of, sentences_of
+from occ_model.results.video import Video, VideoFrame
+from occ_model.results.video_reading import (
+    FilmProgress,
+    FrameReading,
+    PacketReading,
+    VideoReading,
+)
 from occ_model.scene.scene import Scene
 
 _INTERVAL = 0.1
@@ -19,6 +25,12 @@ _INTERVAL = 0.1
 
 _LIVE_INTERVAL = 0.03
 """The same for a camera, whose picture is shown with each."""
+
+_LOOK_INTERVAL = 1.0
+"""Seconds between two looks at all frames together."""
+
+_LOOK_SHARE = 0.2
+"""Largest share of the time that looking at all frames together takes."""
 
 MOST_LIVE = 900
 """Frames of a live film that are remembered: half a minute of 30 a second."""
@@ -43,60 +55,129 @@ class ReadingRequest:
     is_live: bool = False
 
 
-class _Collected:
-    """What has been read so far, frame by frame."""
-
-    def __init__(self, request: ReadingRequest) -> None:
-        most = MOST_LIVE if request.is_live else None
-        self._film, self._scene = request.film, request.scene
-        self._times: deque[float] = deque(maxlen=most)
-        self._states: deque[int] = deque(maxlen=most)
-        self._texts: deque[str] = deque(maxlen=most)
-
-    def add(self, time: float, decoded: DecodeResult) -> None:
-        self._times.append(time)
-        self._states.append(self._state_of(decoded))
-        text = decoded.payload or ("" if decoded.code is None else str(decoded.code))
-        if decoded.failure is None and text:
-            self._texts.append(text)
-
-    def _state_of(self, decoded: DecodeResult) -> MarkState:
-        if decoded.failure is not None or decoded.code is None:
-            return MarkState.LOST
-        truth = self._film.scene
-        if truth is None or truth.transmitter.pattern:
-            return MarkState.UNCHECKED
-        is_right = tuple(decoded.bits.tolist()) == truth.transmitter.payload_bits
-        return MarkState.READ if is_right else MarkState.LOST
-
-    def reading(self) -> FilmReading:
-        states = np.array(self._states, dtype=np.uint8)
-        read = int(np.count_nonzero(states != MarkState.LOST))
-        figures = (Figure("Frames read", f"{read} of {len(states)}", "Frames with a code."),)
-        problem = self._film.problem
-        return FilmReading(
-            times=np.array(self._times, dtype=np.float64),
-            states=states,
-            text="\n".join(self._texts),
-            figures=figures if len(states) else (),
-            sentences=(problem,) if problem else (),
-        )
-
-
 def read_film(request: ReadingRequest, report: Report) -> FilmReading:
     """Read a film from its first frame to its last; reports are FilmReadings.
 
     Raises
     ------
     OccError
-        The film cannot be read any more.
+        The film cannot be read any more, or the scene sends what no film is read for.
     """
     collected, last = _Collected(request), monotonic()
     interval = _LIVE_INTERVAL if request.is_live else _INTERVAL
     for frame in request.film:
         report(None)
-        collected.add(frame.time, occ.decode(frame.image, request.scene))
+        collected.add(frame)
         if monotonic() - last >= interval:
             report(collected.reading())
             last = monotonic()
+    collected.look()
     return collected.reading()
+
+
+class _Collected:
+    """What has been read so far, frame by frame."""
+
+    def __init__(self, request: ReadingRequest) -> None:
+        most = MOST_LIVE if request.is_live else None
+        self._request = request
+        self._times: deque[float] = deque(maxlen=most)
+        self._states: deque[int] = deque(maxlen=most)
+        self._reader = self._new_reader()
+        self._frames = 0
+        self._known: FilmProgress | None = None
+        self._whole: VideoReading | None = None
+        self._packets = self._before = Marks()
+        self._next_look = monotonic() + _LOOK_INTERVAL
+
+    def _new_reader(self) -> occ.VideoReader:
+        reader = occ.VideoReader(self._request.scene)
+        reader.time_step = self._request.film.time_step or 0.0
+        return reader
+
+    def add(self, frame: VideoFrame) -> None:
+        """Read the next frame."""
+        if self._request.is_live and self._frames == MOST_LIVE:
+            # What it knows grows with every frame.
+            self.look()
+            self._reader, self._frames = self._new_reader(), 0
+            self._before = self._packets
+        self._known = self._reader.add(frame)
+        self._frames += 1
+        self._times.append(frame.time)
+        self._states.append(state_of_frame(self._known.frame))
+        if monotonic() >= self._next_look:
+            self.look()
+
+    def look(self) -> None:
+        """Look at all frames together: later ones tell the places of earlier ones."""
+        if not self._frames:
+            return
+        began = monotonic()
+        self._whole = self._reader.reading()
+        for place, frame in enumerate(reversed(self._whole.frames), 1):
+            if place > len(self._states):
+                break
+            self._states[-place] = state_of_frame(frame)
+        found = marks_of_packets(self._whole.packets)
+        self._packets = _joined(self._before, found, self._times[0])
+        took = monotonic() - began
+        self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_SHARE)
+
+    def reading(self) -> FilmReading:
+        """Return what is known so far."""
+        known = self._known
+        if known is None:
+            problem = self._request.film.problem
+            return FilmReading(
+                np.zeros(0), np.zeros(0, dtype=np.uint8), sentences=(problem,) if problem else ()
+            )
+        whole = self._whole
+        is_whole = whole is not None and len(whole.frames) == known.frames
+        return FilmReading(
+            times=np.array(self._times, dtype=np.float64),
+            states=np.array(self._states, dtype=np.uint8),
+            packets=self._packets,
+            text=whole.payload
+            if is_whole and whole is not None and whole.payload
+            else known.payload,
+            figures=figures_of(known, whole),
+            sentences=sentences_of(known, whole, self._request.film.problem),
+        )
+
+
+def state_of_frame(frame: FrameReading) -> MarkState:
+    """Return whether a frame was read: its chips, and their place in what is sent."""
+    if frame.place is not None:
+        return MarkState.READ
+    return MarkState.UNCHECKED if frame.chips.size else MarkState.LOST
+
+
+def state_of_packet(packet: PacketReading) -> MarkState:
+    """Return whether a packet was read, and is as the payload of all together has it."""
+    if not packet.is_read or packet.correct is False:
+        return MarkState.LOST
+    return MarkState.UNCHECKED if packet.correct is None else MarkState.READ
+
+
+def marks_of_packets(packets: tuple[PacketReading, ...]) -> Marks:
+    """Return a mark for each packet, which lasts until the next one begins."""
+    if not packets:
+        return Marks()
+    starts = np.array([packet.time for packet in packets])
+    last = float(np.median(np.diff(starts))) if len(starts) > 1 else 0.0
+    states = np.array([state_of_packet(packet) for packet in packets], dtype=np.uint8)
+    return Marks(starts, np.append(starts[1:], starts[-1] + last), states)
+
+
+def _joined(before: Marks, after: Marks, first: float) -> Marks:
+    """Return marks of both, one after the other, from a time on."""
+    if not len(before):
+        return after
+    last = float(after.starts[0]) if len(after) else np.inf
+    kept = (before.ends > first) & (before.starts < last)
+    return Marks(
+        np.concatenate([before.starts[kept], after.starts]),
+        np.concatenate([before.ends[kept], after.ends]),
+        np.concatenate([before.states[kept], after.states]),
+    )

@@ -15,7 +15,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.video.mark_look import draw_mark, ink_of
+from occ_gui.video.mark_look import brush_of, draw_mark
 from occ_gui.video.marks import Marks, MarkState
 from occ_gui.video.timeline_scale import TimelineScale, tick_step
 from occ_gui.widgets.guarded_paint import guarded
@@ -199,7 +199,7 @@ class Timeline(QWidget):
                 height = place.height() * row[state] / total if total else 0.0
                 if height:
                     bar = QRectF(left, bottom - height, _LEAST_MARK, height)
-                    painter.setBrush(ink_of(state, self.palette()))
+                    painter.setBrush(brush_of(state, self.palette()))
                     painter.drawRect(bar)
                     bottom -= height
 
@@ -225,10 +225,14 @@ class Timeline(QWidget):
         left = self.x_of(float(self.frames.starts[self.index]))
         right = max(self.x_of(float(self.frames.ends[self.index])), left + 2.0)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        ink = self.palette().color(QPalette.ColorRole.Text)
-        painter.setPen(QPen(ink, 2))
+        ink, paper = (
+            self.palette().color(role)
+            for role in (QPalette.ColorRole.Text, QPalette.ColorRole.Base)
+        )
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawRect(QRectF(left, area.top() - 1, right - left, area.height() + 2))
+        for colour, width in ((paper, 5), (ink, 2)):
+            painter.setPen(QPen(colour, width))
+            painter.drawRect(QRectF(left, area.top() - 1, right - left, area.height() + 2))
         middle = (left + right) / 2
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(ink)

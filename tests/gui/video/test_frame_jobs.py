@@ -1,12 +1,13 @@
 """Jobs of a frame: what is shown of it is what the model says of that very frame."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_gui.video.frame_jobs import FrameRequest, shown_frame
+from occ_gui.video.frame_jobs import FrameRequest, shown_frame, start_of
 from occ_model.errors import OccError
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
@@ -83,3 +84,29 @@ def test_a_scene_that_cannot_be_filmed_is_a_sentence_beside_the_film(
 def test_a_frame_that_the_film_has_not_is_refused(request_of: FrameRequest, film: Video) -> None:
     with pytest.raises(OccError):
         shown_frame(replace(request_of, film=film, index=99))
+
+
+def test_the_simulation_is_in_phase_with_a_film_of_the_same_code(
+    request_of: FrameRequest, film: Video
+) -> None:
+    for index in range(6):
+        shown = shown_frame(replace(request_of, film=film, index=index))
+        assert shown.simulated is not None
+        assert shown.simulated.caption == "Simulated: in phase with the film"
+        assert shown.story is not None
+        start = start_of(shown.story.reading.decoded, request_of.scene)
+        truth = film.frame(index).scene
+        assert start is not None
+        assert truth is not None
+        packet = len(occ.packet(truth)) / truth.transmitter.switching_frequency
+        error = math.remainder(start - truth.model.start_time, packet)
+        assert abs(error) < 0.3 * truth.camera.readout_time
+
+
+def test_without_the_same_code_there_is_no_phase(film_scene: Scene, film: Video) -> None:
+    decoded = occ.decode(film.frame(0).image, film_scene)
+    assert start_of(decoded, film_scene) is not None
+    assert start_of(decoded, film_scene.replace(code=5)) is None
+    assert start_of(decoded, film_scene.replace(pattern="10")) is None
+    assert start_of(replace(decoded, chip_starts=None), film_scene) is None
+    assert start_of(replace(decoded, headers=()), film_scene) is None

@@ -216,7 +216,7 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
     assert not pane.view.transport.play.isEnabled()
     application.window.modes.switch("explore")
     assert not pane.live.is_filming
-    assert not video._thread.is_alive()
+    qtbot.waitUntil(lambda: not video._thread.is_alive())
 
 
 def test_a_camera_that_is_unplugged_leaves_its_last_picture_and_a_sentence(

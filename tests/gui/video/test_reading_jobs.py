@@ -1,0 +1,93 @@
+"""Jobs of the reading: what is shown is what the model says, and a live film is bounded."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_gui.video import reading_jobs
+from occ_gui.video.film_reading import FilmReading
+from occ_gui.video.marks import MarkState
+from occ_gui.video.reading_jobs import (
+    ReadingRequest,
+    marks_of_packets,
+    read_film,
+    state_of_frame,
+    state_of_packet,
+)
+from occ_model.results.video import Video
+from occ_model.results.video_reading import FrameReading, PacketReading
+from occ_model.scene.scene import Scene
+
+
+def packet(number: int, bits: list[int] | None, wrong: int | None) -> PacketReading:
+    read = None if bits is None else np.array(bits, dtype=np.uint8)
+    return PacketReading(number, 0, 0.002 * number, 0, 1.0, read, wrong)
+
+
+def test_a_packet_is_read_only_if_it_is_as_the_others() -> None:
+    found = [
+        packet(0, [1, 0], 0),
+        packet(1, [1, 1], 1),
+        packet(2, [1, 0], None),
+        packet(3, None, None),
+    ]
+    expected = [MarkState.READ, MarkState.LOST, MarkState.UNCHECKED, MarkState.LOST]
+    assert [state_of_packet(each) for each in found] == expected
+    marks = marks_of_packets(tuple(found))
+    assert marks.states.tolist() == expected
+    assert marks.ends.tolist() == pytest.approx([0.002, 0.004, 0.006, 0.008])
+    assert not len(marks_of_packets(()))
+
+
+def test_a_frame_is_read_where_its_place_is_known() -> None:
+    chips = np.array([1, 0], dtype=np.uint8)
+    assert state_of_frame(FrameReading(0, 0.0, chips=chips, place=3)) is MarkState.READ
+    assert state_of_frame(FrameReading(0, 0.0, chips=chips)) is MarkState.UNCHECKED
+    assert state_of_frame(FrameReading(0, 0.0, failure="Dark.")) is MarkState.LOST
+
+
+def test_the_end_is_what_the_model_reads_of_the_whole_film(film: Video, film_scene: Scene) -> None:
+    reports: list[Any] = []
+    found = read_film(ReadingRequest(film, film_scene), reports.append)
+    whole = occ.decode_video(film, film_scene)
+    assert found.text == whole.payload == "718"
+    assert found.times.tolist() == [frame.time for frame in film]
+    assert len(found.packets) == len(whole.packets)
+    read = np.count_nonzero(found.packets.states == MarkState.READ)
+    figures = {figure.label: figure.text for figure in found.figures}
+    assert figures["Packets"] == f"{whole.read} read, {whole.lost} lost"
+    assert read == whole.read
+    assert whole.clock is not None
+    frequency, unit = figures["Frequency"].split(" ± ")[0], figures["Frequency"].split()[-1]
+    assert unit == "kHz"
+    assert 1e3 * float(frequency) == pytest.approx(whole.clock.switching_frequency.value, abs=1.0)
+
+
+def test_a_live_film_keeps_the_last_frames_only(
+    film: Video, film_scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(reading_jobs, "MOST_LIVE", 4)
+    found = read_film(ReadingRequest(film, film_scene, is_live=True), lambda _: None)
+    assert found.times.tolist() == [frame.time for frame in film][-4:]
+    assert len(found.states) == 4
+    assert len(found.packets)
+    assert (found.packets.ends > found.times[0]).all()
+    assert (np.diff(found.packets.starts) > 0.0).all()
+
+
+def test_nothing_is_known_of_a_film_without_frames(film_scene: Scene) -> None:
+    class Empty(Video):
+        title, shape, frame_rate, frame_count = "Empty", (1, 1), None, None
+
+        def frames(self, first: int = 0) -> Any:
+            return iter(())
+
+        def frame(self, index: int) -> Any:
+            raise NotImplementedError
+
+    found = read_film(ReadingRequest(Empty(), film_scene), lambda _: None)
+    assert isinstance(found, FilmReading)
+    assert not len(found.times)
+    assert found.figures == ()

@@ -33,6 +33,15 @@ class CurveLegend(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("Curves of the profile"))
 
+    def rename(self, key: str, name: str) -> None:
+        """Give a line another name."""
+        pen, before = self._lines[key]
+        if name != before:
+            self._lines[key] = (pen, name)
+            keys, note = self.shown, self.note
+            self.shown = ()
+            self.show_lines(keys, note)
+
     def show_lines(self, keys: tuple[str, ...], note: str = "") -> None:
         """Show these entries, and a remark after them."""
         if (keys, note) != (self.shown, self.note):

@@ -40,6 +40,7 @@ class DataView(QWidget):
         self.labels: dict[str, QLabel] = {}
         """The values of the figures, by what they are."""
         self._names: dict[str, QLabel] = {}
+        self._present: list[str] = []
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(2)
@@ -83,17 +84,24 @@ class DataView(QWidget):
             self.labels[figure.label].setText(figure.text)
             for part in (self.labels[figure.label], self._names[figure.label]):
                 part.setToolTip(in_tool_tip(figure.meaning))
-        present = {figure.label for figure in figures}
+        present = [figure.label for figure in figures]
+        if present != self._present:
+            self._present = present
+            self._arrange()
+
+    def _arrange(self) -> None:
+        """Show the figures in their order, and those that there are not no more."""
         for label, value in self.labels.items():
-            value.setVisible(label in present)
-            self._names[label].setVisible(label in present)
+            for part in (self._names[label], value):
+                self._grid.removeWidget(part)
+                part.setVisible(label in self._present)
+        for row, label in enumerate(self._present):
+            self._grid.addWidget(self._names[label], row, 0)
+            self._grid.addWidget(self.labels[label], row, 1)
 
     def _add(self, label: str) -> None:
         name, value = QLabel(label), QLabel()
         value.setTextFormat(Qt.TextFormat.PlainText)
         value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         value.setAccessibleName(label)
-        row = len(self.labels)
-        self._grid.addWidget(name, row, 0)
-        self._grid.addWidget(value, row, 1)
         self.labels[label], self._names[label] = value, name

@@ -78,6 +78,8 @@ class FrameRows(QWidget):
         # The light of a frame that was filmed is not known: only what its columns gathered of it.
         self.rows.light.setVisible(story.knows_light)
         self.rows.time.setVisible(story.knows_light)
+        name = self.tr("simulation") if story.knows_light else self.tr("film")
+        self.rows.legend.rename("simulation", name)
         self.rows.show_picture(story.picture)
         self.rows.show_reading(story.reading)
 

@@ -1,0 +1,60 @@
+"""Data of a film: text that grows keeps what is selected, and figures stand in their order."""
+
+import numpy as np
+import pytest
+from PySide6.QtGui import QTextCursor
+from pytestqt.qtbot import QtBot
+
+from occ_gui.video.data_view import DataView
+from occ_gui.video.film_reading import Figure, FilmReading
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> DataView:
+    view = DataView()
+    qtbot.addWidget(view)
+    view.show()
+    return view
+
+
+def reading(text: str = "", *figures: str, sentences: tuple[str, ...] = ()) -> FilmReading:
+    shown = tuple(Figure(name, f"{name} 1", f"What {name} is.") for name in figures)
+    states = np.zeros(0, dtype=np.uint8)
+    return FilmReading(np.zeros(0), states, text=text, figures=shown, sentences=sentences)
+
+
+def test_text_that_grows_keeps_what_is_selected(view: DataView) -> None:
+    view.show_reading(reading("HEL"))
+    cursor = view.text.textCursor()
+    cursor.setPosition(0)
+    cursor.setPosition(2, QTextCursor.MoveMode.KeepAnchor)
+    view.text.setTextCursor(cursor)
+    view.show_reading(reading("HELLO"))
+    assert view.text.toPlainText() == "HELLO"
+    assert view.text.textCursor().selectedText() == "HE"
+    view.show_reading(reading("J.LLO"))
+    assert view.text.toPlainText() == "J.LLO"
+
+
+def test_figures_stand_in_their_order_and_go_when_they_are_not_given(
+    view: DataView, qtbot: QtBot
+) -> None:
+    view.show_reading(reading("", "b", "d"))
+    view.show_reading(reading("", "a", "b", "c", "d"))
+
+    def check() -> None:
+        tops = [view.labels[name].y() for name in "abcd"]
+        assert tops == sorted(set(tops))
+
+    qtbot.waitUntil(check)
+    assert view.labels["c"].accessibleName() == "c"
+    assert view.labels["c"].toolTip() == "What c is."
+    view.show_reading(reading("", "d", "a"))
+    assert [view.labels[name].isVisible() for name in "abcd"] == [True, False, False, True]
+
+
+def test_what_is_not_sure_is_said_below(view: DataView) -> None:
+    view.show_reading(reading(sentences=("One.", "Two.")))
+    assert view.sentences.text() == "One.\nTwo."
+    view.show_reading(reading())
+    assert not view.sentences.isVisible()

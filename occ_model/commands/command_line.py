@@ -14,6 +14,7 @@ from occ_model.commands import (
     codes,
     decode,
     figures,
+    film,
     limits,
     listing,
     match,
@@ -28,7 +29,7 @@ from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
 _COMMANDS = (
-    render, animate, plan, accuracy, sweep, limits, bench, most_bits, decode, match, figures,
+    render, animate, film, plan, accuracy, sweep, limits, bench, most_bits, decode, match, figures,
     transmit, codes, listing,
 )  # fmt: skip
 

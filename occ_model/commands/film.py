@@ -1,0 +1,138 @@
+"""The command ``occ-model film``: simulate a film and write it."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from occ_model.commands.options import (
+    Commands,
+    add_scene_options,
+    add_simulation_options,
+    scene_of,
+    simulation_settings_of,
+    whole_number,
+)
+from occ_model.commands.progress_bar import progress_bar
+from occ_model.errors import ParameterError, one_line, shown
+from occ_model.results.video import Video
+from occ_model.scene.parameters import quantity
+from occ_model.scene.parameters.pose_receiver_model import POSE
+from occ_model.scene.recording import DECLARED, Recording, Waypoint
+from occ_model.scene.units import SECOND
+from occ_model.video.export import write_video
+from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path
+from occ_model.video.load import load_video
+from occ_model.video.render import render_video
+
+_FRAMES = 90
+"""Frames of a film: three seconds at the usual rate."""
+
+_MOTIONS = tuple(parameter.name for parameter in POSE)
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser("film", help="simulate a film and write it")
+    add_scene_options(parser)
+    add_simulation_options(parser)
+    parser.add_argument(
+        "--frames", type=whole_number, default=_FRAMES, metavar="N", help="default: %(default)s"
+    )
+    for declared in DECLARED:
+        usual = declared.format(declared.default)
+        parser.add_argument(
+            f"--{declared.name.replace('_', '-')}",
+            default=usual,
+            metavar="VALUE",
+            help=f"{declared.meaning.rstrip('.').lower()}; default: {usual}",
+        )
+    parser.add_argument(
+        "--exposures",
+        default="",
+        metavar="TIMES",
+        help="exposure times of the frames in turn, such as 68us,136us; default: the scene's",
+    )
+    parser.add_argument(
+        "--waypoint",
+        dest="waypoints",
+        metavar="TIME:NAME=VALUE,...",
+        action="append",
+        default=[],
+        help="how far the panel, as the camera sees it, has moved at a time, such as "
+        "'1s:offset_x=20cm,roll=5deg'; may be repeated, in the order of time",
+    )
+    parser.add_argument(
+        "-o", "--out", type=Path, required=True,
+        help=f"file to write: {', '.join(FILM_ENDINGS)}; all but .mp4 keep every grey level",
+    )  # fmt: skip
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    recording = _recording(options)
+    film = render_video(
+        scene_of(options), options.frames, recording, settings=simulation_settings_of(options)
+    )
+    check_film_path(options.out, recording.frame_rate)
+    with progress_bar(total=options.frames, unit="frame") as bar:
+        count = write_video(film, options.out, lambda _done: bar.update())
+    rows, columns = film.shape
+    gap = recording.gap(film.scene)
+    name = one_line(str(options.out))
+    print(
+        f"{name}: {count} frames of {columns} columns, {rows} rows; "
+        f"gap {SECOND.format(gap)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
+    )
+    if options.out.suffix.lower() not in LOSSLESS:
+        print(_loss(film, options.out))
+    return 0
+
+
+def _recording(options: argparse.Namespace) -> Recording:
+    """Read the recording from a command line."""
+    values = {
+        declared.name: declared.parse(getattr(options, declared.name)) for declared in DECLARED
+    }
+    texts = [text for text in options.exposures.split(",") if text.strip()]
+    exposures = tuple(quantity("exposure_time").parse(text) for text in texts)
+    path = tuple(_waypoint(text) for text in options.waypoints)
+    return Recording(**values, exposure_times=exposures, path=path)  # type: ignore[arg-type]
+
+
+def _waypoint(text: str) -> Waypoint:
+    """Read a waypoint as it is written on a command line."""
+    start, _, rest = text.partition(":")
+    time = SECOND.parse(start)
+    if time is None or not rest:
+        raise ParameterError(
+            f"waypoint is {shown(text)}; allowed: a time and what has changed, such as "
+            "1s:offset_x=20cm,roll=5deg."
+        )
+    changes: dict[str, float] = {}
+    for part in rest.split(","):
+        name, _, value = part.partition("=")
+        name = name.strip()
+        if name not in _MOTIONS:
+            raise ParameterError(f"waypoint changes {shown(name)}; allowed: {', '.join(_MOTIONS)}.")
+        unit = quantity(name).unit
+        number = unit.parse(value)
+        if number is None:
+            raise ParameterError(
+                f"waypoint's {name} is {shown(value)}; allowed: a number in {unit.display(1.0)[0]}."
+            )
+        changes[name] = number
+    return Waypoint(time, **changes)
+
+
+def _loss(film: Video, path: Path) -> str:
+    """Say what a lossy codec did to the first frame."""
+    written = load_video(path, "columns").frame(0).image
+    rows, columns = written.shape
+    error = written.astype(np.float64) - film.frame(0).image[:rows, :columns]
+    pixels = np.sqrt(np.mean(error**2))
+    means = np.sqrt(np.mean(np.mean(error, axis=0) ** 2))
+    return (
+        f"Its codec is lossy: in the first frame pixels differ by {pixels:.2g} levels from the "
+        f"simulated ones and column means by {means:.2g} (root mean square)."
+    )

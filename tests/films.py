@@ -105,10 +105,29 @@ def _enlarged(content: bytearray, chance: random.Random) -> None:
 
 def with_steps(film: bytes, steps: Sequence[int]) -> bytes:
     """Change how far apart the frames of an MP4 film are, in units of its time scale."""
-    table = struct.pack(">I", len(steps)) + b"".join(struct.pack(">II", 1, step) for step in steps)
+    table = b"".join(struct.pack(">II", 1, step) for step in steps)
+    return _with_table(film, b"stts", struct.pack(">I", len(steps)) + table)
+
+
+def lasting(film: bytes, frames: int) -> bytes:
+    """Show the first frame of an MP4 or MOV film again and again, without storing it again."""
+    place = film.index(b"stts") + 12
+    (step,) = struct.unpack_from(">I", film, place + 4)
+    sizes, chunks = film.index(b"stsz") + 8, film.index(b"stco") + 12
+    size = struct.unpack_from(">I", film, sizes)[0] or struct.unpack_from(">I", film, sizes + 8)[0]
+    (first,) = struct.unpack_from(">I", film, chunks)
+    film = _with_table(film, b"stts", struct.pack(">III", 1, frames, step))
+    film = _with_table(film, b"stsz", struct.pack(">II", size, frames))
+    film = _with_table(film, b"stsc", struct.pack(">IIII", 1, 1, 1, 1))
+    film = _with_table(film, b"stco", struct.pack(">I", frames) + struct.pack(">I", first) * frames)
+    return film.replace(b"edts", b"free")  # which says how much of the film is shown
+
+
+def _with_table(film: bytes, name: bytes, table: bytes) -> bytes:
+    """Put another table of frames into an MP4 film, which has them at its end."""
     path = (b"moov", b"trak", b"mdia", b"minf", b"stbl")
-    places = [film.index(box) - 4 for box in path]
-    place = film.index(b"stts", places[-1]) - 4
+    places = [film.rindex(box) - 4 for box in path]
+    place = film.index(name, places[-1]) - 4
     (old,) = struct.unpack_from(">I", film, place)
     new = struct.pack(">I", 12 + len(table)) + film[place + 4 : place + 12] + table
     changed = bytearray(film[:place] + new + film[place + old :])

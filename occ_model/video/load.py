@@ -26,6 +26,12 @@ from occ_model.video.file.decoder_process import (
 from occ_model.video.file.note import note_in
 from occ_model.video.file.source import CHANNELS, StoredFrame
 
+_SAME_TIME = 1e-6
+"""Seconds by which a frame's time may differ from that which it was stated to have."""
+
+_NEAR = 10
+"""A frame so few frames ahead is decoded to; one further away is looked for by its time."""
+
 _LOOKED_AT = 5
 """Frames at a film's start on which the scan axis is found."""
 
@@ -121,7 +127,11 @@ class VideoFile(Video):
             self.close()
 
     def frame(self, index: int) -> VideoFrame:
-        """Read one frame."""
+        """Read one frame.
+
+        One that was not read before is looked for at the time that the frame rate gives it, and
+        decoded from the start of the film where no frame has that time.
+        """
         check_count("index", index, 0)
         index = int(index)
         if self._stepping is not None and self._stepping.frame.index == index:
@@ -141,25 +151,33 @@ class VideoFile(Video):
             self._stepping = None
 
     def _at(self, index: int) -> tuple[StoredFrame | None, DecoderProcess]:
-        """Find one frame: forward from the one at hand, else by its time, else from the start."""
+        """Find one frame: the next after the one at hand, else by its time, else from the start."""
         stepping, self._stepping = self._stepping, None
         try:
-            if stepping is not None and stepping.frame.index < index:
+            if stepping is not None and 0 < index - stepping.frame.index <= _NEAR:
                 decoder = stepping.decoder
                 passed = index - stepping.frame.index - 1
                 if decoder.skip(passed) < passed:
                     return None, decoder
                 return self._next(decoder, index), decoder
             decoder = stepping.decoder if stepping is not None else self._opened()[0]
-            if index < len(self._times):
-                found = decoder.seek(index, self._times[index])
-                if found is not None:
-                    return found, decoder
+            found = self._sought(decoder, index)
+            if found is not None:
+                return found, decoder
             self._open(decoder)
             passed = decoder.skip(index)
             return (self._next(decoder, index) if passed == index else None), decoder
         except DecoderStoppedError as error:
             raise VideoError(f"Frame {index} of {self._shown} cannot be read: {error}.") from None
+
+    def _sought(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
+        """Find a frame by its time: that which it had before, or should have by the frame rate."""
+        if index < len(self._times):
+            return decoder.seek(index, self._times[index], _SAME_TIME)
+        if self.frame_rate is None or self.frame_count is None or index >= self.frame_count:
+            return None
+        time = self._first_time + index / self.frame_rate
+        return decoder.seek(index, time, (self.time_step or 0.0) / 2 + _SAME_TIME)
 
     def _next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
         """Read the next frame, whose number this is; note its time, or how the film ends."""

@@ -130,7 +130,7 @@ class _Answering:
                 passed += 1
             return {"passed": passed}, None
         if request["do"] == "seek":
-            frame = self._source.seek(request["index"], request["time"])
+            frame = self._source.seek(request["index"], request["time"], request["within"])
         else:
             frame = self._source.read()
         if frame is None:

@@ -114,13 +114,18 @@ class DecoderProcess:
                 break
         return passed
 
-    def seek(self, index: int, time: float) -> StoredFrame | None:
+    def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
         """Give a frame anywhere in the film, None where it is not found so.
 
         Raises as :meth:`read` does.
+
+        Parameters
+        ----------
+        index, time, within
+            Its number, its time and by how much that may differ, both in seconds.
         """
         self._forget()
-        return _frame(*self._ask({"do": "seek", "index": index, "time": time}))
+        return _frame(*self._ask({"do": "seek", "index": index, "time": time, "within": within}))
 
     def close_film(self) -> None:
         """Close the film that is open, whose memory is freed."""

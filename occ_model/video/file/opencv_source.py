@@ -11,7 +11,9 @@ from occ_model.video.file.source import FrameSource, StoredFrame, one_channel, t
 
 _MILLISECONDS = 1e3
 _MOST_FRAMES, _FASTEST = 1e9, 1e6
-_SAME_TIME = 1e-6
+_THREADS = 2
+"""Threads of FFmpeg. With one for each of many processors, each keeping frames, films of 4K would
+take more memory than the process may have."""
 
 
 class OpenCvSource(FrameSource):
@@ -20,7 +22,9 @@ class OpenCvSource(FrameSource):
     def __init__(self, path: Path, channel: str) -> None:
         self._channel = channel
         # FFmpeg takes what begins with "/" or a drive's letter for a file, never for an address.
-        self._capture = cv2.VideoCapture(str(path.resolve()), cv2.CAP_FFMPEG)
+        self._capture = cv2.VideoCapture(
+            str(path.resolve()), cv2.CAP_FFMPEG, (cv2.CAP_PROP_N_THREADS, _THREADS)
+        )
         if not self._capture.isOpened():
             raise VideoError("no film was found in it.")
         width = self._capture.get(cv2.CAP_PROP_FRAME_WIDTH)
@@ -43,13 +47,13 @@ class OpenCvSource(FrameSource):
         """Pass over the next frame; tell whether there was one."""
         return bool(self._capture.grab())
 
-    def seek(self, index: int, time: float) -> StoredFrame | None:
+    def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
         """Give a frame anywhere in the film, None where it has another time than was stated."""
         # OpenCV counts frames by their times, which fails where they are not equally far apart.
         if not self._capture.set(cv2.CAP_PROP_POS_FRAMES, index):
             return None
         frame = self.read()
-        return frame if frame is not None and abs(frame.time - time) < _SAME_TIME else None
+        return frame if frame is not None and abs(frame.time - time) < within else None
 
     def close(self) -> None:
         """Free the file and the decoder."""

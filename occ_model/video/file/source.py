@@ -56,13 +56,13 @@ class FrameSource(ABC):
     def skip(self) -> bool:
         """Pass over the next frame; tell whether there was one."""
 
-    def seek(self, index: int, time: float) -> StoredFrame | None:  # noqa: ARG002 - some cannot
+    def seek(self, index: int, time: float, within: float) -> StoredFrame | None:  # noqa: ARG002
         """Give a frame anywhere in the film, None where this source cannot find it surely.
 
         Parameters
         ----------
-        index, time
-            Its number, and the time that it had when it was read before.
+        index, time, within
+            Its number, its time and by how much that may differ, both in seconds.
         """
         return None
 

@@ -2,6 +2,9 @@
 
 import gc
 import os
+import subprocess
+import sys
+from itertools import islice
 from pathlib import Path
 
 import cv2
@@ -14,6 +17,7 @@ from films import (
     RATE,
     damaged_film,
     film_bytes,
+    lasting,
     stripes,
     turned_right,
     with_steps,
@@ -323,3 +327,33 @@ def test_a_thousand_damaged_films_do_too(tmp_path: Path) -> None:
     # The largest decoder and this whole process of the tests together.
     assert children < 420e6
     assert children + own < 1200e6
+
+
+def test_a_long_film_is_as_long_as_it_states_and_each_frame_can_be_had(tmp_path: Path) -> None:
+    film = occ.load_video(saved(tmp_path, lasting(film_bytes("mov", "MJPG"), 18_000), "mov"))
+    assert film.frame_count == 18_000
+    first, last = film.frame(0), film.frame(17_999)
+    np.testing.assert_array_equal(first.image, last.image)
+    assert last.time == pytest.approx(17_999 / RATE)
+    assert [frame.index for frame in islice(film, 2)] == [0, 1]
+
+
+@pytest.mark.whole
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the memory from Linux's /proc")
+@pytest.mark.parametrize(("ending", "codec"), [("mov", "MJPG"), ("mp4", "mp4v"), ("webm", "VP90")])
+def test_ten_minutes_of_4k_stay_within_400_megabytes(
+    tmp_path: Path, ending: str, codec: str
+) -> None:
+    path = tmp_path / f"film.{ending}"
+    write_film(path, codec, (stripes(n, 2160, 3840) for n in range(8)), size=(2160, 3840))
+    if codec == "MJPG":
+        path.write_bytes(lasting(path.read_bytes(), 18_000))
+    # In a process of its own: this one has made the film.
+    ran = subprocess.run(
+        [sys.executable, str(Path(__file__).with_name("film_memory.py")), str(path)],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    frames, early, late = map(int, ran.stdout.split())
+    assert frames == (60 if codec == "MJPG" else 8)
+    assert late < 400_000_000
+    assert late < 1.1 * early

@@ -29,7 +29,7 @@ class FrameReading:
         The rectangle of the image that was read, None where no panel was found.
     chips : ndarray of uint8, shape (chips,)
         The chips in view, the first sent first; those at both ends may be cut off.
-    ratios : ndarray of float32, shape (chips,)
+    ratios : ndarray of float64, shape (chips,)
         How much likelier each chip is lit than not: the logarithm of the ratio of both likelihoods.
     whole : (int, int)
         The first chip, and the one after the last, that are not cut off.

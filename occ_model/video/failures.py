@@ -1,5 +1,6 @@
 """Sentences that say why a film's payload was not read."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,6 +12,20 @@ from occ_model.video.period import SentPeriod
 
 _LEAST_CERTAINTY = 0.9
 """Least probability that all bits are right, of a payload that is read."""
+
+
+def certainty_of(soft: SoftFrame | None, period: SentPeriod) -> float:
+    """Return the probability that all bits are right, by the votes and by what the code finds.
+
+    With c the probability that no chip is wrong, -ln c is the expected number of wrong ones. A code
+    that finds any single wrong chip has excluded just one; what remains is none, or two and more.
+    """
+    if soft is None or soft.framed.failure is not None or period.scheme is None:
+        return 0.0
+    certainty = soft.certainty
+    if period.scheme.finds_wrong_chip and 0.0 < certainty < 1.0:
+        certainty /= 1.0 + certainty * math.log(certainty)
+    return certainty
 
 
 def why_unplaced(frames: Sequence[FrameReading]) -> str:
@@ -42,16 +57,17 @@ def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> 
         return _why_incomplete(joined, period)
     if soft.framed.failure is not None:
         return soft.framed.failure
-    if soft.certainty < _LEAST_CERTAINTY and not period.scheme.framing.checks:
+    certainty = certainty_of(soft, period)
+    if certainty < _LEAST_CERTAINTY and not period.scheme.framing.checks:
         return (
             f"The chips are not certain enough: that all {period.scheme.bits} bits are right has a "
-            f"probability of {soft.certainty:.2g}."
+            f"probability of {certainty:.2g}."
         )
     return None
 
 
 def _why_incomplete(joined: Joined, period: SentPeriod) -> str:
-    unseen = ~(joined.seen | (period.known != 0))
+    unseen = ~joined.known
     text = (
         f"{int(unseen.sum())} of {period.length} chips were in no frame: they fell into the gap "
         "each time, or the film is too short."

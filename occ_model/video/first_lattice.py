@@ -1,5 +1,7 @@
 """The chips that a decoder found, on a regular lattice: the start of the fit of their timing."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
@@ -20,13 +22,19 @@ _STEPS_A_TURN = 8.0
 """Lengths of a chip that are tried while the last edge moves by a chip against the first."""
 
 
-def first_lattice(result: DecodeResult, scene: Scene) -> ChipLattice | None:
+def first_lattice(
+    result: DecodeResult, signal: FloatArray, before: int, scene: Scene
+) -> ChipLattice | None:
     """Put the chips of a decoder on a regular lattice.
 
     Parameters
     ----------
     result
-        With the chips and where each starts, or with the signal and a threshold.
+        With the chips and where each starts.
+    signal : ndarray of float64, shape (columns,)
+        The columns to put chips on: those of the result, and some to either side.
+    before
+        How many of them lie before those of the result.
     scene
         Its exposure time and switching frequency are a first guess.
 
@@ -35,9 +43,10 @@ def first_lattice(result: DecodeResult, scene: Scene) -> ChipLattice | None:
     ChipLattice or None
         None where the decoder found no chips.
     """
-    signal, starts = result.signal, result.chip_starts
-    if signal is None or starts is None or result.chips.size < _FEWEST_EDGES:
+    starts = result.chip_starts
+    if starts is None or result.chips.size < _FEWEST_EDGES:
         return None
+    starts = starts + before
     exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
     edges = np.flatnonzero(np.diff(result.chips.astype(np.int64))) + 1
     if len(edges) < _FEWEST_EDGES:
@@ -52,7 +61,10 @@ def first_lattice(result: DecodeResult, scene: Scene) -> ChipLattice | None:
     # The middle of an exposure at a column is where its chip is read.
     middle = float(np.mean(numbers - places * step))
     phase = middle - 0.5 * exposure
-    return _sliced(result, len(signal), step, phase, exposure)
+    lattice = _regular_chips(len(signal), step, phase, exposure)
+    numbers = lattice.first + np.arange(len(lattice.values), dtype=np.float64)
+    middles = np.asarray((numbers + 0.5 - middle) / step, dtype=np.float64)
+    return replace(lattice, values=_values(result, starts, signal, middles))
 
 
 def _regular(
@@ -87,22 +99,19 @@ def _numbered(places: FloatArray, rising: BoolArray, step: float) -> FloatArray:
     return np.asarray(numbers)
 
 
-def _sliced(
-    result: DecodeResult, columns: int, step: float, phase: float, exposure: float
-) -> ChipLattice:
-    """Read each chip of a lattice in the column whose exposure's middle is the chip's."""
+def _regular_chips(columns: int, step: float, phase: float, exposure: float) -> ChipLattice:
+    """Return the chips that columns can show, all of them dark."""
     first = int(np.floor(phase))
-    last = int(np.ceil(phase + step * (columns - 1) + exposure))
-    numbers = np.arange(first, max(last, first + 1))
-    middles = np.asarray((numbers + 0.5 - phase - 0.5 * exposure) / step, dtype=np.float64)
-    return ChipLattice(step, phase, exposure, first, _values(result, middles, columns))
+    last = max(int(np.ceil(phase + step * (columns - 1) + exposure)), first + 1)
+    return ChipLattice(step, phase, exposure, first, np.zeros(last - first, dtype=np.uint8))
 
 
-def _values(result: DecodeResult, middles: FloatArray, columns: int) -> ByteArray:
-    nearest = np.clip(np.rint(middles), 0, columns - 1).astype(np.int64)
-    if result.signal is not None and result.threshold is not None:
-        return np.asarray(result.signal[nearest] > result.threshold, dtype=np.uint8)
-    starts = result.chip_starts
-    assert starts is not None  # noqa: S101 - the caller has asked
+def _values(
+    result: DecodeResult, starts: FloatArray, signal: FloatArray, middles: FloatArray
+) -> ByteArray:
+    """Read each chip in the column whose exposure's middle is the chip's."""
+    nearest = np.clip(np.rint(middles), 0, len(signal) - 1).astype(np.int64)
+    if result.threshold is not None:
+        return np.asarray(signal[nearest] > result.threshold, dtype=np.uint8)
     place = np.clip(np.searchsorted(starts, nearest, side="right") - 1, 0, len(starts) - 1)
     return np.asarray(result.chips[place])

@@ -75,8 +75,17 @@ class Joined:
         """The chips that some frame shows whole."""
         return np.asarray(self._counts > 0)
 
+    @property
+    def known(self) -> BoolArray:
+        """The chips that some frame shows, or that are the same in every packet."""
+        return np.asarray(self.seen | (self._period.known != 0))
+
     def place(
-        self, frame: FrameReading, foretold: float | None = None, deviation: float = 0.0
+        self,
+        frame: FrameReading,
+        foretold: float | None = None,
+        deviation: float = 0.0,
+        part_unknown: bool = False,
     ) -> Place | None:
         """Find the place of a frame's first chip.
 
@@ -87,6 +96,9 @@ class Joined:
         foretold, deviation
             The place that the clock foretells, and its standard deviation in chips; None where it
             does not.
+        part_unknown
+            Whether places are right but for a whole number of parts: a frame's own number of its
+            part then says nothing.
 
         Returns
         -------
@@ -103,6 +115,9 @@ class Joined:
             likelihood = likelihood - 0.5 * (off / max(deviation, _LEAST_DEVIATION)) ** 2
         shown = self._period.places(frame.chips[first:last])
         places = np.array([(place - first) % length for place in shown], dtype=np.int64)
+        if part_unknown and len(places) and self._period.parts > 1:
+            parts = self._period.part_length * np.arange(self._period.parts)
+            places = (places[0] + parts) % length
         if len(places) == 1:
             place = int(places[0])
             return Place(place, True) if by_chips[place] > _UNLIKE else None
@@ -122,6 +137,10 @@ class Joined:
         at = (place + np.arange(len(ratios))) % length
         np.add.at(self._votes, at, ratios)
         np.add.at(self._counts, at[slice(*frame.whole)], 1)
+
+    def rotate(self, shift: int) -> None:
+        """Count the places of all chips from another start, ``shift`` chips later."""
+        self._votes, self._counts = np.roll(self._votes, shift), np.roll(self._counts, shift)
 
     def _likelihood(self, frame: FrameReading) -> FloatArray:
         """Return the logarithm of the likelihood of each place, 0 for one that tells nothing."""

@@ -26,7 +26,7 @@ def known_bits(joined: Joined, period: SentPeriod) -> IndexArray:
     if scheme is None or scheme.correction != "none":
         return np.full(0 if scheme is None else scheme.bits, -1, dtype=np.int64)
     chips = (joined.ratios > 0.0).astype(np.uint8)
-    known = joined.seen | (period.known != 0)
+    known = joined.known
     if period.parts > 1:
         return _of_parts(chips, known, period)
     return _of_blocks(chips, known, period)

@@ -18,6 +18,9 @@ _OUTLYING = 6.0
 _JUMP = 10.0
 """Deviations from which the phase jumps between two frames."""
 
+_LEAST_JUMP = 0.1
+"""Smallest jump in chips: the picture itself may shift the phase by less."""
+
 _MOST_JUMPS = 8
 
 _FEWEST_TO_COMPARE = 16
@@ -160,7 +163,7 @@ def _largest_jump(
     values = residuals[frames]
     heights = np.abs(np.diff(values))
     for place in np.argsort(heights)[::-1][:4].tolist():
-        if heights[place] < _JUMP * spread:
+        if heights[place] < max(_JUMP * spread, _LEAST_JUMP):
             return None
         frame = int(frames[place + 1])
         before, after = values[max(0, place - 2) : place + 1], values[place + 1 : place + 4]

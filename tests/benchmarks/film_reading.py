@@ -1,157 +1,17 @@
 """How well simulated films are read: the clock's errors, and payloads beside exact counting.
 
-python tests/benchmarks/film_reading.py            # all 40 films
+python tests/benchmarks/film_reading.py            # all 40 films: about ten minutes
 python tests/benchmarks/film_reading.py 8          # the first 8
 """
 
 import sys
-import time
-from dataclasses import dataclass
-from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 
-import occ_model as occ
-from occ_model.results.video_reading import Measured
-from occ_model.scene.payload import bits_of_payload
-from occ_model.scene.recording import Recording, Waypoint
-from occ_model.study.observation import panel_span
-from occ_model.video.counting import ShutterTiming, chips_seen
-from occ_model.video.period import period_of
-from occ_model.video.render import SimulatedVideo, render_video
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
-FILMS = 40
-
-_RATES = (24.0, 25.0, 29.97, 30.0, 50.0, 60.0, 120.0, 240.0)
-_BITS = (32, 48, 64, 96, 128, 256, 512, 1024)
-_SCHEMES = (
-    ("raw", "manchester"),
-    ("c-ook", "manchester"),
-    ("preamble", "differential-manchester"),
-    ("c-ook", "4b6b"),
-    ("raw", "4b6b"),
-)
-
-
-@dataclass(frozen=True)
-class Film:
-    """A film, and what its receiver knows roughly."""
-
-    scene: occ.Scene
-    recording: Recording
-    frames: int
-    rough: occ.Scene
-
-    def video(self) -> SimulatedVideo:
-        """Return the film."""
-        return render_video(self.scene, self.frames, self.recording)
-
-    @property
-    def truth(self) -> dict[str, float]:
-        """The clock, by the clock of the camera."""
-        drift = (1.0 + self.recording.transmitter_drift) / (1.0 + self.recording.camera_drift)
-        return {
-            "switching_frequency": self.scene.transmitter.switching_frequency * drift,
-            "readout_time": self.scene.camera.readout_time,
-            "gap": self.recording.gap(self.scene),
-        }
-
-
-@dataclass(frozen=True)
-class Judged:
-    """A reading beside the truth."""
-
-    film: Film
-    reading: occ.VideoReading
-    all_seen: bool
-    is_right: bool
-    milliseconds: float
-
-    def error(self, name: str) -> tuple[float, float]:
-        """Return a value of the clock less the truth, and the error that was stated."""
-        assert self.reading.clock is not None, self.reading.failure
-        measured: Measured = getattr(self.reading.clock, name)
-        return measured.value - self.film.truth[name], measured.error
-
-
-def film(number: int, seconds: float = 5.0) -> Film:
-    """Return one of the films; its number is the seed of all that differs."""
-    random = np.random.default_rng(2100 + number)
-    rate = _RATES[number % len(_RATES)]
-    gap = float(random.uniform(0.02, 0.4))
-    columns = int(random.choice([720, 1080, 1920]))
-    readout = round((1.0 - gap) / rate / columns, 9)
-    chip = float(random.uniform(7.0, 22.0))
-    frequency = round(1.0 / (chip * readout), 1)
-    framing, line_code = _SCHEMES[number % len(_SCHEMES)]
-    bits = random.integers(0, 2, _BITS[int(random.integers(len(_BITS)))])
-    scene = occ.load_preset("phone-68us").replace(
-        rows=48,
-        columns=columns,
-        readout_time=readout,
-        switching_frequency=frequency,
-        exposure_time=float(random.uniform(0.2, 0.9)) / frequency,
-        payload="bits:" + "".join(map(str, bits)),
-        framing=framing,
-        line_code=line_code,
-        panel_width=0.8,
-        panel_height=1.5,
-        distance=float(random.uniform(0.45, 1.2)),
-        start_time=float(random.uniform(0.0, 1.0)),
-        iso=400.0,
-    )
-    jitter = float(random.choice([0.0, 2e-5, 1e-4]))
-    recording = Recording(
-        frame_rate=rate,
-        frame_jitter=min(jitter, 0.99 * (1.0 / rate - columns * readout) / 6.0),
-        camera_drift=float(random.uniform(-1e-4, 1e-4)),
-        transmitter_drift=float(random.uniform(-1e-4, 1e-4)),
-        path=_path(random, seconds),
-        frame_times="nominal" if random.random() < 0.5 else "measured",
-    )
-    rough = scene.replace(
-        readout_time=readout * (1.0 + float(random.uniform(-4e-3, 4e-3))),
-        switching_frequency=frequency * (1.0 + float(random.uniform(-2e-3, 2e-3))),
-    )
-    return Film(scene, recording, round(seconds * rate), rough)
-
-
-def _path(random: np.random.Generator, seconds: float) -> tuple[Waypoint, ...]:
-    """Return a path of a panel that a hand moves to and fro, or none."""
-    if random.random() < 0.4:
-        return ()
-    times = np.arange(0.0, seconds + 0.5, 0.5)
-    return tuple(
-        Waypoint(
-            float(at), offset_x=float(random.normal(0.0, 0.02)),
-            offset_y=float(random.normal(0.0, 0.02)), distance=float(random.normal(0.0, 0.01)),
-        )
-        for at in times
-    )  # fmt: skip
-
-
-def judge(one: Film) -> Judged:
-    """Read a film, and compare it with the truth and with exact counting."""
-    video = one.video()
-    reader = occ.VideoReader(one.rough)
-    seen: list[tuple[ShutterTiming, Fraction]] = []
-    used = 0.0
-    for frame in video:
-        start = time.process_time()
-        reader.add(frame)
-        used += time.process_time() - start
-        assert frame.scene is not None
-        assert frame.start is not None
-        span = panel_span(frame.scene)
-        assert span is not None
-        timing = ShutterTiming.of(frame.scene, (span.first_column, span.last_column))
-        seen.append((timing, frame.start))
-    start = time.process_time()
-    reading = reader.reading()
-    used += time.process_time() - start
-    counts = chips_seen(seen, period_of(one.scene).length)
-    right = reading.bits.tolist() == list(bits_of_payload(one.scene.transmitter.payload))
-    return Judged(one, reading, bool((counts > 0).all()), right, 1e3 * used / one.frames)
+from simulated_films import FILMS, film, judge
 
 
 def main(count: int) -> None:

@@ -47,7 +47,7 @@ def decode_video(
         The file cannot be read.
     """
     reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
-    reader.times_are_rounded_to(video.time_step or 0.0)
+    reader.time_step = video.time_step or 0.0
     for frame in video:
         known = reader.add(frame)
         if progress is not None:

@@ -58,8 +58,13 @@ class VideoReader:
         self._complete_at: float | None = None
         self._payload = ""
 
-    def times_are_rounded_to(self, step: float) -> None:
-        """Say that frame times are whole multiples of a step in seconds."""
+    @property
+    def time_step(self) -> float:
+        """The step that frame times are whole multiples of, in seconds; 0 if they are exact."""
+        return self._placed.time_step
+
+    @time_step.setter
+    def time_step(self, step: float) -> None:
         self._placed.time_step = step
 
     def add(self, frame: VideoFrame) -> FilmProgress:

@@ -153,8 +153,8 @@ def test_a_square_wave_leaves_aliases_and_they_are_said() -> None:
     assert not reading.clock.is_sure
     stated = [reading.clock.switching_frequency.value]
     stated += [frequency for frequency, _ in reading.clock.alternatives]
-    # A wave of two chips, 30 frames a second: one each 60 Hz, within 3 % of 4 kHz.
-    assert sorted(round(frequency) for frequency in stated) == [3880 + 60, 4000, 4060]
+    # A wave of two chips, 30 frames a second: one each 60 Hz, from 4 kHz / 1.03 to 4 kHz / 0.97.
+    assert sorted(round(frequency) for frequency in stated) == [3940, 4000, 4060, 4120]
     assert any("fit the frames alike" in problem for problem in reading.clock.problems)
 
 

@@ -1,22 +1,31 @@
-"""The command ``occ-model decode``: read the code from a picture or photo."""
+"""The command ``occ-model decode``: read the code from a picture, a photo or a film."""
 
 import argparse
 import sys
 from pathlib import Path
 
-from occ_model.commands.options import Commands, add_scene_options, decoder_name, scene_of
+from occ_model.commands.film_reading import read_film
+from occ_model.commands.options import (
+    Commands,
+    add_scene_options,
+    decoder_name,
+    number,
+    scene_of,
+)
 from occ_model.photo.reading.load import CHANNELS, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import DecodeResult
+from occ_model.video.clock import READOUT_TOLERANCE
+from occ_model.video.file.kind import is_film
 
 
 def add_to(commands: Commands) -> None:
     """Add the command."""
-    parser = commands.add_parser("decode", help="read the code from a picture or photo")
-    parser.add_argument("file", type=Path, help="image file")
+    parser = commands.add_parser("decode", help="read the code from a picture, photo or film")
+    parser.add_argument("file", type=Path, help="picture or film")
     add_scene_options(parser)
     parser.add_argument(
         "--decoder",
@@ -35,13 +44,25 @@ def add_to(commands: Commands) -> None:
         choices=CHANNELS,
         default="brightest",
         help="what of a coloured photo is read; brightest: the colour with the largest mean "
-        "(default)",
+        "(default); of a film red, green or blue, else its luma",
+    )
+    parser.add_argument(
+        "--follow", action="store_true", help="of a film: print what is known after each frame"
+    )
+    parser.add_argument(
+        "--readout-tolerance",
+        type=number,
+        default=100.0 * READOUT_TOLERANCE,
+        metavar="PERCENT",
+        help="of a film: by how much the readout time may be another one; default: %(default)g",
     )
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
+    if options.follow or is_film(options.file):
+        return read_film(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
     result = decode(photo.image, scene, options.decoder)
     for line in _report(result):

@@ -36,8 +36,8 @@ def why_unplaced(frames: Sequence[FrameReading]) -> str:
     if not read:
         return f"None of {len(frames)} frames shows chips; of the first one: {frames[0].failure}"
     return (
-        f"None of {len(read)} frames with chips shows a header, so that their place in the packet "
-        "is not known: come closer, or raise the frequency."
+        f"The place in the packet of none of {len(read)} frames with chips is known: no header is "
+        "in view, or another scheme or number of bits is sent."
     )
 
 

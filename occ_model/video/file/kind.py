@@ -1,0 +1,29 @@
+"""Tell a film from a single picture by the first bytes of a file."""
+
+from pathlib import Path
+
+from occ_model.errors import SceneFileError, VideoError
+from occ_model.files.reading import read_start
+from occ_model.video.file.containers import FIRST_BYTES, container_of
+
+_PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")
+"""Brands of pictures that begin as MP4 films do: HEIC, AVIF and Canon's raw files."""
+
+_PNG = b"\x89PNG\r\n\x1a\n"
+
+_ANIMATED = b"acTL"
+"""The chunk that an animated PNG has before its first picture."""
+
+_START = 4096
+
+
+def is_film(path: Path) -> bool:
+    """Whether a file holds a film, as far as its first bytes tell; not whether it can be read."""
+    try:
+        start = read_start(path, _START)
+        container_of(path, start[:FIRST_BYTES])
+    except (SceneFileError, VideoError):
+        return False
+    if start[4:8] == b"ftyp" and start[8:12] in _PICTURES:
+        return False
+    return not start.startswith(_PNG) or _ANIMATED in start.partition(b"IDAT")[0]

@@ -1,5 +1,6 @@
 """Open a film's file: frames in grey levels, read as they are needed, columns the scan axis."""
 
+import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -97,6 +98,7 @@ class VideoFile(Video):
         self._problem: str | None = None
         self._times: list[float] = []
         self._stepping: _Stepping | None = None
+        self._lock = threading.Lock()
         self._look(scan_axis)
         self._take_note()
 
@@ -133,7 +135,10 @@ class VideoFile(Video):
         decoded from the start of the film where no frame has that time.
         """
         check_count("index", index, 0)
-        index = int(index)
+        with self._lock:
+            return self._read_one(int(index))
+
+    def _read_one(self, index: int) -> VideoFrame:
         if self._stepping is not None and self._stepping.frame.index == index:
             return self._stepping.frame
         stored, decoder = self._at(index)

@@ -14,6 +14,7 @@ from itertools import count
 from math import inf
 from pathlib import Path
 
+from film_costs import film_decoding_cost, film_frame_cost, film_memory
 from measuring import Row, side_by_side
 from photos import match_cost, reading_cost
 
@@ -276,6 +277,9 @@ _ALL = (
     long_code_cost,
     match_cost,
     reading_cost,
+    film_frame_cost,
+    film_decoding_cost,
+    film_memory,
     cold_start,
 )
 

@@ -28,6 +28,8 @@ from PIL import Image
 import occ_model as occ
 from occ_model.arrays import ByteArray
 
+_MEMORY = Path(__file__).parents[2] / "benchmarks" / "film_memory.py"
+
 
 def saved(folder: Path, content: bytes, ending: str = "mp4") -> Path:
     path = folder / f"film.{ending}"
@@ -350,7 +352,7 @@ def test_ten_minutes_of_4k_stay_within_400_megabytes(
         path.write_bytes(lasting(path.read_bytes(), 18_000))
     # In a process of its own: this one has made the film.
     ran = subprocess.run(
-        [sys.executable, str(Path(__file__).with_name("film_memory.py")), str(path)],
+        [sys.executable, str(_MEMORY), str(path)],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     frames, early, late = map(int, ran.stdout.split())

@@ -27,7 +27,8 @@ def write_video(
         The film; it has an end.
     path
         The file. ``.mkv``, ``.gif`` and ``.png`` keep every grey level, ``.mp4`` does not: its
-        codec, MPEG-4, is lossy. A GIF's times are rounded to hundredths of a second.
+        codec, MPEG-4, is lossy. A GIF's times are rounded to hundredths of a second, those of an
+        MKV to thousandths, and the frame rate of MP4 and MKV by up to 0.001 Hz.
     progress
         Called with the number of frames written after each one; what it raises ends the work.
 

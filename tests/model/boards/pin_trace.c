@@ -16,6 +16,7 @@
 static avr_t *processor;
 static unsigned long edges_left;
 static uint32_t level = 0;
+static int pin;
 static avr_cycle_count_t begun = 0, longest = 0;
 
 #define TIMER1_COMPA 11
@@ -24,7 +25,10 @@ static void on_pin(struct avr_irq_t *irq, uint32_t value, void *argument)
 {
     (void)irq;
     (void)argument;
-    if (value == level || edges_left == 0)
+    avr_ioport_state_t port;
+    avr_ioctl(processor, AVR_IOCTL_IOPORT_GETSTATE('B'), &port);
+    const int is_output = port.ddr >> pin & 1;
+    if (!is_output || value == level || edges_left == 0)
         return;
     level = value;
     --edges_left;
@@ -63,7 +67,7 @@ int main(int count, char **words)
     avr_global_logger_set(say_nothing);
     if (elf_read_firmware(words[1], &program) != 0)
         return 3;
-    const int pin = atoi(words[2]);
+    pin = atoi(words[2]);
     edges_left = strtoul(words[3], NULL, 10);
     const avr_cycle_count_t last = strtoull(words[4], NULL, 10);
     processor = avr_make_mcu_by_name("atmega328p");

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+import occ_model as occ
 from occ_model.arrays import IndexArray
 from occ_model.boards.sketch import source_text
 from occ_model.boards.transmission import Transmission
@@ -21,11 +22,26 @@ _MAIN = """\
 void setup();
 void loop();
 #include "{sketch}"
+
+ISR(TIMER0_OVF_vect) {{
+  for (volatile uint8_t turn = 0; turn < 20; ++turn) {{
+  }}
+}}
+
 int main() {{
+  sei();
+  TCCR0A = _BV(WGM01) | _BV(WGM00);
+  TCCR0B = _BV(CS01) | _BV(CS00);
+  TIMSK0 = _BV(TOIE0);
+  TCCR1B = _BV(CS11) | _BV(CS10);
+  TCCR1A = _BV(WGM10);
+  for (volatile uint16_t turn = 0; turn < 999; ++turn) {{
+  }}
   setup();
   for (;;) loop();
 }}
 """
+"""As the Arduino core leaves the processor: interrupts of timer 0, and PWM by timer 1."""
 
 
 def missing_tools() -> str:
@@ -78,10 +94,11 @@ class SimulatedUno:
         text, data = run("avr-size", self.build(source)).splitlines()[1].split()[:2]
         return int(text) + int(data)
 
-    def edges(self, sent: Transmission, count: int) -> Trace:
-        """Run a sketch until the pin has so many edges, or much longer than they should take."""
+    def edges(self, sent: Transmission, packets: int) -> Trace:
+        """Run a sketch until the pin has the edges of some packets, or for twice their time."""
         program = self.build(source_text(sent))
-        most = 2 * (count + 2) * len(sent.chips) * sent.timing.cycles + 10**6
+        count = len(expected_edges(sent, packets)[0])
+        most = 2 * (packets + 1) * len(sent.chips) * sent.timing.cycles + 10**6
         lines = run(self._trace, program, str(PIN_IN_PORT_B), str(count), str(most)).split()
         numbers = np.array(lines, dtype=np.int64).reshape(-1, 2)
         return Trace(numbers[:-1, 0], numbers[:-1, 1], int(numbers[-1, 0]))
@@ -89,7 +106,7 @@ class SimulatedUno:
 
 def expected_edges(sent: Transmission, packets: int) -> tuple[IndexArray, IndexArray]:
     """Give the chips at which the light of some packets changes, from dark on, and the levels."""
-    chips = np.tile(sent.chips, packets).astype(np.int64)
+    chips = np.tile(occ.packet(sent.scene), packets).astype(np.int64)
     places = np.flatnonzero(np.diff(chips, prepend=0))
     return places, chips[places]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.point_names import NamedPoint, PointNames
 from occ_gui.accuracy.ways_shown import Way, ways_shown
@@ -107,15 +107,14 @@ class AccuracyPlot(QWidget):
         for part, scatter in self.scatters.items():
             scatter.setBrush(seen_on(palette, COLOURS[part]))
         for part, line in self.lines.items():
-            line.setPen(thin(seen_on(palette, COLOURS[part])))
+            line.setPen(self.plot.stroke(thin(seen_on(palette, COLOURS[part]))))
         self._name_points(palette)
         grey = palette.color(QPalette.ColorRole.Mid)
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 
     def _lay_out(self) -> None:
-        self._fit_button = QToolButton()
+        self._fit_button = QPushButton()
         self._fit_button.setText(self.tr("Fit"))
-        self._fit_button.setAutoRaise(True)
         self._fit_button.setToolTip(self.tr("Show all points."))
         self._fit_button.clicked.connect(self._fit_again)
         head = QHBoxLayout()
@@ -192,6 +191,7 @@ class AccuracyPlot(QWidget):
         self.names.show(
             [NamedPoint(x, y, way.name) for way, x, y in zip(self._drawn, xs, ys, strict=True)],
             palette.color(QPalette.ColorRole.Text),
+            palette.color(QPalette.ColorRole.Base),
         )
 
     def _fit_again(self) -> None:

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, QSizeF
-from PySide6.QtGui import QColor, QPen
+from PySide6.QtGui import QBrush, QColor, QPen
 
 from occ_model.arrays import BoolArray, FloatArray
 
@@ -32,6 +32,9 @@ _FONT_SHARE = 0.9
 
 _POINT = 9.0
 """Width of a point in pixels."""
+
+_PLATE = 215
+"""Opacity of the plate under a name, of 255."""
 
 _LED_FROM = 14.0
 """Distance in pixels from which a line leads from a point to its name."""
@@ -82,11 +85,14 @@ class PointNames:
         """The names that are shown, and their places in pixels of the plot."""
         return dict(self._shown)
 
-    def show(self, points: Sequence[NamedPoint], colour: QColor) -> None:
-        """Name these points, the most important first."""
+    def show(self, points: Sequence[NamedPoint], colour: QColor, paper: QColor) -> None:
+        """Name these points, the most important first, in one colour on plates of another."""
         self._points, self._colour = points, colour
+        plate = QColor(paper)
+        plate.setAlpha(_PLATE)
         while len(self._texts) < len(points):
             text, line = pg.TextItem(anchor=(0.5, 0.5)), pg.PlotCurveItem()
+            text.setZValue(1.0)  # its plate hides a line that would strike it through
             text.textItem.document().setDocumentMargin(1.0)
             font = self._plot.font()
             font.setPointSizeF(_FONT_SHARE * font.pointSizeF())
@@ -95,6 +101,8 @@ class PointNames:
                 self._plot.addItem(item, ignoreBounds=True)
             self._texts.append(text)
             self._lines.append(line)
+        for text in self._texts:
+            text.fill = QBrush(plate)
         self._arrange()
 
     def set_opacity(self, opacity: float) -> None:

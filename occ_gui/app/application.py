@@ -210,6 +210,7 @@ class Application(QObject):
         self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.overlays, mode))
 
     def _connect_slider_strips(self) -> None:
+        self.controls.add_foot(self.slider_strips.legend)
         shown = self.window.actions_by_name["slider_strips"]
         shown.toggled.connect(self.slider_strips.set_shown)
         shown.triggered.connect(self.preferences.keep_slider_strips)

@@ -56,7 +56,7 @@ class SignalPlot(QWidget):
         self.legend.add_line("threshold", thin(THRESHOLD, dash), self.tr("threshold"))
         self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), self.tr("chips: lit"))
         self.legend.add_line("model", thin(BAND, dash), self.tr("model of the code"))
-        self.signal = self.plot.add_curve(thin(SIMULATION))
+        self.signal = self.plot.add_curve(thin(SIMULATION), is_crowded=True)
         self.model = self.plot.add_curve(thin(BAND, dash))
         self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
         self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[])

@@ -195,9 +195,9 @@ class LimitCard(QFrame):
         """Show whether the limit is of an earlier scene."""
         self.value.setEnabled(not outdated)
         self.name.set_full_text(
-            self.tr("{name}, an earlier scene").format(name=self._decoder)
+            self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
             if outdated
-            else self.tr("{name} reads up to").format(name=self._decoder)
+            else self.tr("Decoder {name} reads up to").format(name=self._decoder)
         )
         if outdated:
             self.go.setEnabled(False)

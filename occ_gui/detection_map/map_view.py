@@ -183,9 +183,9 @@ class MapView(QWidget):
         if known < total:
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
-            text = self.tr("{total} points, images at each: {images}").format(
-                total=total, images=images
-            )
+            text = self.tr(
+                "{total} points, images at each: {images}; colour: share of bits read"
+            ).format(total=total, images=images)
         self._progress = text
         self._show_status()
 

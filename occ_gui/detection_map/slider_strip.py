@@ -6,6 +6,7 @@ from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 
 from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
+from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.slider_travel import slider_travel
 from occ_gui.widgets.guarded_paint import guarded
@@ -132,6 +133,8 @@ class SliderStrips(QObject):
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._rows = rows
+        self.legend = StripLegend()
+        """What the colours mean, for the place below the sliders."""
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
             strip = SliderStrip(row.slider, PARAMETERS[name].label)
@@ -150,6 +153,8 @@ class SliderStrips(QObject):
         for name, strip in self.strips.items():
             strip.setVisible(shown)
             self._rows[name].show_track(shown)
+        if self.legend.parentWidget() is not None:
+            self.legend.setVisible(shown)
 
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of bits read correctly at positions along a slider, None if not known."""

@@ -192,8 +192,8 @@ class MatchForm(QWidget):
         known = QHBoxLayout()
         for field in self.known.values():
             known.addWidget(field)
-        known.addWidget(self.certain)
         known.addWidget(self.hint, 1)
+        known.addWidget(self.certain)
         grid.addWidget(QLabel(self.tr("Known")), 3, 0)
         grid.addLayout(known, 3, 1, 1, 2)
         for place, field in enumerate(self.known.values()):

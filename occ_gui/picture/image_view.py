@@ -108,9 +108,10 @@ class ImageView(QWidget):
         self._row = QWidget()
         layout = QHBoxLayout(self._row)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.mode, 1)
+        layout.addWidget(self.mode)
         layout.addWidget(self.opacity, 2)
-        layout.addWidget(self.gain, 2)
+        layout.addWidget(self.gain)
+        layout.addStretch(1)
 
     def _mode_words(self) -> dict[str, str]:
         return {

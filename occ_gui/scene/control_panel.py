@@ -159,6 +159,10 @@ class ControlPanel(QWidget):
         self.preset.setItemData(place, tip, Qt.ItemDataRole.ToolTipRole)
         return place
 
+    def add_foot(self, widget: QWidget) -> None:
+        """Add a widget at the lower end of the first page."""
+        self.panels[self.tr("Main")].add_foot(widget)
+
     def main_rows(self) -> dict[str, QuantityRow]:
         """Return the rows of the first page, by the names of their parameters."""
         rows = {name: row for panel in self.panels.values() for name, row in panel.rows.items()}

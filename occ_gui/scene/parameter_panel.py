@@ -70,6 +70,12 @@ class ParameterPanel(QWidget):
             self.play_buttons[name] = PlayButton(name, declared.label)
             line.addWidget(self.play_buttons[name])
 
+    def add_foot(self, widget: QWidget) -> None:
+        """Add a widget at the lower end."""
+        foot = self.layout()
+        if foot is not None:
+            foot.addWidget(widget)
+
     def show_scene(self, scene: Scene) -> None:
         """Show a scene: each row whose value differs from the scene's shows the new one."""
         for name, row in self.rows.items():

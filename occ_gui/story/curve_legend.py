@@ -78,11 +78,8 @@ class CurveLegend(QWidget):
             place = QRectF(left + _SAMPLE + _GAP, 0, width, self.height())
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, name)
             left += width + _APART
-        if self.note:
+        if self.note and left + metrics.horizontalAdvance(self.note) <= self.width():
             place = QRectF(left, 0, self.width() - left, self.height())
-            note = metrics.elidedText(
-                self.note, Qt.TextElideMode.ElideRight, max(0, int(place.width()))
-            )
             painter.setPen(text)
-            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, note)
+            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, self.note)
         painter.end()

@@ -89,6 +89,8 @@ class VerdictBar(StateBar):
     def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
         if verdict.explanation:
             return [verdict.explanation]
+        scene = reading.scene
+        fewest = chips_in_exposure(scene)
         texts = [
             self.tr(
                 "A column gathers light for {exposure}, a chip lasts {period}: each column sees "
@@ -97,11 +99,18 @@ class VerdictBar(StateBar):
             self.tr("{exposure} of light, {period} a chip: {fewest} or {most} chips a column."),
             self.tr("{exposure} of light, {period} a chip"),
         ]
-        if reading.band_undefined:
-            text = self.tr("{sentence}; the band model ends there, this simulation goes on.")
-            texts.insert(0, text.replace("{sentence}", texts[0].rstrip(".")))
-        scene = reading.scene
-        fewest = chips_in_exposure(scene)
+        if reading.band_undefined and fewest > 1:
+            texts[:0] = [
+                self.tr(
+                    "Exposed for {exposure}, a chip lasts {period}: each column sees {fewest} or "
+                    "{most} chips, never one alone, so the band model ends; the simulation goes on."
+                ),
+                self.tr(
+                    "Exposed for {exposure}, a chip lasts {period}: no column sees one chip alone, "
+                    "so the band model ends."
+                ),
+                self.tr("No column sees one chip alone: the band model ends."),
+            ]
         exposure = SECOND.format(scene.camera.exposure_time, 4)
         period = SECOND.format(scene.transmitter.switching_period, 4)
         return [

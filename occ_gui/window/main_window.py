@@ -31,6 +31,9 @@ from occ_gui.window.toolbar.toolbar import ToolBar
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
+_IN_STORY = ("profile", "decode")
+"""Panes that show in detail what the story shows, too."""
+
 _LEAST_DECODING = QSize(320, 264)
 
 
@@ -146,7 +149,7 @@ class MainWindow(QMainWindow):
 
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front, unless the story in the middle has a row of the same."""
-        if name == "profile" and MODES[self.modes.mode].centre:
+        if name in _IN_STORY and MODES[self.modes.mode].centre:
             self._story.show_whole_picture(False)
             return
         self.bring_to_front(name)

@@ -263,10 +263,13 @@ def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: Map
     view.show_map(whole((5, 10)))
     view.show_progress(91, 91, 20)
     view.show_age(0.01)
-    assert view.status.toolTip() == "Earlier scene: 91 points, images at each: 20"
+    assert (
+        view.status.toolTip()
+        == "Earlier scene: 91 points, images at each: 20; colour: share of bits read"
+    )
     assert view.outdated.isHidden()
     view.show_age(1.0)
     assert view.outdated.isVisible()
     view.show_age(0.0)
     assert view.outdated.isHidden()
-    assert view.status.toolTip() == "91 points, images at each: 20"
+    assert view.status.toolTip() == "91 points, images at each: 20; colour: share of bits read"

@@ -238,3 +238,15 @@ def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None
     strip.show_outdated(False)
     assert strip.grab().toImage() == shown
     assert strip.accessibleDescription() == "read at 5 of 5 positions"
+
+
+def test_the_legend_says_what_the_colours_mean_and_gives_way_to_the_sliders(
+    application: Application,
+) -> None:
+    legend = application.slider_strips.legend
+    assert legend.accessibleName() == "Colours of the sliders"
+    assert "read correctly" in legend.toolTip()
+    assert legend.minimumSizeHint().height() == 0
+    assert not legend.isHidden()
+    application.window.actions_by_name["slider_strips"].trigger()
+    assert legend.isHidden()

@@ -75,10 +75,10 @@ def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
 def test_a_step_shows_the_pane_that_the_story_does_not_have(
     application: Application, guide: LessonView, user: User, qtbot: QtBot
 ) -> None:
-    lesson = next(each for each in lessons().lessons if each.steps[0].pane == "decode")
+    lesson = next(each for each in lessons().lessons if each.steps[0].pane == "accuracy")
     guide.list.choices[lessons().lessons.index(lesson)].click()
     user.wait_until_idle()
-    qtbot.waitUntil(lambda: in_front(application, "decode"))
+    qtbot.waitUntil(lambda: in_front(application, "accuracy"))
 
 
 def test_the_answer_is_shown_on_demand_until_the_next_step(guide: LessonView, user: User) -> None:

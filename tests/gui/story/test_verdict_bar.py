@@ -115,7 +115,10 @@ def test_the_chips_say_where_the_band_model_ends(bar: VerdictBar, snapshot_of: S
     bar.show_reading(snapshot_of(exposure_time=136e-6))
     assert texts(bar)["ratio"] == "t / t<sub>LED</sub> = 1.36"
     assert texts(bar)["band"] == "band model ends here"
-    assert "each column sees 2 or 3 chips; the band model ends" in bar.accessibleDescription()
+    assert (
+        "each column sees 2 or 3 chips, never one alone, so the band model ends"
+        in bar.accessibleDescription()
+    )
 
 
 def test_each_effect_by_hand_is_named_until_they_are_many(

@@ -1,10 +1,12 @@
 """A plot shows the name of its lower axis only if it is high enough."""
 
 import pytest
+from PySide6.QtCore import QEvent
 from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.plot import Plot, new_plot
+from occ_gui.widgets.plot import SIMULATION, Plot, new_plot, thin
 
 
 @pytest.fixture
@@ -35,3 +37,15 @@ def test_a_name_that_is_not_wanted_is_left_out_at_every_height(plot: Plot) -> No
         assert not is_named(plot)
     plot.name_bottom(True)
     assert is_named(plot)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.0])
+def test_a_curve_is_two_pixels_wide_on_every_screen(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, ratio: float
+) -> None:
+    plot = new_plot("name", "x", "y", QPalette())
+    qtbot.addWidget(plot)
+    curve = plot.add_curve(thin(SIMULATION))
+    monkeypatch.setattr(plot, "devicePixelRatioF", lambda: ratio)
+    QApplication.sendEvent(plot, QEvent(QEvent.Type.DevicePixelRatioChange))
+    assert curve.opts["pen"].widthF() == 2.0 * ratio

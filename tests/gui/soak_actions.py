@@ -275,6 +275,8 @@ class Monkey:
         self._films().close()
 
     def read_or_stop(self) -> None:
+        # A sample's scene has large pictures: many of them would take longer than is waited.
+        self._films().view.form.count.setValue(self._random.randrange(2, 5))
         self._films().view.bar.read.click()
 
     def play_or_pause(self) -> None:

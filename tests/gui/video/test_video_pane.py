@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from gui.user import User
-from gui.video.conftest import ListedSource
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QFileDialog
@@ -46,18 +45,6 @@ def states(pane: VideoWiring) -> list[int]:
 def test_nothing_of_films_is_loaded_before_the_mode_is_shown(application: Application) -> None:
     assert "wiring" not in vars(application.video)
     assert application.video.is_idle
-
-
-def test_the_simulated_film_is_shown_at_once_and_read_when_asked(
-    pane: VideoWiring, user: User
-) -> None:
-    assert pane.view.pictures.shown == (False, True)
-    assert states(pane) == [MarkState.PENDING] * 6
-    pane.view.bar.read.click()
-    assert pane.view.bar.read.text() == "Stop reading"
-    user.wait_until_idle()
-    assert MarkState.PENDING not in states(pane)
-    assert "718" in pane.view.data.text.toPlainText()
 
 
 def test_a_film_is_opened_read_and_seen_beside_the_simulation(
@@ -116,58 +103,6 @@ def test_what_is_no_film_is_a_sentence_and_the_film_stays(
     assert application.video.path == film_file
 
 
-def test_keys_step_and_play_from_anywhere_in_the_pane(
-    pane: VideoWiring, user: User, qtbot: QtBot
-) -> None:
-    pane.view.setFocus()
-    qtbot.keyClick(pane.view, Qt.Key.Key_Right)
-    user.wait_until_idle()
-    assert pane.films.player.index == 1
-    assert pane.view.transport.place.toolTip() == "frame 2 of 6, 0.0333 s"
-    qtbot.keyClick(pane.view.timeline, Qt.Key.Key_Space)
-    assert pane.films.player.is_playing
-    qtbot.waitUntil(lambda: not pane.films.player.is_playing)
-    user.wait_until_idle()
-    assert pane.films.player.index == 5
-    assert pane.view.timeline.index == 5
-    assert "draft" not in pane.view.pictures.simulated.caption.toolTip()
-
-
-def test_the_frame_that_is_sought_is_the_one_that_is_shown(pane: VideoWiring, user: User) -> None:
-    for index in (4, 2):
-        pane.view.timeline.sought.emit(index)
-        user.wait_until_idle()
-        shown = pane.view.pictures.simulated.caption.toolTip()
-        assert shown == f"Simulated: frame {index + 1}, {index / 30.0:.4f} s"
-        assert f"frame {index + 1}" in pane.view.rows.title.toolTip()
-
-
-def test_a_reading_of_an_earlier_scene_is_marked(
-    pane: VideoWiring, application: Application, user: User
-) -> None:
-    mark = pane.view._outdated[0]
-    pane.view.bar.read.click()
-    user.wait_until_idle()
-    assert mark.isHidden()
-    application.store.change(code=5)
-    user.wait_until_idle()
-    assert not mark.isHidden()
-    assert mark.text == "read for an earlier scene"
-    assert pane.view.bar.read.text() == "Read again"
-    pane.view.bar.read.click()
-    user.wait_until_idle()
-    assert mark.isHidden()
-
-
-def test_a_recording_that_the_scene_cannot_have_is_a_sentence(
-    pane: VideoWiring, user: User
-) -> None:
-    pane.view.form.fields["frame_rate"].edited.emit(1000.0)
-    user.wait_until_idle()
-    assert pane.view.pictures.shown == (False, False)
-    assert "Reading out 1600 columns" in pane.view.form.gap.text()
-
-
 def test_the_session_keeps_the_film(
     application: Application, user: User, film_file: Path, tmp_path: Path
 ) -> None:
@@ -217,58 +152,3 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
     application.window.modes.switch("explore")
     assert not pane.live.is_filming
     qtbot.waitUntil(lambda: not video._thread.is_alive())
-
-
-def test_a_camera_that_is_unplugged_leaves_its_last_picture_and_a_sentence(
-    pane: VideoWiring, user: User, qtbot: QtBot, film: Video
-) -> None:
-    source = ListedSource([film.frame(0).image, film.frame(1).image])
-    pane.live.start(source)
-    qtbot.waitUntil(lambda: not pane.live.is_filming)
-    user.wait_until_idle()
-    assert pane.view.message.text() == (
-        "Listed gives no more pictures: it has ended or is unplugged."
-    )
-    assert pane.view.pictures.shown[0]
-    assert pane.view.bar.title.toolTip() == "Listed, stopped"
-    assert not source.is_open
-    pane.close()
-    user.wait_until_idle()
-    assert pane.view.pictures.shown == (False, True)
-
-
-def test_a_camera_that_cannot_hold_its_exposure_says_so(
-    pane: VideoWiring, qtbot: QtBot, film: Video
-) -> None:
-    source = ListedSource([film.frame(0).image] * 100_000)
-    source.knows_exposure = False
-    pane.live.start(source)
-    pane.view.bar.lock.click()
-    qtbot.waitUntil(lambda: not pane.view.bar.lock.isChecked())
-    assert pane.view.message.text() == "This camera does not let its exposure be held."
-    assert source.locked == [True]
-
-
-def test_cameras_are_looked_for_when_their_menu_opens(
-    pane: VideoWiring, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("occ_gui.video.live_controller.find_cameras", lambda: ())
-    pane.view.bar.cameras_asked.emit()
-    menu = pane.view.bar.cameras
-    assert [action.text() for action in menu.actions()] == ["Looking…"]
-    qtbot.waitUntil(lambda: menu.actions()[0].text() == "No camera was found")
-    assert not menu.actions()[0].isEnabled()
-
-
-def test_every_control_has_a_name(pane: VideoWiring) -> None:
-    from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QWidget
-
-    controls: list[QWidget] = []
-    for kind in (QAbstractButton, QAbstractSpinBox, QComboBox):
-        controls += pane.view.findChildren(kind)
-    nameless = [
-        control
-        for control in controls
-        if not control.accessibleName() and not getattr(control, "text", lambda: "")()
-    ]
-    assert nameless == []

@@ -1,0 +1,165 @@
+"""The pane of the films: it shows, plays and reads a film, and what a camera sees."""
+
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+import pytest
+from gui.video.conftest import ListedSource
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.video.marks import MarkState
+from occ_gui.video.wiring import VideoWiring
+from occ_model.results.video import Video
+from occ_model.scene.scene import Scene
+
+Wait: TypeAlias = Callable[[], None]
+
+
+@pytest.fixture
+def scenes(film_scene: Scene) -> SceneStore:
+    """Store the scene of the films."""
+    return SceneStore(film_scene)
+
+
+@pytest.fixture
+def pane(qtbot: QtBot, scenes: SceneStore) -> Iterator[VideoWiring]:
+    """Show the pane with a simulated film of six frames."""
+    wiring = VideoWiring(scenes)
+    wiring.view.form.count.setValue(6)
+    qtbot.addWidget(wiring.view)
+    wiring.view.resize(640, 600)
+    wiring.view.show()
+    wiring.set_seen(True)
+    qtbot.waitUntil(lambda: wiring.is_idle)
+    yield wiring
+    wiring.stop()
+
+
+@pytest.fixture
+def wait(qtbot: QtBot, pane: VideoWiring) -> Wait:
+    """Wait until all that was asked for is shown."""
+    return lambda: qtbot.waitUntil(lambda: pane.is_idle)
+
+
+def states(pane: VideoWiring) -> list[int]:
+    return pane.view.timeline.frames.states.tolist()
+
+
+def test_the_simulated_film_is_shown_at_once_and_read_when_asked(
+    pane: VideoWiring, wait: Wait
+) -> None:
+    assert pane.view.pictures.shown == (False, True)
+    assert states(pane) == [MarkState.PENDING] * 6
+    pane.view.bar.read.click()
+    assert pane.view.bar.read.text() == "Stop reading"
+    wait()
+    assert MarkState.PENDING not in states(pane)
+    assert "718" in pane.view.data.text.toPlainText()
+
+
+def test_keys_step_and_play_from_anywhere_in_the_pane(
+    pane: VideoWiring, wait: Wait, qtbot: QtBot
+) -> None:
+    pane.view.setFocus()
+    qtbot.keyClick(pane.view, Qt.Key.Key_Right)
+    wait()
+    assert pane.films.player.index == 1
+    assert pane.view.transport.place.toolTip() == "frame 2 of 6, 0.0333 s"
+    qtbot.keyClick(pane.view.timeline, Qt.Key.Key_Space)
+    assert pane.films.player.is_playing
+    qtbot.waitUntil(lambda: not pane.films.player.is_playing)
+    wait()
+    assert pane.films.player.index == 5
+    assert pane.view.timeline.index == 5
+    assert "draft" not in pane.view.pictures.simulated.caption.toolTip()
+
+
+def test_the_frame_that_is_sought_is_the_one_that_is_shown(pane: VideoWiring, wait: Wait) -> None:
+    for index in (4, 2):
+        pane.view.timeline.sought.emit(index)
+        wait()
+        shown = pane.view.pictures.simulated.caption.toolTip()
+        assert shown == f"Simulated: frame {index + 1}, {index / 30.0:.4f} s"
+        assert f"frame {index + 1}" in pane.view.rows.title.toolTip()
+
+
+def test_a_reading_of_an_earlier_scene_is_marked(
+    pane: VideoWiring, scenes: SceneStore, wait: Wait
+) -> None:
+    mark = pane.view._outdated[0]
+    pane.view.bar.read.click()
+    wait()
+    assert mark.isHidden()
+    scenes.change(code=5)
+    wait()
+    assert not mark.isHidden()
+    assert mark.text == "read for an earlier scene"
+    assert pane.view.bar.read.text() == "Read again"
+    pane.view.bar.read.click()
+    wait()
+    assert mark.isHidden()
+
+
+def test_a_recording_that_the_scene_cannot_have_is_a_sentence(
+    pane: VideoWiring, wait: Wait
+) -> None:
+    pane.view.form.fields["frame_rate"].edited.emit(1000.0)
+    wait()
+    assert pane.view.pictures.shown == (False, False)
+    assert "Reading out 1600 columns" in pane.view.form.gap.text()
+
+
+def test_a_camera_that_is_unplugged_leaves_its_last_picture_and_a_sentence(
+    pane: VideoWiring, wait: Wait, qtbot: QtBot, film: Video
+) -> None:
+    source = ListedSource([film.frame(0).image, film.frame(1).image])
+    pane.live.start(source)
+    qtbot.waitUntil(lambda: not pane.live.is_filming)
+    wait()
+    assert pane.view.message.text() == (
+        "Listed gives no more pictures: it has ended or is unplugged."
+    )
+    assert pane.view.pictures.shown[0]
+    assert pane.view.bar.title.toolTip() == "Listed, stopped"
+    assert not source.is_open
+    pane.close()
+    wait()
+    assert pane.view.pictures.shown == (False, True)
+
+
+def test_a_camera_that_cannot_hold_its_exposure_says_so(
+    pane: VideoWiring, qtbot: QtBot, film: Video
+) -> None:
+    source = ListedSource([film.frame(0).image] * 100_000)
+    source.knows_exposure = False
+    pane.live.start(source)
+    pane.view.bar.lock.click()
+    qtbot.waitUntil(lambda: not pane.view.bar.lock.isChecked())
+    assert pane.view.message.text() == "This camera does not let its exposure be held."
+    assert source.locked == [True]
+
+
+def test_cameras_are_looked_for_when_their_menu_opens(
+    pane: VideoWiring, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("occ_gui.video.live_controller.find_cameras", lambda: ())
+    pane.view.bar.cameras_asked.emit()
+    menu = pane.view.bar.cameras
+    assert [action.text() for action in menu.actions()] == ["Looking…"]
+    qtbot.waitUntil(lambda: menu.actions()[0].text() == "No camera was found")
+    assert not menu.actions()[0].isEnabled()
+
+
+def test_every_control_has_a_name(pane: VideoWiring) -> None:
+    controls: list[QWidget] = []
+    for kind in (QAbstractButton, QAbstractSpinBox, QComboBox):
+        controls += pane.view.findChildren(kind)
+    nameless = [
+        control
+        for control in controls
+        if not control.accessibleName() and not getattr(control, "text", lambda: "")()
+    ]
+    assert nameless == []

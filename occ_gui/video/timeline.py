@@ -192,14 +192,16 @@ class Timeline(QWidget):
         bins = max(1, int(place.width() / _LEAST_MARK))
         counts = marks.counted(np.linspace(self._scale.first, self._scale.last, bins + 1))
         painter.setPen(Qt.PenStyle.NoPen)
+        states = (MarkState.READ, MarkState.UNCHECKED, MarkState.LOST)
+        brushes = {state: brush_of(state, self.palette()) for state in states}
         for number, row in enumerate(counts.tolist()):
             total, bottom = sum(row), place.bottom()
             left = place.left() + number * _LEAST_MARK
-            for state in (MarkState.READ, MarkState.UNCHECKED, MarkState.LOST):
+            for state in states:
                 height = place.height() * row[state] / total if total else 0.0
                 if height:
                     bar = QRectF(left, bottom - height, _LEAST_MARK, height)
-                    painter.setBrush(brush_of(state, self.palette()))
+                    painter.setBrush(brushes[state])
                     painter.drawRect(bar)
                     bottom -= height
 

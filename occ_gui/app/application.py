@@ -98,8 +98,9 @@ class Application(QObject):
             self.window, self.store, self.photos, self.image, self.profile,
             controls=self.controls, preferences=self.preferences,
         )  # fmt: skip
-        self.video = VideoPane(self.window, self.store, self.files.ask_for_film)
-        self.files.film_asked.connect(self.video.open)
+        self.video = VideoPane(
+            self.window, self.store, self.files.ask_for_film, self.files.ask_to_save_film
+        )
         self.simulation.picture_ready.connect(self.image.show_picture)
         # The profile follows what is drawn in it: the results before, and the comparison.
         comparison = self.photo_wiring.comparison
@@ -186,6 +187,8 @@ class Application(QObject):
         self.photo_wiring.matching.failed.connect(self.messages.show_match_failure)
         self.preferences.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
+        self.files.film_asked.connect(self.video.open)
+        self.files.film_save_asked.connect(self.video.save)
         self.files.several_opened.connect(self._show_several)
 
     def _connect_menus(self) -> None:

@@ -41,6 +41,8 @@ class VideoPane(QObject):
         The store of the scene.
     ask_for_film
         Lets the user choose a film.
+    ask_to_save
+        Lets the user choose where to write the simulated film.
     """
 
     status_message = Signal(str)
@@ -50,10 +52,15 @@ class VideoPane(QObject):
     """The path of the film that is open now, None where none is."""
 
     def __init__(
-        self, window: DockWindow, scenes: SceneStore, ask_for_film: Callable[[], None]
+        self,
+        window: DockWindow,
+        scenes: SceneStore,
+        ask_for_film: Callable[[], None],
+        ask_to_save: Callable[[], None],
     ) -> None:
         super().__init__()
-        self._window, self._scenes, self._ask_for_film = window, scenes, ask_for_film
+        self._window, self._scenes = window, scenes
+        self._ask_for_film, self._ask_to_save = ask_for_film, ask_to_save
         self._later: Path | None = None
         pane = LazyPane(self._make)
         dock = window.add_pane("video", self.tr("Video"), pane)
@@ -68,6 +75,7 @@ class VideoPane(QObject):
 
         wiring = VideoWiring(self._scenes)
         wiring.open_asked.connect(self._ask_for_film)
+        wiring.save_asked.connect(self._ask_to_save)
         wiring.status_message.connect(self.status_message)
         wiring.film_changed.connect(self._on_film)
         return wiring
@@ -95,6 +103,10 @@ class VideoPane(QObject):
             self.wiring.open(path)
         else:
             self._later = path
+
+    def save(self, path: Path) -> None:
+        """Write the simulated film to a file."""
+        self.wiring.save(path)
 
     def close(self) -> None:
         """Close the film."""

@@ -99,6 +99,9 @@ class FileController(QObject):
     film_asked = Signal(Path)
     """The film that is to be opened."""
 
+    film_save_asked = Signal(Path)
+    """The file that the simulated film is to be written to."""
+
     scene_saved = Signal(Path)
     """The file that the scene has been saved to."""
 
@@ -147,6 +150,17 @@ class FileController(QObject):
         """Open a film, and remember it."""
         self._preferences.add(path)
         self.film_asked.emit(path)
+
+    def ask_to_save_film(self) -> None:
+        """Let the user choose where to save the simulated film."""
+        name, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save the simulated film"), self._in_folder("film.mkv"),
+            self.tr("Films (*.mkv *.mp4 *.gif *.png)"),
+        )  # fmt: skip
+        if name:
+            path = Path(name) if Path(name).suffix else Path(name).with_suffix(".mkv")
+            self._preferences.visit(path)
+            self.film_save_asked.emit(path)
 
     def ask_for_scene(self) -> None:
         """Let the user choose a scene file and open it."""

@@ -1,12 +1,13 @@
 """Form of the recording: how the film of the scene is simulated."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.recording import DECLARED, Recording
@@ -24,6 +25,9 @@ class RecordingForm(QWidget):
 
     changed = Signal()
     """The user has entered another value."""
+
+    save_asked = Signal()
+    """The user writes the simulated film to a file."""
 
     refused = Signal(str)
     """Why a value that was entered is refused."""
@@ -58,6 +62,17 @@ class RecordingForm(QWidget):
         self.gap.setAccessibleName(self.tr("Gap between two frames"))
         self.gap.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         form.addRow(self.gap)
+        self.save = QPushButton(self.tr("Sa&ve the simulated film…"))
+        self.save.setToolTip(
+            self.tr("MKV, GIF and PNG keep every grey level, MP4 does not. The scene is inside.")
+        )
+        self.save.clicked.connect(self.save_asked)
+        self.saving = WorkBar(self.tr("How much of the film has been written"))
+        line = QHBoxLayout()
+        for part in (self.save, self.saving):
+            line.addWidget(part)
+        line.addStretch()
+        form.addRow(line)
         self.show_recording(self._recording)
 
     @property

@@ -6,6 +6,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.video.export_controller import FilmExport
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
@@ -35,6 +36,9 @@ class VideoWiring(QObject):
     open_asked = Signal()
     """The user opens a film."""
 
+    save_asked = Signal()
+    """The user writes the simulated film to a file."""
+
     film_changed = Signal(object)
     """The path of the film that is open now, None where none is."""
 
@@ -45,6 +49,9 @@ class VideoWiring(QObject):
         self.films = FilmController(scenes, self.view.form)
         self.readings = ReadingController()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
+        self.saving = FilmExport(self.view.form.saving)
+        self.saving.status_message.connect(self.status_message)
+        self.view.form.save_asked.connect(self.save_asked)
         self._connect_film()
         self._connect_reading()
         self._connect_live()
@@ -93,7 +100,8 @@ class VideoWiring(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether the frame is shown and the film read; a camera never comes to an end."""
-        return self.films.is_idle and (self.live.is_filming or not self.readings.is_running)
+        is_shown = self.films.is_idle and self.saving.is_idle
+        return is_shown and (self.live.is_filming or not self.readings.is_running)
 
     def set_seen(self, seen: bool) -> None:
         """Show frames while the pane is visible; a camera is released with it."""
@@ -127,8 +135,16 @@ class VideoWiring(QObject):
             return
         self.readings.start(film, self._scenes.scene)
 
+    def save(self, path: Path) -> None:
+        """Write the simulated film of the present scene to a file."""
+        try:
+            self.saving.write(path, self.films.simulated())
+        except OccError as error:
+            self.status_message.emit(str(error))
+
     def stop(self) -> None:
         """Stop all work in the background, and release the camera."""
+        self.saving.stop()
         self.live.stop()
         self.readings.stop()
         self.films.stop()

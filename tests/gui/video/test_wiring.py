@@ -1,6 +1,7 @@
 """The pane of the films: it shows, plays and reads a film, and what a camera sees."""
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TypeAlias
 
 import pytest
@@ -9,6 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.video.marks import MarkState
 from occ_gui.video.wiring import VideoWiring
@@ -151,6 +153,28 @@ def test_cameras_are_looked_for_when_their_menu_opens(
     assert [action.text() for action in menu.actions()] == ["Looking…"]
     qtbot.waitUntil(lambda: menu.actions()[0].text() == "No camera was found")
     assert not menu.actions()[0].isEnabled()
+
+
+def test_the_simulated_film_is_saved_and_given_up(
+    pane: VideoWiring, wait: Wait, tmp_path: Path, film_scene: Scene
+) -> None:
+    said: list[str] = []
+    pane.status_message.connect(said.append)
+    pane.save(tmp_path / "film.gif")
+    wait()
+    assert said == ["Saved film.gif"]
+    written = occ.load_video(tmp_path / "film.gif")
+    assert len(list(written)) == 6
+    assert written.scene == film_scene
+    pane.save(tmp_path / "film.txt")
+    wait()
+    assert "film.txt" in said[-1]
+    pane.save(tmp_path / "other.gif")
+    pane.view.form.saving.cancelled.emit()
+    wait()
+    assert said[-1] == "The film was given up."
+    pane.saving.stop()
+    assert not (tmp_path / "other.gif").exists()
 
 
 def test_every_control_has_a_name(pane: VideoWiring) -> None:

@@ -95,7 +95,7 @@ class Application(QObject):
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
         self.learning = LearningPanes(
-            self.window, self.store, self.photos, self.image, self.profile,
+            self.window, self.store, self.photo_wiring, self.image, self.profile,
             controls=self.controls, preferences=self.preferences,
         )  # fmt: skip
         self.video = VideoPane(

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDockWidget, QWidget
 
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import UserState
-from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.image_view import ImageView
 from occ_gui.pins.pin_controller import PinController
@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from occ_gui.pins.compare_view import CompareView
     from occ_gui.spectrum.controller import SpectrumController
     from occ_gui.spectrum.spectrum_view import SpectrumView
+
+
+_ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match": "match"}
+"""The menu entries that the buttons of lessons stand for."""
 
 
 class DockWindow(Protocol):
@@ -59,7 +63,7 @@ class LearningPanes(QObject):
     scenes
         The store of the scene.
     photos
-        Opens the photos of the lessons.
+        Opens the photos of the lessons, and matches them.
     image, profile
         The panes that show the results before the last change; columns are selected in the
         profile.
@@ -79,7 +83,7 @@ class LearningPanes(QObject):
         self,
         window: DockWindow,
         scenes: SceneStore,
-        photos: PhotoController,
+        photos: PhotoWiring,
         image: ImageView,
         profile: ProfileView,
         *,
@@ -152,11 +156,17 @@ class LearningPanes(QObject):
         from occ_gui.lessons.wiring import LessonWiring
 
         wiring = LessonWiring(
-            self._scenes, self._photos, self.lessons_pane, self._controls, self._preferences
+            self._scenes, self._photos.photos, self.lessons_pane, self._controls, self._preferences
         )
         wiring.status_message.connect(self.status_message)
         wiring.controller.pane_wanted.connect(self._window.bring_into_view)
+        wiring.controller.action_wanted.connect(self._do)
+        wiring.controller.use_match(lambda: self._photos.matching.match)
         return wiring
+
+    def _do(self, action: str) -> None:
+        """Do what a step of a lesson has a button for: an entry of the menus."""
+        self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
 
     def users_own(self) -> UserState | None:
         """Return what the user was working on, if a lesson is under way."""

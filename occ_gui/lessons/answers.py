@@ -5,9 +5,26 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.latest_wins import LatestWins
+from occ_model.results import Match
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import check_answer
+
+
+@dataclass(frozen=True, slots=True)
+class MatchedPhoto:
+    """The photo that is open, with its match.
+
+    Parameters
+    ----------
+    name
+        Its file's name, empty where none is open.
+    match
+        The match, None where there is none.
+    """
+
+    name: str = ""
+    match: Match | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,6 +33,7 @@ class _Asked:
     place: int
     text: str
     scene: Scene
+    photo: MatchedPhoto
 
 
 class LessonAnswers(QObject):
@@ -29,14 +47,18 @@ class LessonAnswers(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene]] = {}
+        self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
         self.runner: LatestWins[_Asked, tuple[_Asked, CheckedAnswer]] = LatestWins(_check, "lesson")
         self.runner.finished.connect(self._keep)
         self.runner.failed.connect(self.failed)
 
-    def check(self, lesson: Lesson, place: int, text: str, scene: Scene) -> None:
-        """Check an answer to a step, given while ``scene`` was shown."""
-        self.runner.submit(_Asked(lesson, place, text, scene))
+    def check(
+        self, lesson: Lesson, place: int, text: str, scene: Scene, photo: MatchedPhoto
+    ) -> None:
+        """Check an answer to a step, given while ``scene`` was shown and ``photo`` open."""
+        if not lesson.steps[place].own_photo:
+            photo = MatchedPhoto()
+        self.runner.submit(_Asked(lesson, place, text, scene, photo))
 
     def of(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
         """Return the answer to a step; None where there is none."""
@@ -47,15 +69,18 @@ class LessonAnswers(QObject):
         """Return the steps of a lesson with their answers."""
         found = []
         for place, step in enumerate(lesson.steps):
-            answer, scene = self._given.get((lesson.name, place), (None, step.scene))
-            found.append(AnsweredStep(step, answer, scene))
+            answer, scene, photo = self._given.get(
+                (lesson.name, place), (None, step.scene, MatchedPhoto())
+            )
+            found.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
         return tuple(found)
 
     def _keep(self, done: tuple[_Asked, CheckedAnswer]) -> None:
         asked, answer = done
-        self._given[asked.lesson.name, asked.place] = (answer, asked.scene)
+        self._given[asked.lesson.name, asked.place] = (answer, asked.scene, asked.photo)
         self.checked.emit(asked.lesson, asked.place)
 
 
 def _check(asked: _Asked) -> tuple[_Asked, CheckedAnswer]:
-    return asked, check_answer(asked.lesson.steps[asked.place], asked.text)
+    step = asked.lesson.steps[asked.place]
+    return asked, check_answer(step, asked.text, asked.photo.match)

@@ -1,5 +1,6 @@
 """Lesson controller: each step sets its scene, opens its photo and shows its pane."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import UserState
-from occ_gui.lessons.answers import LessonAnswers
+from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
@@ -16,6 +17,7 @@ from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
 from occ_model.results.lessons import CheckedAnswer, Lesson, LessonList, Step
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.rolling_shutter import rolling_shutter
@@ -51,6 +53,9 @@ class LessonController(QObject):
     equation_wanted = Signal(str)
     """The name of the equation that explains a step; empty for none."""
 
+    action_wanted = Signal(str)
+    """What a step has a button for, as the step names it."""
+
     report_asked = Signal(Lesson)
     """The lesson whose report is to be written."""
 
@@ -73,6 +78,7 @@ class LessonController(QObject):
         self._open: Path | None = None
         self._user: UserState | None = None
         self._last: Lesson | None = None
+        self._match: Callable[[], Match | None] = lambda: None
         photos.opened.connect(self._note_photo)
         answers.checked.connect(self._show_checked)
         answers.failed.connect(self._show_failed)
@@ -83,7 +89,12 @@ class LessonController(QObject):
         pane.step.again_asked.connect(self.set_again)
         pane.step.control_asked.connect(self._want_control)
         pane.step.answer_given.connect(self._check)
+        pane.step.action_asked.connect(self._ask_action)
         pane.end.report_asked.connect(self._ask_report)
+
+    def use_match(self, match: Callable[[], Match | None]) -> None:
+        """Compare answers about a photo with the match that this function gives."""
+        self._match = match
 
     def set_seen(self, seen: bool) -> None:
         """Read the lessons when their pane is shown, unless one is under way."""
@@ -197,6 +208,8 @@ class LessonController(QObject):
     def _open_photo(self, step: Step) -> None:
         samples = {path.stem: path for path in sample_photos()}
         wanted = samples.get(step.photo)
+        if step.own_photo and self._open not in {None, *samples.values()}:
+            return  # a photo of the user's own, which the sample would stand in for
         if step.photo and wanted is None:
             self.status_message.emit(
                 self.tr("The photo {name} is missing.").format(name=step.photo)
@@ -208,6 +221,11 @@ class LessonController(QObject):
 
     def _note_photo(self, photo: Photo | None) -> None:
         self._open = None if photo is None else photo.path
+
+    @property
+    def lesson_under_way(self) -> Lesson | None:
+        """The lesson under way, None while there is none."""
+        return self._current
 
     def _step(self) -> Step | None:
         """Return the step under way."""
@@ -227,7 +245,9 @@ class LessonController(QObject):
         lesson = self._current
         if lesson is not None:
             self._pane.step.answer_field.show_waiting()
-            self._answers.check(lesson, self._places[lesson.name], text, self._scenes.scene)
+            name = "" if self._open is None else one_line(self._open.name)
+            photo = MatchedPhoto(name, self._match())
+            self._answers.check(lesson, self._places[lesson.name], text, self._scenes.scene, photo)
 
     def _show_checked(self, lesson: Lesson, place: int) -> None:
         answer = self._answers.of(lesson, place)
@@ -236,6 +256,11 @@ class LessonController(QObject):
 
     def _show_failed(self, sentence: str) -> None:
         self._pane.step.answer_field.show_checked(CheckedAnswer("", None, sentence))
+
+    def _ask_action(self) -> None:
+        step = self._step()
+        if step is not None:
+            self.action_wanted.emit(step.action)
 
     def _ask_report(self) -> None:
         if self._last is not None:

@@ -68,8 +68,18 @@ class LessonList(QWidget):
             self._rows.removeWidget(box)
             box.deleteLater()
         self.choices, self._boxes = [], []
-        for lesson in found:
+        for lesson in (each for each in found if not each.is_sheet):
             self._add(lesson, reached.get(lesson.name))
+        sheets = [each for each in found if each.is_sheet]
+        if sheets:
+            self._add_heading(self.tr("Lab sheets"))
+        for sheet in sheets:
+            self._add(sheet, reached.get(sheet.name))
+
+    def _add_heading(self, text: str) -> None:
+        label = heading(text)
+        self._boxes.append(label)
+        self._rows.addWidget(label)
 
     def _add(self, lesson: Lesson, reached: int | None) -> None:
         count = len(lesson.steps)

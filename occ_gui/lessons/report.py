@@ -59,7 +59,9 @@ class LessonReports(QObject):
         start = Path(self._preferences.folder, f"{lesson.name}{_ENDING}")
         chosen, _ = QFileDialog.getSaveFileName(
             self._window, self.tr("Save the report"), str(start),
-            self.tr("PDF document (*.pdf);;PNG picture (*.png);;SVG drawing (*.svg)"),
+            self.tr(
+                "PDF document (*.pdf);;Markdown (*.md);;PNG picture (*.png);;SVG drawing (*.svg)"
+            ),
         )  # fmt: skip
         if chosen:
             path = Path(chosen)

@@ -33,6 +33,9 @@ class StepPage(QWidget):
     control_asked = Signal()
     """The control that the step speaks of is to be shown."""
 
+    action_asked = Signal()
+    """What the step has a button for is to be done."""
+
     answer_given = Signal(str)
     """An answer that is to be checked."""
 
@@ -54,6 +57,8 @@ class StepPage(QWidget):
         )
         self.control.setAccessibleName(self.tr("Show the control of this step"))
         self.control.clicked.connect(self.control_asked)
+        self.action = button("", self.tr("Do what this step is about."))
+        self.action.clicked.connect(self.action_asked)
         self.answer_field = AnswerField()
         self.answer_field.checked.connect(self.answer_given)
         self._make_explanation()
@@ -99,7 +104,7 @@ class StepPage(QWidget):
         column.setSpacing(8)
         for widget in (
             self.place, self.progress, self.goal, self.animation, self.text, self.control,
-            self.question, self.answer_field, self.reveal, self.answer, self.equation,
+            self.action, self.question, self.answer_field, self.reveal, self.answer, self.equation,
         ):  # fmt: skip
             column.addWidget(widget)
         column.addStretch()
@@ -130,6 +135,8 @@ class StepPage(QWidget):
         label = PARAMETERS[step.control].label if step.control else ""
         self.control.setText(self.tr("Change: {control}").format(control=label))
         self.control.setVisible(bool(step.control))
+        self.action.setText(self._action_text(step.action))
+        self.action.setVisible(bool(step.action))
         unit = step.check.asked_in if step.check else ""
         self.answer_field.begin(unit, step.check is not None, before)
         self._has_equation = bool(step.equation)
@@ -141,6 +148,13 @@ class StepPage(QWidget):
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
         """Show the equation that explains the answer, with its present numbers."""
         self.equation.show_equations(equations, changed)
+
+    def _action_text(self, action: str) -> str:
+        return {
+            "transmitter": self.tr("Make a transmitter…"),
+            "photo": self.tr("Open your photo…"),
+            "match": self.tr("Match the photo"),
+        }.get(action, "")
 
     def _go_back(self) -> None:
         self.moved.emit(-1)

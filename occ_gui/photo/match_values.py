@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.measured import with_error
 from occ_model.results import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -27,7 +26,7 @@ def known_of(match: Match) -> str:
 
 def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
     """Format a value with its standard deviation, to the digits that are significant."""
-    return with_error(quantity.unit, value, spread)
+    return quantity.unit.format_estimate(value, spread)
 
 
 class MatchValues(QWidget):

@@ -3,7 +3,6 @@
 from PySide6.QtCore import QCoreApplication
 
 from occ_gui.video.film_reading import Figure
-from occ_gui.widgets.measured import with_error
 from occ_model.results.video_reading import Clock, FilmProgress, Measured, VideoReading
 from occ_model.scene.units import HERTZ, SECOND, Unit
 
@@ -138,7 +137,7 @@ def _clocks(clock: Clock) -> list[Figure]:
 
 def _with_error(unit: Unit, measured: Measured) -> str:
     is_exact = measured.error <= _ROUNDING * abs(measured.value)
-    return with_error(unit, measured.value, None if is_exact else measured.error)
+    return unit.format_estimate(measured.value, None if is_exact else measured.error)
 
 
 def _tr(text: str) -> str:

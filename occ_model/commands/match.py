@@ -209,7 +209,6 @@ def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
     if deviation is None:
         how = "assumed" if assumption and name in ESTIMATES else "known"
         return f"{declared.format(value)} ({how})"
-    symbol, factor = declared.unit.display(value)
-    text = f"{value / factor:.6g} ± {deviation / factor:.2g} {symbol}".rstrip()
+    text = declared.unit.format_estimate(value, deviation)
     # Gamma is found from the shape of the stripes, not from their timing.
     return text if name == "gamma" else assumption + text

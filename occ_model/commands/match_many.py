@@ -134,8 +134,7 @@ def _mean(name: str, found: CombinedEstimate | None, known: str) -> list[str]:
 
 
 def _with_error(name: str, value: float, error: float) -> str:
-    symbol, factor = quantity(name).unit.display(value)
-    return f"{value / factor:.6g} ± {error / factor:.2g} {symbol}".rstrip()
+    return quantity(name).unit.format_estimate(value, error)
 
 
 def _cut(text: str, width: int) -> str:

@@ -1,106 +1,131 @@
-"""Draw the report of a lesson: one page with a student's answers and what they saw."""
+"""Report of a lesson: a student's answers and what they saw, as pages for print or as Markdown."""
 
-import textwrap
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 
-from matplotlib.axes import Axes
+from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
-from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError
-from occ_model.figures.drawing import SIMULATION, house_style, write_figure
-from occ_model.figures.window_panes import caption
+from occ_model.figures.drawing import figure_bytes, house_style, write_figure
+from occ_model.figures.lesson_steps import (
+    draw_match,
+    draw_page,
+    draw_profile,
+    match_lines,
+    steps_of_pages,
+)
+from occ_model.files.writing import make_folder, write_whole
 from occ_model.results.lessons import AnsweredStep, Lesson
 from occ_model.scene.provenance import Provenance
-from occ_model.scene.scene import Scene
+from occ_model.version import __version__
 
-_PAGE = (8.27, 11.69)
-"""Inches of a page of A4."""
+_FIGURE = (7.0, 2.6)
+"""Inches of a figure in Markdown."""
 
-_LINE = 92
-"""Letters of a line."""
-
-_MOST_STEPS = 6
-"""Steps of a page that can still be read."""
-
-_SHOWN_COLUMNS = 700
-_NO_ANSWER = "(no answer)"
+_MATCHED_FIGURE = (7.0, 4.2)
 
 
 def write_lesson_report(
     path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], *, author: str = "", date: str = ""
 ) -> None:
-    """Write the report of a lesson as one page.
+    """Write the report of a lesson.
 
     Parameters
     ----------
     path
-        The file: .pdf, .png or .svg.
+        The file: .pdf, or .md with its figures in a folder beside it; .png or .svg where one page
+        holds it all.
     lesson
         The lesson.
     steps
-        Its steps with the answers, in order; of more than six the first.
+        Its steps with the answers, in order.
     author, date
         Who wrote it, and when; each may be empty.
 
     Raises
     ------
     OutputError
-        There is no step, the ending is none of a figure's, or the file cannot be written.
+        There is no step, the ending is none of these, the report has more than one page and the
+        ending is that of a picture, or a file cannot be written.
     """
     if not steps:
         raise OutputError(f"The lesson {lesson.title} has no answers to report.")
     scenes = {f"step {place}": each.scene for place, each in enumerate(steps, 1)}
     provenance = Provenance(f"Report of the lesson: {lesson.title}", scenes, date=date)
+    about = "   ".join(text for text in (author, date) if text) or lesson.summary
     with house_style():
-        write_figure(path, _drawn(lesson, steps[:_MOST_STEPS], author, date), provenance)
+        if path.suffix.lower() == ".md":
+            _write_markdown(path, lesson, steps, about)
+            return
+        parts = tuple(steps_of_pages(steps))
+        pages = [
+            draw_page(lesson.title, about, _foot(place, len(parts)), part, first)
+            for place, (first, part) in enumerate(parts, 1)
+        ]
+        if len(pages) == 1:
+            write_figure(path, pages[0], provenance)
+        elif path.suffix.lower() == ".pdf":
+            write_whole(path, _pdf(pages, provenance))
+        else:
+            raise OutputError(
+                f"{path.name}: the report has {len(pages)} pages; allowed endings: .pdf and .md."
+            )
 
 
-def _drawn(lesson: Lesson, steps: Sequence[AnsweredStep], author: str, date: str) -> Figure:
-    figure = Figure(figsize=_PAGE)
-    figure.set_layout_engine("none")
-    figure.text(0.08, 0.955, lesson.title, fontsize=16, fontweight="bold")
-    about = "   ".join(text for text in (author, date) if text)
-    figure.text(0.08, 0.935, about or lesson.summary, fontsize=9, color="0.3")
-    height = 0.89 / len(steps)
-    for place, each in enumerate(steps):
-        top = 0.915 - place * height
-        _draw_step(figure, place + 1, each, top, height)
-    return figure
+def _foot(page: int, pages: int) -> str:
+    number = f", page {page} of {pages}" if pages > 1 else ""
+    return f"occ-explorer {__version__}{number}"
 
 
-def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, height: float) -> None:
-    answer = each.answer
-    given = _NO_ANSWER if answer is None else answer.text
-    told = "" if answer is None else answer.sentence
-    texts = (
-        (f"{number}. {each.step.question}", 10, "bold", "0.0"),
-        (f"Answer: {given}", 10, "normal", "0.0"),
-        (told, 9, "normal", "0.3"),
-        (each.step.answer, 8.5, "normal", "0.3"),
-    )
-    line = 0.0145
-    for text, size, weight, colour in texts:
-        wrapped = textwrap.wrap(text, int(_LINE * 10 / max(size, 9)), max_lines=5)
-        if not wrapped:
-            continue
-        figure.text(
-            0.08, top, "\n".join(wrapped), fontsize=size, fontweight=weight, color=colour,
-            verticalalignment="top", linespacing=1.25, parse_math=False,
-        )  # fmt: skip
-        top -= line * len(wrapped) + 0.004
-    used = line * 0.5
-    bottom = 0.915 - (number - 1) * height - height + 0.045
-    room = top - used - bottom
-    if room > 0.03:
-        _draw_profile(figure.add_axes((0.12, bottom, 0.8, min(room, 0.2))), each.scene)
+def _pdf(pages: Sequence[Figure], provenance: Provenance) -> bytes:
+    content = BytesIO()
+    about = {"Title": provenance.title, "Subject": provenance.text(), "CreationDate": None}
+    with PdfPages(content, metadata=about) as pdf:
+        for page in pages:
+            pdf.savefig(page)
+    return content.getvalue()
 
 
-def _draw_profile(ax: Axes, scene: Scene) -> None:
-    shown = min(_SHOWN_COLUMNS, scene.camera.columns)
-    ax.plot(column_profile(scene)[:shown], linewidth=0.9, **SIMULATION)  # type: ignore[arg-type]
-    ax.set_xlim(0, shown)
-    ax.set_xlabel(f"column   ({caption(scene)})", fontsize=7, parse_math=False)
-    ax.set_ylabel("grey level", fontsize=7)
-    ax.tick_params(labelsize=7)
+def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], about: str) -> None:
+    folder = path.with_name(f"{path.stem}-figures")
+    make_folder(folder)
+    lines = [f"# {_plain(lesson.title)}", "", _plain(about), ""]
+    for place, each in enumerate(steps, 1):
+        figure = folder / f"step-{place}.png"
+        _write_step_figure(figure, each)
+        lines += [f"## {place}. {_plain(each.step.question)}", ""]
+        if each.answer is None:
+            lines += ["*(no answer)*", ""]
+        else:
+            lines += [
+                f"**Answer:** {_plain(each.answer.text)}",
+                "",
+                _plain(each.answer.sentence),
+                "",
+            ]
+        if each.match is not None:
+            lines += [*(f"* {line}" for line in match_lines(each.match, each.photo)), ""]
+        lines += [f"![What was seen]({folder.name}/{figure.name})", ""]
+        lines += [f"> {_plain(each.step.answer)}", ""]
+    scene = steps[-1].scene.to_toml()
+    lines += [f"Scene of the last step, occ-explorer {__version__}:", "", "```toml", scene, "```"]
+    write_whole(path, ("\n".join(lines) + "\n").encode())
+
+
+def _write_step_figure(path: Path, each: AnsweredStep) -> None:
+    figure = Figure(figsize=_FIGURE if each.match is None else _MATCHED_FIGURE)
+    if each.match is None:
+        draw_profile(figure.subplots(), each.scene)
+    else:
+        draw_match(figure.subplots(2, 1, sharex=True, height_ratios=(2, 1)), each.match)
+    title = each.step.question
+    write_whole(path, figure_bytes(figure, "png", Provenance(title, {"step": each.scene})))
+
+
+def _plain(text: str) -> str:
+    """Write a text so that Markdown shows it as it is."""
+    for sign in "\\`*_[]<>#|":
+        text = text.replace(sign, f"\\{sign}")
+    return text.replace("\n", " ")

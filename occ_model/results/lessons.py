@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
 
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
 Outcome = Literal["right", "near", "wrong", "unreadable"]
@@ -60,6 +61,12 @@ class Step:
         Name of the equation that explains the answer, empty for none.
     animation
         Whether the step shows how a rolling shutter exposes one column after the other.
+    action
+        What the step has a button for, one of ``occ_model.teaching.lessons.ACTIONS``; empty for
+        none.
+    own_photo
+        Whether the step is about a photo of the student's; ``photo`` stands in for it while none
+        is open.
     """
 
     goal: str
@@ -73,6 +80,8 @@ class Step:
     check: Check | None = None
     equation: str = ""
     animation: bool = False
+    action: str = ""
+    own_photo: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,12 +98,15 @@ class Lesson:
         What one can do after it, in one sentence.
     steps
         Its steps, in order.
+    is_sheet
+        Whether it is a lab sheet, which ends with a measurement of one's own.
     """
 
     name: str
     title: str
     summary: str
     steps: tuple[Step, ...]
+    is_sheet: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,8 +156,14 @@ class AnsweredStep:
         The answer; None where there is none.
     scene
         The scene at which it was given, which the report draws.
+    match
+        The match of the photo that was open, where the step is about one; the report draws it.
+    photo
+        The name of that photo.
     """
 
     step: Step
     answer: CheckedAnswer | None
     scene: Scene
+    match: Match | None = None
+    photo: str = ""

@@ -26,6 +26,9 @@ _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 """Numbers whose comma may also separate thousands: one to three digits before it, three after."""
 
+_MOST_DECIMALS = 12
+"""Decimal places of an estimate at most."""
+
 LONGEST_TEXT = 200
 """Most characters of a quantity's text: several times those of 17 digits and a unit."""
 
@@ -126,6 +129,19 @@ class Unit:
         if size == 0.0:
             chosen = ""
         return chosen + self.symbol, _PREFIXES[chosen]
+
+    def format_estimate(self, value: float, deviation: float | None) -> str:
+        """Write a value with its standard deviation, to the digits that are significant.
+
+        Without a deviation, or with one that says nothing, the value alone is written.
+        """
+        if deviation is None or not 0.0 < deviation < math.inf:
+            return self.format(value)
+        symbol, factor = self.display(value)
+        # Two digits of the deviation, and the value to the same decimal place.
+        decimals = min(max(0, 1 - math.floor(math.log10(deviation / factor))), _MOST_DECIMALS)
+        number = f"{value / factor:.{decimals}f} ± {deviation / factor:.{decimals}f}"
+        return f"{number} {symbol}".rstrip()
 
     def format(self, value: float, digits: int = 6) -> str:
         """Write ``value`` with ``digits`` significant digits and its unit."""

@@ -4,6 +4,7 @@ import math
 
 from occ_model.errors import OccError, one_line
 from occ_model.results.lessons import CheckedAnswer, Step
+from occ_model.results.match import Match
 from occ_model.scene.units import Unit
 from occ_model.teaching.quantities import QUANTITIES
 
@@ -16,11 +17,12 @@ _LEAST_NEAR = 0.02
 _DIGITS = 3
 
 
-def check_answer(step: Step, text: str) -> CheckedAnswer:
+def check_answer(step: Step, text: str, match: Match | None = None) -> CheckedAnswer:
     """Check what a student typed.
 
     The model's value is computed from the step's own scene, not from the one that the student has
-    set meanwhile. A wrong answer does not give it away.
+    set meanwhile. Where the step is about a photo of the student's, it is that of the photo's
+    match. A wrong answer does not give it away.
 
     Parameters
     ----------
@@ -28,6 +30,8 @@ def check_answer(step: Step, text: str) -> CheckedAnswer:
         The step.
     text
         The answer; a number without a unit is in the quantity's ``asked_in``.
+    match
+        The match of the photo that is open, None where there is none.
 
     Returns
     -------
@@ -39,8 +43,11 @@ def check_answer(step: Step, text: str) -> CheckedAnswer:
     if check is None:
         return CheckedAnswer(text, None, "Compare your answer with the explanation.")
     quantity = QUANTITIES[check.quantity]
+    if step.own_photo and match is None:
+        return CheckedAnswer(text, None, "Match the photo first: your answer is compared with it.")
+    own = match if step.own_photo else None
     try:
-        expected = quantity.compute(check.scene, step.photo)
+        expected = quantity.compute(check.scene, own or step.photo)
     except OccError as error:
         return CheckedAnswer(text, None, f"This cannot be checked. {error}")
     plain = quantity.unit.factor(quantity.asked_in) or 1.0
@@ -51,7 +58,8 @@ def check_answer(step: Step, text: str) -> CheckedAnswer:
     difference = abs(given - expected) / abs(expected) if expected else abs(given)
     if difference <= check.tolerance * (1.0 + 1e-9):
         value = format_value(quantity.unit, expected)
-        return CheckedAnswer(text, "right", f"Right. The model gives {value}.")
+        source = "The match" if own else "The model"
+        return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
     side = "high" if given > expected else "low"
     if difference <= max(_NEAR * check.tolerance, _LEAST_NEAR):
         return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look once more.")

@@ -29,11 +29,14 @@ EQUATIONS = (
 )  # fmt: skip
 """The equations that a step can show."""
 
+ACTIONS = ("transmitter", "photo", "match")
+"""What a step can have a button for: write a transmitter, open a photo, match it."""
+
 _FOLDER, _ENDING = "lessons", ".toml"
-_LESSON_KEYS = ("title", "summary", "step")
+_LESSON_KEYS = ("title", "summary", "sheet", "step")
 _STEP_KEYS = (
     "goal", "text", "question", "answer", "preset", "set", "pane", "photo", "control", "check",
-    "equation", "animation",
+    "equation", "animation", "action", "own_photo",
 )  # fmt: skip
 _CHECK_KEYS = ("quantity", "tolerance", "set")
 _MOST_TOLERANCE = 50.0
@@ -106,7 +109,7 @@ def _lesson(name: str, text: str) -> Lesson:
         steps = []
         for place, item in enumerate(listed):  # noqa: B007 - its last value says where
             steps.append(_step(item))
-        return Lesson(name, title, summary, tuple(steps))
+        return Lesson(name, title, summary, tuple(steps), _switch(content, "sheet"))
     except OccError as error:
         key = error.key if isinstance(error, _MistakeError) else "set"
         line = _line(text, place, key)
@@ -151,6 +154,8 @@ def _step(content: object) -> Step:
         check=_check(content, scene),
         equation=_one_of(content, "equation", EQUATIONS),
         animation=_switch(content, "animation"),
+        action=_one_of(content, "action", ACTIONS),
+        own_photo=_switch(content, "own_photo"),
     )
 
 

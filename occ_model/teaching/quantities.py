@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from occ_model.errors import OccError
 from occ_model.files.resources import resource_path
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, NONE, SECOND, Unit
 from occ_model.study.theory import band_model_frequency, null_frequency
@@ -32,17 +33,18 @@ class LessonQuantity:
     asked_in
         The unit of an answer that is a number alone.
     compute
-        Function of the scene and the name of the step's photo that gives its value in SI units.
+        Function of the scene, and of the name of the step's photo or a match of another one, that
+        gives its value in SI units.
     """
 
     meaning: str
     unit: Unit
     asked_in: str
-    compute: Callable[[Scene, str], float]
+    compute: Callable[[Scene, str | Match], float]
 
 
-def _limit(decoder: str) -> Callable[[Scene, str], float]:
-    def compute(scene: Scene, _photo: str) -> float:
+def _limit(decoder: str) -> Callable[[Scene, str | Match], float]:
+    def compute(scene: Scene, _photo: str | Match) -> float:
         # Some tenths of a second to import, and needed by few steps.
         from occ_model.study.limits import limits
 
@@ -54,7 +56,9 @@ def _limit(decoder: str) -> Callable[[Scene, str], float]:
     return compute
 
 
-def _matched(scene: Scene, photo: str) -> Scene:
+def _matched(scene: Scene, photo: str | Match) -> Scene:
+    if isinstance(photo, Match):
+        return photo.scene
     # Slow to import, and needed by few steps.
     from occ_model.photo.match import match_photo
     from occ_model.photo.reading.load import load_photo
@@ -62,16 +66,26 @@ def _matched(scene: Scene, photo: str) -> Scene:
     return match_photo(load_photo(resource_path("photos", f"{photo}.jpg")), scene).scene
 
 
-def _chip_columns(scene: Scene, _photo: str = "") -> float:
+def _chip_columns(scene: Scene, _photo: str | Match = "") -> float:
     return scene.transmitter.switching_period / scene.camera.readout_time
 
 
-def _bit_rate(scene: Scene, _photo: str = "") -> float:
+def _code(scene: Scene) -> float:
+    if scene.transmitter.pattern:
+        raise OccError("The photo's chips are a pattern that is no packet: it has no code.")
+    return float(scene.transmitter.code)
+
+
+def _exposure_chips(scene: Scene) -> float:
+    return scene.camera.exposure_time * scene.transmitter.switching_frequency
+
+
+def _bit_rate(scene: Scene, _photo: str | Match = "") -> float:
     transmitter = scene.transmitter
     return transmitter.bits * transmitter.switching_frequency / packet_length(transmitter.bits)
 
 
-def _share_seen(scene: Scene, _photo: str = "") -> float:
+def _share_seen(scene: Scene, _photo: str | Match = "") -> float:
     camera = scene.camera
     return min(1.0, FRAME_RATE * camera.columns * camera.readout_time)
 
@@ -93,7 +107,7 @@ QUANTITIES: dict[str, LessonQuantity] = {
         "chips that an exposure covers, t / t_LED",
         _CHIP,
         "chips",
-        lambda scene, _: scene.camera.exposure_time * scene.transmitter.switching_frequency,
+        lambda scene, _: _exposure_chips(scene),
     ),
     "packet-columns": LessonQuantity(
         "columns of a packet",
@@ -155,11 +169,23 @@ QUANTITIES: dict[str, LessonQuantity] = {
         "µs",
         lambda scene, photo: _matched(scene, photo).camera.readout_time,
     ),
+    "photo-exposure-time": LessonQuantity(
+        "exposure time of the photo",
+        SECOND,
+        "µs",
+        lambda scene, photo: _matched(scene, photo).camera.exposure_time,
+    ),
+    "photo-exposure-chips": LessonQuantity(
+        "chips that the photo's exposure covers, t / t_LED",
+        _CHIP,
+        "chips",
+        lambda scene, photo: _exposure_chips(_matched(scene, photo)),
+    ),
     "photo-code": LessonQuantity(
         "code that the photo shows",
         NONE,
         "",
-        lambda scene, photo: float(_matched(scene, photo).transmitter.code),
+        lambda scene, photo: _code(_matched(scene, photo)),
     ),
 }
 """The quantities, by the name that a lesson's file uses."""

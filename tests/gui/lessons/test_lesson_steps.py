@@ -146,7 +146,7 @@ def test_a_teachers_lesson_is_listed_and_a_bad_one_is_named(
     monkeypatch.setenv("OCC_LESSONS", str(tmp_path))
     user.choose("&Lessons")
     guide = application.learning.lessons_pane
-    assert guide.list.choices[-1].text().startswith("Mine")
+    assert any(choice.text().startswith("Mine") for choice in guide.list.choices)
     assert "bad is no lesson: line 2: a lesson has no key 'stop'" in guide.list.problems.text()
 
 
@@ -161,3 +161,44 @@ def test_the_folder_of_lessons_is_made_and_opened(
     guide.list.folder.click()
     assert opened == [str(tmp_path / "own")]
     assert (tmp_path / "own").is_dir()
+
+
+def test_a_lab_sheet_has_buttons_for_what_it_asks(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
+    sheet.click()
+    assert not guide.step.action.isVisible()
+    for _ in range(3):
+        guide.step.next.click()
+    user.wait_until_idle()
+    assert guide.step.action.text() == "Match the photo"
+    assert "Match the photo first" in answer(guide, user, "12.8")
+    guide.step.action.click()
+    user.wait_until_idle()
+    assert "Right. The match gives" in answer(guide, user, "12.8")
+    lessons = application.learning.lessons
+    assert lessons.controller.lesson_under_way is not None
+    given = lessons.answers.all_of(lessons.controller.lesson_under_way)
+    assert given[3].match is application.photo_wiring.matching.match
+    assert given[3].photo == "led-1khz.jpg"
+    assert given[0].match is None
+    guide.step.all.click()
+    user.wait_until_idle()
+
+
+def test_a_lab_sheet_keeps_a_photo_of_one_s_own(
+    application: Application, guide: LessonView, user: User, photo_file: Path
+) -> None:
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
+    sheet.click()
+    for _ in range(3):
+        guide.step.next.click()
+    user.wait_until_idle()
+    opened = application.photo_wiring.matching.photo
+    assert opened is not None
+    assert opened.path == photo_file
+    guide.step.all.click()
+    user.wait_until_idle()

@@ -65,4 +65,6 @@ def test_the_cameras_exposure_stands_under_the_fitted_one(
     assert lines["noted by the camera"] == "68 µs"
     assert lines["duty"] == "lit for 50 % of a period"
     exposure = float(lines["exposure_time"].split()[0])
-    assert float(lines["exposure in chips"]) == pytest.approx(exposure * 2e-3, rel=5e-3)
+    # Written to whole microseconds and to three digits.
+    chips = float(lines["exposure in chips"])
+    assert chips == pytest.approx(exposure * 2e-3, abs=0.5 * 2e-3 + 5e-4)

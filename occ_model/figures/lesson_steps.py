@@ -1,0 +1,157 @@
+"""Steps of a lesson on a page: question, answer, explanation, and what was seen."""
+
+import textwrap
+from collections.abc import Iterator, Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from occ_model.camera.photometry import column_profile
+from occ_model.figures.drawing import PHOTO, SIMULATION
+from occ_model.figures.window_panes import caption
+from occ_model.results.lessons import AnsweredStep
+from occ_model.results.match import Match
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+
+_PAGE = (8.27, 11.69)
+"""Inches of a page of A4."""
+
+_LINE = 92
+"""Letters of a line."""
+
+_MOST_ROOM = 5
+"""Steps of a page that can still be read."""
+
+_ROOM_OF_MATCH = 2
+"""Steps whose room one with a match takes."""
+
+_SHOWN_COLUMNS = 700
+_NO_ANSWER = "." * 60
+_TOP, _BOTTOM = 0.915, 0.025
+
+
+def steps_of_pages(
+    steps: Sequence[AnsweredStep],
+) -> Iterator[tuple[int, tuple[AnsweredStep, ...]]]:
+    """Give the number of the first step of each page, from 1, and the page's steps."""
+    page: list[AnsweredStep] = []
+    for place, each in enumerate(steps):
+        if page and sum(map(_room, page)) + _room(each) > _MOST_ROOM:
+            yield place - len(page) + 1, tuple(page)
+            page = []
+        page.append(each)
+    yield len(steps) - len(page) + 1, tuple(page)
+
+
+def _room(each: AnsweredStep) -> int:
+    return 1 if each.match is None else _ROOM_OF_MATCH
+
+
+def draw_page(
+    title: str, about: str, foot: str, steps: Sequence[AnsweredStep], first: int
+) -> Figure:
+    """Draw a page of A4.
+
+    Parameters
+    ----------
+    title, about
+        The heading and the line below it.
+    foot
+        The line at the bottom.
+    steps
+        The steps on this page.
+    first
+        The number of the first of them.
+    """
+    figure = Figure(figsize=_PAGE)
+    figure.set_layout_engine("none")
+    figure.text(0.08, 0.955, title, fontsize=16, fontweight="bold", parse_math=False)
+    figure.text(0.08, 0.935, about, fontsize=9, color="0.3", parse_math=False)
+    figure.text(0.92, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
+    unit = (_TOP - _BOTTOM) / sum(map(_room, steps))
+    top = _TOP
+    for place, each in enumerate(steps, first):
+        height = unit * _room(each)
+        _draw_step(figure, place, each, top, top - height)
+        top -= height
+    return figure
+
+
+def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bottom: float) -> None:
+    answer = each.answer
+    given = _NO_ANSWER if answer is None else answer.text
+    told = "" if answer is None else answer.sentence
+    matched = "" if each.match is None else "; ".join(match_lines(each.match, each.photo))
+    texts = (
+        (f"{number}. {each.step.question}", 10, "bold", "0.0"),
+        (f"Answer: {given}", 10, "normal", "0.0"),
+        (told, 9, "normal", "0.3"),
+        (matched, 9, "normal", "0.0"),
+        (each.step.answer, 8.5, "normal", "0.3"),
+    )
+    line = 0.0145
+    for text, size, weight, colour in texts:
+        wrapped = textwrap.wrap(text, int(_LINE * 10 / max(size, 9)), max_lines=5)
+        if not wrapped:
+            continue
+        figure.text(
+            0.08, top, "\n".join(wrapped), fontsize=size, fontweight=weight, color=colour,
+            verticalalignment="top", linespacing=1.25, parse_math=False,
+        )  # fmt: skip
+        top -= line * len(wrapped) + 0.004
+    _draw_seen(figure, each, top - line * 0.5, bottom + 0.045)
+
+
+def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:
+    """Draw what the student saw, where there is room for it."""
+    room = min(top - bottom, 0.2 * _room(each))
+    if room <= 0.03:
+        return
+    if each.match is None:
+        draw_profile(figure.add_axes((0.12, bottom, 0.8, room)), each.scene)
+        return
+    below = figure.add_axes((0.12, bottom, 0.8, room * 0.3))
+    above = figure.add_axes((0.12, bottom + room * 0.36, 0.8, room * 0.64), sharex=below)
+    draw_match((above, below), each.match)
+
+
+def match_lines(match: Match, photo: str) -> list[str]:
+    """Say what a match found: values with standard deviations, the verdict, its reasons."""
+    lines = [f"photo {photo}: {match.verdict}" if photo else match.verdict]
+    for name in ("readout_time", "exposure_time"):
+        declared = quantity(name)
+        deviation = match.uncertainties.get(name)
+        value = declared.unit.format_estimate(getattr(match, name), deviation)
+        lines.append(f"{declared.label.lower()} {value}")
+    lines.append(
+        f"{match.exposure_in_chips:.3g} chips an exposure, residual {match.rmse:.2g} levels"
+    )
+    return [*lines, *match.reasons]
+
+
+def draw_profile(ax: Axes, scene: Scene) -> None:
+    """Draw the first columns of a scene's profile."""
+    shown = min(_SHOWN_COLUMNS, scene.camera.columns)
+    ax.plot(column_profile(scene)[:shown], linewidth=0.9, **SIMULATION)  # type: ignore[arg-type]
+    ax.set_xlim(0, shown)
+    ax.set_xlabel(f"column   ({caption(scene)})", fontsize=7, parse_math=False)
+    ax.set_ylabel("grey level", fontsize=7)
+    ax.tick_params(labelsize=7)
+
+
+def draw_match(axes: Sequence[Axes], match: Match) -> None:
+    """Draw a photo's profile with the one fitted to it, and below it what is left over."""
+    above, below = axes
+    shown = min(_SHOWN_COLUMNS, len(match.profile))
+    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
+    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
+    above.legend(loc="upper right", fontsize=7)
+    above.set_ylabel("grey level", fontsize=7)
+    above.tick_params(labelsize=7, labelbottom=False)
+    below.plot(match.residual[:shown], linewidth=0.8, color="0.3")
+    below.axhline(0.0, linewidth=0.5, color="0.0")
+    below.set_xlim(0, shown)
+    below.set_ylabel("residual", fontsize=7)
+    below.set_xlabel("column of the lamp", fontsize=7)
+    below.tick_params(labelsize=7)

@@ -1,0 +1,106 @@
+"""Lab sheets can be done with the sample photos, and their reports show what was measured."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.errors import OutputError
+from occ_model.figures.lesson_report import write_lesson_report
+from occ_model.figures.lesson_steps import match_lines, steps_of_pages
+from occ_model.files.resources import resource_path
+from occ_model.results import Match
+from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
+from occ_model.teaching.answers import check_answer
+from occ_model.teaching.lessons import ACTIONS, lessons
+
+SHEETS = [lesson for lesson in lessons().lessons if lesson.is_sheet]
+
+
+@pytest.fixture(scope="module")
+def match() -> Match:
+    """Match the sample photo of the sheet on the readout time."""
+    photo = occ.load_photo(resource_path("photos", "led-1khz.jpg"))
+    return occ.match_photo(photo, SHEETS[1].steps[3].scene)
+
+
+@pytest.mark.parametrize("sheet", SHEETS, ids=lambda sheet: sheet.name)
+def test_a_sheet_goes_from_the_transmitter_to_a_matched_photo(sheet: Lesson) -> None:
+    assert [step.action for step in sheet.steps if step.action] == list(ACTIONS)
+    for step in sheet.steps:
+        if step.own_photo:
+            assert step.pane == "photo"
+            assert step.photo
+
+
+def test_an_answer_about_a_photo_needs_its_match(match: Match) -> None:
+    step = SHEETS[1].steps[3]
+    assert "Match the photo first" in check_answer(step, "12.8").sentence
+    assert check_answer(step, "12.8", match).outcome == "right"
+    # That of the student's photo, not of the sample.
+    other = replace(match, scene=match.scene.replace(readout_time=20e-6))
+    assert check_answer(step, "12.8", other).outcome == "wrong"
+    assert check_answer(step, "20", other).outcome == "right"
+
+
+def test_a_pattern_has_no_code(match: Match) -> None:
+    step = SHEETS[2].steps[3]
+    assert "no code" in check_answer(step, "345", match).sentence
+
+
+def answered(sheet: Lesson, match: Match) -> list[AnsweredStep]:
+    given = CheckedAnswer("about 12.8 µs *exactly*", "right", "Right.")
+    return [
+        AnsweredStep(step, given, step.scene, match if step.own_photo else None, "mine.jpg")
+        for step in sheet.steps
+    ]
+
+
+def test_every_step_stands_on_one_page(match: Match) -> None:
+    for sheet in SHEETS:
+        steps = answered(sheet, match)
+        pages = list(steps_of_pages(steps))
+        assert [each for _, page in pages for each in page] == steps
+        assert [first for first, _ in pages] == [
+            1 + sum(len(page) for _, page in pages[:place]) for place in range(len(pages))
+        ]
+
+
+def test_a_report_of_several_pages_is_a_document(match: Match, tmp_path: Path) -> None:
+    steps = answered(SHEETS[1], match)
+    path = tmp_path / "report.pdf"
+    write_lesson_report(path, SHEETS[1], steps, author="A. Student", date="2026-11-22")
+    content = path.read_bytes()
+    assert content.startswith(b"%PDF")
+    assert content.count(b"/Type /Page ") == len(list(steps_of_pages(steps))) > 1
+    with pytest.raises(OutputError, match=r"has 2 pages; allowed endings: \.pdf and \.md"):
+        write_lesson_report(tmp_path / "report.png", SHEETS[1], steps)
+    assert not (tmp_path / "report.png").exists()
+
+
+def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_path: Path) -> None:
+    path = tmp_path / "report.md"
+    write_lesson_report(path, SHEETS[1], answered(SHEETS[1], match), author="A. Student")
+    text = path.read_text(encoding="utf-8")
+    assert "A. Student" in text
+    assert "about 12.8 µs \\*exactly\\*" in text  # as typed, not as markup
+    for line in match_lines(match, "mine.jpg"):
+        assert f"* {line}" in text
+    assert "readout time 12.79" in text
+    assert " ± 0.0" in text
+    for place in range(1, len(SHEETS[1].steps) + 1):
+        figure = tmp_path / "report-figures" / f"step-{place}.png"
+        assert f"(report-figures/{figure.name})" in text
+        with Image.open(figure) as drawn:
+            assert drawn.width > 300
+    toml = text.partition("```toml\n")[2].rpartition("\n```")[0]
+    assert occ.Scene.from_toml(toml) == SHEETS[1].steps[-1].scene
+
+
+def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:
+    doubtful = replace(match, reasons=("Only 2 periods are in view.",))
+    assert match_lines(match, "")[0] == "sure"
+    assert match_lines(doubtful, "a.jpg")[0] == "photo a.jpg: doubtful"
+    assert match_lines(doubtful, "a.jpg")[-1] == "Only 2 periods are in view."

@@ -1,6 +1,5 @@
 """A camera's unknown tone curve: a gamma, bent by a shoulder and by contrast."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +12,6 @@ _TOE = 0.03
 
 _GRID = np.linspace(-0.1, 1.0, 441)
 _LEAST_SLOPE = 0.05
-
-_ROOTS = 2049
-"""Tabulated roots of light: between them a gamma of 2.2 is less than 0.01 levels off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +44,15 @@ class ToneCurve:
         bent = (bent + 1.0 - bent[-1] + self.offset) / (1.0 + self.offset)
         toe = _TOE**self.gamma * (1.0 + self.gamma * (bent / _TOE - 1.0))
         light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
-        return ToneTable(light, np.diff(u)[0] / np.gradient(light))
+        return ToneTable(light, (u[1] - u[0]) / _risen(light))
+
+
+def _risen(values: FloatArray) -> FloatArray:
+    """Give half of the rise from the value before to the value after; at the ends the whole one."""
+    risen = np.empty_like(values)
+    risen[1:-1] = 0.5 * (values[2:] - values[:-2])
+    risen[0], risen[-1] = values[1] - values[0], values[-1] - values[-2]
+    return risen
 
 
 class EvenTable:
@@ -85,14 +89,8 @@ class ToneTable:
 
     def __init__(self, light: FloatArray, slope: FloatArray) -> None:
         self.light, self.slope = light, slope
-        self._darkest, brightest = float(light[0]), float(light[-1])
-        # Over the root of light a curve is nearly straight.
-        most = math.sqrt(brightest - self._darkest)
-        even = self._darkest + np.linspace(0.0, most, _ROOTS) ** 2
         self._light = EvenTable(_GRID[0], _GRID[-1], light)
         self._slope = EvenTable(_GRID[0], _GRID[-1], slope)
-        self._value_of_root = EvenTable(0.0, most, np.interp(even, light, _GRID))
-        self._slope_of_root = EvenTable(0.0, most, np.interp(even, light, slope))
 
     def light_of(self, values: FloatArray) -> FloatArray:
         """Give the light of grey levels; 1 makes white."""
@@ -104,13 +102,10 @@ class ToneTable:
 
     def slope_of(self, light: FloatArray) -> FloatArray:
         """Give the slope of grey levels over light, at light."""
-        return np.asarray(WHITE * self._slope_of_root.at(self._root(light)))
+        return np.asarray(WHITE * np.interp(light, self.light, self.slope))
 
     def value_of(self, light: FloatArray) -> FloatArray:
         """Give the grey levels of light; it goes on straight beyond both ends."""
         over = np.maximum(light - self.light[-1], 0.0) * self.slope[-1]
-        under = np.minimum(light - self._darkest, 0.0) * self.slope[0]
-        return np.asarray(WHITE * (self._value_of_root.at(self._root(light)) + over + under))
-
-    def _root(self, light: FloatArray) -> FloatArray:
-        return np.sqrt(np.maximum(light - self._darkest, 0.0))
+        under = np.minimum(light - self.light[0], 0.0) * self.slope[0]
+        return np.asarray(WHITE * (np.interp(light, self.light, _GRID) + over + under))

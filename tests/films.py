@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray
+from occ_model.video.file.write import write_frames
 
 KINDS = (
     ("mp4", "mp4v"), ("mov", "mp4v"), ("mov", "MJPG"), ("avi", "MJPG"), ("avi", "XVID"),
@@ -18,6 +19,9 @@ KINDS = (
     ("webm", "VP90"),
 )  # fmt: skip
 """Endings and codecs that OpenCV writes everywhere."""
+
+PICTURES = (("gif", ""), ("png", ""))
+"""Animated pictures, which Pillow reads."""
 
 RATE, LINES, COLUMNS = 30.0, 48, 64
 
@@ -52,14 +56,18 @@ def film_bytes(ending: str, codec: str, frames: int = 20) -> bytes:
     """The bytes of a film of stripes."""
     with TemporaryDirectory() as folder:
         path = Path(folder, f"film.{ending}")
-        write_film(path, codec, [stripes(number) for number in range(frames)])
+        pictures = (stripes(number) for number in range(frames))
+        if codec:
+            write_film(path, codec, pictures)
+        else:
+            write_frames(path, [stripes(0), *pictures], RATE, "")
         return path.read_bytes()
 
 
 def damaged_film(seed: int) -> tuple[str, bytes]:
     """A film's ending and bytes, damaged at random: cut, changed, blanked, of a huge size."""
     chance = random.Random(seed)
-    ending, codec = chance.choice(KINDS)
+    ending, codec = chance.choice((*KINDS, *PICTURES))
     content = bytearray(film_bytes(ending, codec, chance.choice((0, 1, 20, 20, 20))))
     damage = chance.choice((_cut, _changed, _changed_head, _enlarged, _blanked, _other_codec))
     damage(content, chance)

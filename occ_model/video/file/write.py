@@ -53,12 +53,16 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
     Raises
     ------
     OutputError
-        The ending is of no film, the rate too high for its kind, or the file cannot be written.
+        The ending is of no film, the rate too high for its kind, there are no pictures, or the
+        file cannot be written.
     """
     check_film_path(path, rate)
     ending = path.suffix.lower()
     with written_whole(path) as temporary:
-        return _WRITERS[ending](temporary, iter(pictures), rate, note)
+        count = _WRITERS[ending](temporary, iter(pictures), rate, note)
+        if count == 0:
+            raise OutputError(f"{one_line(path.name)} is not written: the film has no frames.")
+    return count
 
 
 def check_film_path(path: Path, rate: float) -> None:

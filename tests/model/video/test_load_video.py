@@ -27,6 +27,8 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
+from occ_model.video.file import decoder_process
+from occ_model.video.file.decoder_process import DecoderProcess
 
 _MEMORY = Path(__file__).parents[2] / "benchmarks" / "film_memory.py"
 
@@ -260,8 +262,6 @@ def test_nothing_is_printed_and_the_environment_stays(
 def test_a_decoder_that_dies_ends_the_film_with_a_sentence_and_the_next_one_begins_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.video.file.decoder_process import DecoderProcess
-
     film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
     usual, count = DecoderProcess.read, 0
 
@@ -279,6 +279,36 @@ def test_a_decoder_that_dies_ends_the_film_with_a_sentence_and_the_next_one_begi
     assert film.problem == (f"{film.path} ends early: frame 7 cannot be read: the decoder failed.")
     monkeypatch.undo()
     assert len(list(film)) == 20
+
+
+_BUSY = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from occ_model.video.file import decoder_main, opencv_source
+decoder_main.LONGEST = 0.3
+usual = opencv_source.OpenCvSource.read
+def read(self):
+    frame = usual(self)
+    while frame is not None and frame.time > 0.3:
+        pass
+    return frame
+opencv_source.OpenCvSource.read = read
+decoder_main.main()
+"""
+
+
+def test_a_decoder_that_takes_too_long_is_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(decoder_process, "_START", _BUSY)
+    monkeypatch.setattr(decoder_process, "_spare", [])
+    film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
+    assert len(list(film)) == 10
+    assert film.problem == (
+        f"{film.path} ends early: frame 10 cannot be read: decoding it takes too long."
+    )
+    with pytest.raises(occ.VideoError, match=r"Frame 15 of .* cannot be read: .* takes too long"):
+        film.frame(15)
 
 
 def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) -> None:

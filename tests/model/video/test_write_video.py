@@ -146,6 +146,9 @@ def test_what_cannot_be_written_is_refused(tmp_path: Path, film: occ.Video) -> N
         occ.write_video(fast, tmp_path / "a.gif")
     with pytest.raises(occ.ParameterError, match="a film without end"):
         occ.write_video(occ.render_video(SCENE), tmp_path / "a.mp4")
+    for ending in FILM_ENDINGS:
+        with pytest.raises(occ.OutputError, match=r"a.* is not written: the film has no frames"):
+            write_frames(tmp_path / f"a{ending}", [], 30.0, "")
     assert list(tmp_path.iterdir()) == []
 
 

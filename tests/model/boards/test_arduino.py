@@ -36,7 +36,7 @@ PACKETS = 100
 def uno(tmp_path_factory: pytest.TempPathFactory) -> SimulatedUno:
     missing = missing_tools()
     if missing:
-        pytest.skip(f"no Arduino can be simulated here, for {missing} is missing")
+        pytest.skip(f"no Arduino can be simulated here; missing: {missing}")
     return SimulatedUno(tmp_path_factory.mktemp("uno"))
 
 

@@ -47,7 +47,7 @@ def test_the_table_is_the_packet(name: str) -> None:
 @every_scene
 def test_the_driver_is_given_the_packet_over_and_over(name: str, tmp_path: Path) -> None:
     if shutil.which("g++") is None:
-        pytest.skip("the sketch of the ESP32 cannot be compiled here, for g++ is missing")
+        pytest.skip("the sketch of the ESP32 cannot be compiled here; missing: g++")
     sent = sent_by(name)
     clock, levels, durations = run_sketch(source_text(sent), 2 * len(sent.chips) + 64, tmp_path)
     assert len(levels) > 4 * len(sent.chips)

@@ -15,6 +15,7 @@ from occ_model.commands import (
     decode,
     figures,
     film,
+    film_study,
     limits,
     listing,
     match,
@@ -29,8 +30,8 @@ from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
 _COMMANDS = (
-    render, animate, film, plan, accuracy, sweep, limits, bench, most_bits, decode, match, figures,
-    transmit, codes, listing,
+    render, animate, film, film_study, plan, accuracy, sweep, limits, bench, most_bits, decode,
+    match, figures, transmit, codes, listing,
 )  # fmt: skip
 
 

@@ -1,0 +1,127 @@
+"""The command ``occ-model film-study``: packets received over frequency, gap and packet length."""
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from occ_model.commands.files import folder_of_figures
+from occ_model.commands.options import (
+    Commands,
+    add_scene_options,
+    decoder_name,
+    number,
+    scene_of,
+    whole_number,
+)
+from occ_model.commands.progress_bar import progress_bar
+from occ_model.errors import ParameterError, one_line, shown
+from occ_model.files.writing import make_folder
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.scene.parameters import quantity
+from occ_model.scene.units import HERTZ
+from occ_model.study.films.published_example import example_request, published_rule
+from occ_model.study.films.study import FilmPoint, FilmRequest, film_study, scene_of_films
+
+_FRAMES = 120
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser(
+        "film-study", help="measure what films carry, over frequency, gap and packet length"
+    )
+    add_scene_options(parser)
+    parser.add_argument("--frequencies", default="4kHz,8kHz", metavar="LIST",
+                        help="switching frequencies; default: %(default)s")  # fmt: skip
+    parser.add_argument("--gaps", default="5,10,20,30,40", metavar="LIST",
+                        help="gaps in percent of a frame period; default: %(default)s")  # fmt: skip
+    parser.add_argument("--bits", default="16,64", metavar="LIST",
+                        help="bits of a payload; default: %(default)s")  # fmt: skip
+    parser.add_argument("--frame-rate", type=number, default=30.0, metavar="HZ",
+                        help="default: %(default)g")  # fmt: skip
+    parser.add_argument("--frames", type=whole_number, default=None, metavar="N",
+                        help=f"frames of each film; default: {_FRAMES}")  # fmt: skip
+    parser.add_argument("--decoder", type=decoder_name, default=PAPER_DECODER,
+                        help="default: %(default)s")  # fmt: skip
+    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    parser.add_argument(
+        "--example", action="store_true",
+        help="the published example of CamComSim instead, beside counting and its own rule",
+    )  # fmt: skip
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="folder for the figure as PDF, PNG, SVG and CSV"
+    )
+    parser.set_defaults(command=_run, writes={"out": folder_of_figures("films")})
+
+
+def _run(options: argparse.Namespace) -> int:
+    request = _example(options) if options.example else _request(options)
+    if options.out:
+        make_folder(options.out)  # a refusal must not come after minutes of work
+    points = []
+    print("   frequency    gap   bits  packets  received  by counting  bits a second")
+    with progress_bar(total=request.points * request.frames, unit="frame") as bar:
+        for point in film_study(request, bar.update):
+            points.append(point)
+            bar.write(_line(point), file=sys.stdout)
+    if options.example:
+        print(
+            f"CamComSim states no figure; by its own rule {100.0 * float(published_rule()):.2f} % "
+            "are received."
+        )
+    if options.out:
+        # matplotlib takes half a second to import: only where a figure is drawn.
+        from occ_model.figures.films import write_films_figure
+
+        write_films_figure(options.out, request, points)
+        print(f"{one_line(str(options.out))}: the figure as PDF, PNG, SVG and CSV")
+    return 0
+
+
+def _example(options: argparse.Namespace) -> FilmRequest:
+    request = example_request(seed=options.seed)
+    frames = request.frames if options.frames is None else options.frames
+    return replace(request, frames=frames, decoder=options.decoder)
+
+
+def _request(options: argparse.Namespace) -> FilmRequest:
+    frequency = quantity("switching_frequency")
+    return FilmRequest(
+        scene_of_films(scene_of(options)),
+        frequencies=tuple(frequency.parse(text) for text in _listed(options.frequencies)),
+        gaps=tuple(_number("gaps", text) / 100.0 for text in _listed(options.gaps)),
+        bits=tuple(_whole("bits", text) for text in _listed(options.bits)),
+        frame_rate=options.frame_rate,
+        frames=_FRAMES if options.frames is None else options.frames,
+        decoder=options.decoder,
+        seed=options.seed,
+    )
+
+
+def _listed(text: str) -> list[str]:
+    return [part.strip() for part in text.split(",") if part.strip()]
+
+
+def _number(name: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ParameterError(f"{name} holds {shown(text)}; allowed: numbers.") from None
+
+
+def _whole(name: str, text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise ParameterError(f"{name} holds {shown(text)}; allowed: whole numbers.") from None
+
+
+def _line(point: FilmPoint) -> str:
+    note = "" if point.is_right else f"  {point.failure or 'The payload is wrong.'}"
+    received, counted = 100.0 * point.reception, 100.0 * point.counted_reception
+    return (
+        f"{HERTZ.format(point.frequency):>12} {100.0 * point.gap:5.1f} % {point.bits:5d} "
+        f"{point.packets:8d} {received:7.2f} % {counted:9.2f} % "
+        f"{point.bits_per_second:14,.0f}{note}"
+    )

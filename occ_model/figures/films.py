@@ -1,0 +1,89 @@
+"""Draw a study of films: packets received and bits a second over the gap."""
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from occ_model import colours
+from occ_model.figures.drawing import Drawing, write_all
+from occ_model.scene.provenance import Provenance
+from occ_model.scene.units import HERTZ
+from occ_model.study.films.study import FilmPoint, FilmRequest, grid_of
+
+_HEADER = (
+    "switching frequency (Hz)", "gap (share of a frame)", "payload (bits)", "packet (chips)",
+    "packets sent", "packets read", "packets counted", "received", "received by counting",
+    "received on average", "bits a second", "payload complete after (s)", "payload right",
+    "failure",
+)  # fmt: skip
+
+_TITLE = "Films: packets received and bits a second over the gap"
+_COLOURS = (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.NOISE)
+_MARKERS = "os^Dv"
+
+
+def write_films_figure(folder: Path, request: FilmRequest, points: Sequence[FilmPoint]) -> None:
+    """Write the figure as PDF, PNG and SVG, and its numbers as CSV.
+
+    Raises
+    ------
+    OutputError
+        A file cannot be written.
+    """
+    provenance = Provenance(
+        _TITLE,
+        {"scene": request.scene},
+        request.seed,
+        (f"{request.frames} frames a film, {request.frame_rate:g} a second", request.decoder),
+    )
+    write_all(folder, [films_drawing(points)], lambda _drawing: provenance)
+
+
+def films_drawing(points: Sequence[FilmPoint]) -> Drawing:
+    """Draw the points of a study."""
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        for point in points:
+            yield (
+                point.frequency, point.gap, point.bits, point.packet_chips, point.packets,
+                point.read, point.counted, point.reception, point.counted_reception,
+                point.on_average, point.bits_per_second,
+                "" if point.complete_at is None else point.complete_at, int(point.is_right),
+                point.failure or "",
+            )  # fmt: skip
+
+    return Drawing("films", _TITLE, lambda: _draw(points), _HEADER, rows)
+
+
+def _draw(points: Sequence[FilmPoint]) -> Figure:
+    figure = Figure(figsize=(7.6, 3.6))
+    received, carried = figure.subplots(1, 2)
+    for number, ((frequency, bits), line) in enumerate(grid_of(points).items()):
+        style: dict[str, Any] = {
+            "color": _COLOURS[number % len(_COLOURS)],
+            "marker": _MARKERS[number // len(_COLOURS) % len(_MARKERS)],
+        }
+        gaps = [100.0 * point.gap for point in line]
+        label = f"{HERTZ.format(frequency)}, {bits} bits"
+        read = [100.0 * point.reception for point in line]
+        received.plot(gaps, read, linestyle="", markersize=4, label=label, **style)
+        counted = [100.0 * point.counted_reception for point in line]
+        received.plot(gaps, counted, linewidth=0.8, color=style["color"])
+        rates = [point.bits_per_second for point in line]
+        carried.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
+    received.plot([], [], color="black", linewidth=0.8, label="by exact counting")
+    _label(received, "packets received (%)")
+    _label(carried, "bits a second in packets read whole")
+    received.set_ylim(-4.0, 104.0)
+    carried.set_ylim(bottom=0.0)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=7)
+    return figure
+
+
+def _label(ax: Axes, what: str) -> None:
+    ax.set_xlabel("gap (% of a frame period)")
+    ax.set_ylabel(what)
+    ax.grid(linewidth=0.3)

@@ -1,0 +1,1 @@
+"""Studies of films: bits a second and lost packets, beside exact counting."""

@@ -1,0 +1,237 @@
+"""Measure how many packets films carry: over frequency, gap and packet length.
+
+Each point is a film that is simulated and read; beside it stands the share of packets that frames
+show whole, counted in exact arithmetic. The difference is what the receiver costs.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+
+from occ_model.errors import ParameterError
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.video_reading import VideoReading
+from occ_model.scene.argument_checks import check_count, check_seed
+from occ_model.scene.recording import Recording
+from occ_model.scene.scene import Scene, check_scene
+from occ_model.study.observation import panel_span
+from occ_model.video.counting import ShutterTiming, packets_received_on_average
+from occ_model.video.period import period_of
+from occ_model.video.reader import VideoReader
+from occ_model.video.render import SimulatedVideo, render_video
+
+MOST_POINTS = 10_000
+
+_LARGEST_GAP = 0.9
+"""Largest share of a frame period that a gap may take."""
+
+
+@dataclass(frozen=True, slots=True)
+class FilmRequest:
+    """What a study of films measures.
+
+    Parameters
+    ----------
+    scene
+        The scene; its readout time follows from the gap, and its payload from the number of bits.
+    frequencies
+        Switching frequencies in Hz.
+    gaps
+        Gaps as shares of the frame period, from 0.
+    bits
+        Numbers of bits of a payload.
+    frame_rate
+        In Hz.
+    frames
+        Frames of each film.
+    decoder
+        The decoder's name.
+    seed
+        Seed of payloads, start times and noise.
+
+    Raises
+    ------
+    ParameterError
+        A value is out of range, or there are too many points.
+    """
+
+    scene: Scene
+    frequencies: tuple[float, ...]
+    gaps: tuple[float, ...]
+    bits: tuple[int, ...]
+    frame_rate: float = 30.0
+    frames: int = 120
+    decoder: str = PAPER_DECODER
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        check_scene(self.scene)
+        check_seed(self.seed)
+        check_count("frames", self.frames, 3, 1_000_000)
+        for gap in self.gaps:
+            if not 0.0 <= gap <= _LARGEST_GAP:
+                raise ParameterError(
+                    f"gap is {100.0 * gap:g} % of a frame; allowed: 0 to {100 * _LARGEST_GAP:g} %."
+                )
+        check_count("points", self.points, 1, MOST_POINTS)
+        for number in self.bits:
+            check_count("bits", number, 1, 4096)
+        Recording(frame_rate=self.frame_rate)
+
+    @property
+    def points(self) -> int:
+        """How many films are measured."""
+        return len(self.frequencies) * len(self.gaps) * len(self.bits)
+
+    def scene_at(self, frequency: float, gap: float, bits: int, seed: int) -> Scene:
+        """Return the scene of a point, with a random payload and start time."""
+        random = np.random.default_rng(seed)
+        payload = "bits:" + "".join(map(str, random.integers(0, 2, bits).tolist()))
+        readout = (1.0 - gap) / self.frame_rate / self.scene.camera.columns
+        return self.scene.replace(
+            switching_frequency=frequency,
+            readout_time=readout,
+            payload=payload,
+            pattern="",
+            start_time=float(random.uniform(0.0, 1.0)),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class FilmPoint:
+    """What a film carried.
+
+    Parameters
+    ----------
+    frequency, gap, bits
+        Switching frequency in Hz, gap as a share of the frame period, bits of the payload.
+    packet_chips
+        Chips of a packet, or of a sub-packet.
+    packets, read, counted
+        Packets sent while the film ran, those read right, and those that exact counting finds whole
+        in a frame.
+    on_average
+        Share of packets that frames show whole, on average over the time of the start.
+    bits_per_second
+        Bits of the payload in the packets read, a second.
+    complete_at
+        Seconds after which the whole payload was joined; None where it was not.
+    is_right
+        Whether the joined payload is the one that was sent.
+    failure
+        Why the scene could not be filmed or read; None otherwise.
+    """
+
+    frequency: float
+    gap: float
+    bits: int
+    packet_chips: int
+    packets: int
+    read: int
+    counted: int
+    on_average: float
+    bits_per_second: float
+    complete_at: float | None
+    is_right: bool
+    failure: str | None
+
+    @property
+    def reception(self) -> float:
+        """Share of the packets that were read right; 0 where none was sent."""
+        return self.read / self.packets if self.packets else 0.0
+
+    @property
+    def counted_reception(self) -> float:
+        """Share of the packets that counting finds whole in a frame."""
+        return self.counted / self.packets if self.packets else 0.0
+
+
+def film_study(
+    request: FilmRequest, heartbeat: Callable[[], object] = lambda: None
+) -> Iterator[FilmPoint]:
+    """Measure one film after the other: gaps fastest, then frequencies, then bits.
+
+    Parameters
+    ----------
+    request
+        What is measured.
+    heartbeat
+        Called before each frame; what it raises ends the study.
+    """
+    places = product(request.bits, request.frequencies, request.gaps)
+    for number, (bits, frequency, gap) in enumerate(places):
+        scene = request.scene_at(frequency, gap, bits, request.seed + number)
+        yield _measured(request, scene, gap, heartbeat)
+
+
+def _measured(
+    request: FilmRequest, scene: Scene, gap: float, heartbeat: Callable[[], object]
+) -> FilmPoint:
+    recording = Recording(frame_rate=request.frame_rate)
+    video = render_video(scene, request.frames, recording)
+    reader = VideoReader(scene, request.decoder)
+    for frame in video:
+        heartbeat()
+        reader.add(frame)
+    reading = reader.reading()
+    period = period_of(scene)
+    timing = _timing(scene)
+    length = period.part_length
+    # A film whose frames hold no packet at all tells how many were sent by its clock alone.
+    sent = len(reading.packets)
+    return FilmPoint(
+        frequency=scene.transmitter.switching_frequency,
+        gap=gap,
+        bits=scene.transmitter.payload_length,
+        packet_chips=length,
+        packets=sent,
+        read=reading.read,
+        counted=_counted(video, timing, length),
+        on_average=float(
+            packets_received_on_average(timing, 1 / Fraction(request.frame_rate), length)
+        ),
+        bits_per_second=reading.bits_per_second,
+        complete_at=_completed(reading),
+        is_right=reading.bits.tolist() == list(scene.transmitter.payload_bits),
+        failure=reading.failure,
+    )
+
+
+def _timing(scene: Scene) -> ShutterTiming:
+    span = panel_span(scene)
+    if span is None or span.columns == 0:
+        raise ParameterError(
+            "The panel is turned or out of view; allowed in a study of films: a level panel."
+        )
+    return ShutterTiming.of(scene, (span.first_column, span.last_column))
+
+
+def _counted(video: SimulatedVideo, timing: ShutterTiming, length: int) -> int:
+    """Count the packets that the frames of a film show whole."""
+    starts = (video.start_of(number) for number in range(video.frame_count or 0))
+    return sum(timing.whole_packets(start, length) for start in starts)
+
+
+def _completed(reading: VideoReading) -> float | None:
+    if reading.complete_at is None:
+        return None
+    return reading.complete_at - reading.frames[0].time + reading.duration / len(reading.frames)
+
+
+def scene_of_films(scene: Scene) -> Scene:
+    """Return a scene whose panel fills the picture, of few rows: films of it take little time."""
+    return scene.replace(
+        rows=48, columns=1080, distance=0.4, panel_width=2.0, panel_height=2.0, yaw=0.0, pitch=0.0,
+        roll=0.0, offset_x=0.0, offset_y=0.0,
+    )  # fmt: skip
+
+
+def grid_of(points: Sequence[FilmPoint]) -> dict[tuple[float, int], list[FilmPoint]]:
+    """Return the points of each frequency and number of bits, in the order of the gap."""
+    found: dict[tuple[float, int], list[FilmPoint]] = {}
+    for point in points:
+        found.setdefault((point.frequency, point.bits), []).append(point)
+    return found

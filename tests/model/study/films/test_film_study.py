@@ -1,0 +1,106 @@
+"""Packets that films carry, beside counting by hand in exact arithmetic."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.study.films.published_example import (
+    FRAME_PERIOD,
+    PACKET_CHIPS,
+    example_request,
+    published_rule,
+)
+from occ_model.study.films.study import FilmRequest, film_study, scene_of_films
+from occ_model.video.counting import (
+    ShutterTiming,
+    chips_seen,
+    packets_received,
+    packets_received_on_average,
+)
+
+TIMING = ShutterTiming(Fraction(8000), Fraction(0), Fraction(1, 40_000), 0, 1000)
+"""A view of 25 ms: 200 chips."""
+
+
+def test_a_view_of_whole_chips_shows_them_all_and_no_more() -> None:
+    assert TIMING.whole_chips(Fraction(0)) == (0, 200)
+    assert TIMING.whole_chips(Fraction(1, 16_000)) == (1, 200)
+    assert TIMING.whole_packets(Fraction(0), 50) == 4
+    assert TIMING.whole_packets(Fraction(1, 8000), 50) == 3
+    assert TIMING.whole_packets(Fraction(1, 8000), 201) == 0
+
+
+def test_counting_every_start_gives_the_mean_over_the_time_of_the_start() -> None:
+    period = Fraction(1, 30)
+    by_start = [
+        packets_received(TIMING, period, 50, Fraction(start, 8000 * 30)) for start in range(50 * 30)
+    ]
+    mean = sum(by_start, Fraction(0)) / len(by_start)
+    # Starts that begin a chip see it whole: a step of 1/30 chip counts them once more.
+    assert float(mean) == pytest.approx(
+        float(packets_received_on_average(TIMING, period, 50)), abs=1e-3
+    )
+
+
+def test_chips_are_counted_by_the_frames_that_show_them_whole() -> None:
+    counts = chips_seen([(TIMING, Fraction(0)), (TIMING, Fraction(1, 30))], 300)
+    # The second frame starts with chip 266 2/3 and shows 267 to 465.
+    assert counts.tolist() == [
+        int(chip < 200) + int(chip >= 267) + int(chip < 466 - 300) for chip in range(300)
+    ]
+
+
+def test_the_published_example_is_received_as_counting_says() -> None:
+    request = example_request(frames=65)
+    (point,) = film_study(request)
+    assert point.packet_chips == PACKET_CHIPS == 52
+    assert point.is_right
+    assert point.reception == pytest.approx(point.counted_reception, abs=0.02)
+    # By hand: (26.64 ms - 6.5 ms) / 33.3 ms on average over the start.
+    by_hand = (Fraction(8, 10) * FRAME_PERIOD - Fraction(PACKET_CHIPS, 8000)) / FRAME_PERIOD
+    # The exposure, 25 us, is longer than the readout time by a hundred-thousandth of a frame.
+    assert point.on_average == pytest.approx(float(by_hand), abs=2e-5)
+    assert point.reception == pytest.approx(float(by_hand), abs=0.02)
+
+
+def test_the_rule_of_the_published_simulator_is_within_two_points_of_counting() -> None:
+    # 270 - 65 of 333 steps of 0.1 ms, of which one in a hundred is lost.
+    assert published_rule() == Fraction(205, 333) * Fraction(99, 100)
+    by_hand = (Fraction(8, 10) * FRAME_PERIOD - Fraction(PACKET_CHIPS, 8000)) / FRAME_PERIOD
+    assert abs(float(published_rule() - by_hand)) < 0.02
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("bits", [16, 40, 90])
+@pytest.mark.parametrize("gap", [0.05, 0.2, 0.4])
+def test_films_carry_what_counting_says(bits: int, gap: float) -> None:
+    scene = scene_of_films(occ.load_preset("phone-68us")).replace(
+        line_code="manchester", framing="preamble", exposure_time=40e-6
+    )
+    (point,) = film_study(FilmRequest(scene, (8e3,), (gap,), (bits,), frames=90))
+    assert point.is_right
+    assert point.reception == pytest.approx(point.counted_reception, abs=0.02)
+
+
+def test_a_gap_out_of_range_is_refused() -> None:
+    with pytest.raises(occ.ParameterError, match="gap is 95 % of a frame"):
+        FilmRequest(occ.Scene(), (8e3,), (0.95,), (16,))
+
+
+def test_the_command_writes_the_numbers_that_it_prints(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "films"
+    assert main(["film-study", "--frequencies", "8kHz", "--gaps", "20", "--bits", "16",
+                 "--frames", "6", "--set", "framing=preamble", "--set", "line_code=manchester",
+                 "--set", "exposure_time=40us", "--out", str(out)]) == 0  # fmt: skip
+    printed = capsys.readouterr().out.splitlines()[1].split()
+    rows = [line for line in (out / "films.csv").read_text().splitlines() if line[0] != "#"]
+    values = dict(zip(rows[0].split(","), rows[1].split(","), strict=True))
+    assert printed[0] == "8"
+    assert values["payload (bits)"] == "16"
+    assert values["packets sent"] in printed
+    assert (out / "films.png").stat().st_size > 1000

@@ -94,6 +94,11 @@ def test_the_bundle_runs_without_python(bundle: Path, tmp_path: Path) -> None:
     )
     assert run_alone(bundle, "occ-model", *words, home=tmp_path) == usual.stdout
 
+    film = tmp_path / "film.mp4"
+    size = ["--set", "rows=240", "--set", "columns=320", "--frames", "3"]
+    written = run_alone(bundle, "occ-model", "film", *size, "-o", str(film), home=tmp_path)
+    assert "Its codec is lossy: in the first frame" in written  # it has been opened again
+
     table = tmp_path / "rates.csv"
     sweep = ["sweep", "--vary", "switching_frequency=4kHz,8kHz", "--jobs", "2", "--images", "2"]
     run_alone(bundle, "occ-model", *sweep, "--out", str(table), home=tmp_path)

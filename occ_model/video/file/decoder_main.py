@@ -16,6 +16,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
+DECODER_OPTION = "--decoder-of-films"
+"""Tells a program that was bundled with its Python to become a decoder."""
+
 MOST_MEMORY = 420_000_000
 """Bytes of data that the process may have, where the system can limit it."""
 
@@ -80,7 +83,8 @@ def main() -> None:
     answering = _Answering(kinds)
     watch = _Watch()
     with suppress(BrokenPipeError):
-        for line in sys.stdin:
+        # A bundled program without a console has no sys.stdin.
+        for line in os.fdopen(0, "rb"):
             watch.begin()
             answer, pixels = answering.answer(json.loads(line))
             watch.end(answering.has_film)

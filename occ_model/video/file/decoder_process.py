@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from occ_model.errors import VideoError
-from occ_model.video.file.decoder_main import HEADER, TOOK_TOO_LONG
+from occ_model.video.file.decoder_main import DECODER_OPTION, HEADER, TOOK_TOO_LONG
 from occ_model.video.file.source import StoredFrame
 
 _PACKAGES = Path(__file__).resolve().parents[3]
@@ -52,7 +52,7 @@ class DecoderProcess:
 
     def __init__(self) -> None:
         self._process = process = subprocess.Popen(  # noqa: S603 - this very program
-            [sys.executable, "-P", "-c", _START, str(_PACKAGES)],
+            _command(),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -191,6 +191,13 @@ class DecoderProcess:
 
 
 _AT_ONCE = 16
+
+
+def _command() -> list[str]:
+    """Return the command that starts a decoder."""
+    if getattr(sys, "frozen", False):  # a bundle, whose programs are no Python
+        return [sys.executable, DECODER_OPTION]
+    return [sys.executable, "-P", "-c", _START, str(_PACKAGES)]
 
 
 _spare: list[DecoderProcess] = []

@@ -311,6 +311,21 @@ def test_a_decoder_that_takes_too_long_is_ended(
         film.frame(15)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="the stand-in is a shell script")
+def test_a_bundled_program_becomes_its_own_decoder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = tmp_path / "program"
+    start = Path(__file__).parents[3] / "resources" / "packaging" / "shell.py"
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{start}" "$@"\n')
+    program.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(program))
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    monkeypatch.setattr(decoder_process, "_spare", [])
+    film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
+    assert len(list(film)) == 20
+
+
 def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) -> None:
     path = saved(tmp_path, film_bytes("mp4", "mp4v"))
     films = [occ.load_video(path) for _ in range(3)]

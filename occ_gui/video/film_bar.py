@@ -51,8 +51,11 @@ class FilmBar(QWidget):
         self.close_film = QPushButton(self.tr("Close"))
         self.close_film.clicked.connect(self.close_asked)
         self.axis = KeyedComboBox(
-            self.tr("What the camera scans"),
-            self.tr("Whether the camera's shutter scans its picture line by line or by columns."),
+            self.tr("What the shutter scans"),
+            self.tr(
+                "Whether the shutter scans the picture line by line or column by column.\n"
+                "Of a film it is found on the first frames; choose, where that went wrong."
+            ),
             dict(zip(AXES, (self.tr("line by line"), self.tr("column by column")), strict=True)),
         )
         self.axis.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
@@ -88,8 +91,8 @@ class FilmBar(QWidget):
             if is_live
             else self.tr("Close the film, and show the simulated one.")
         )
-        for part in (self.axis, self.lock):
-            part.setVisible(is_live)
+        self.axis.setVisible(is_film or is_live)
+        self.lock.setVisible(is_live)
         self.read.setVisible(not is_live)
 
     def show_reading(self, reading: bool, done: bool = False) -> None:

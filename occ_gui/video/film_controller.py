@@ -11,15 +11,17 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
 from occ_gui.video.player import FilmPlayer
 from occ_gui.video.recording_form import RecordingForm
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results.video import Video, VideoFrame
 
 _DRAFT_STEP = 8
 """A draft of the simulated frame shows one of so many rows, while a film plays."""
 
 
-def _open(path: Path, report: Report) -> Video:
+def _open(request: tuple[Path, str], report: Report) -> Video:
     report(0.0)
-    return occ.load_video(path)
+    path, axis = request
+    return occ.load_video(path, axis)
 
 
 class FilmController(QObject):
@@ -57,7 +59,9 @@ class FilmController(QObject):
         self._is_seen = False
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
-        self.opener: Cancellable[Path, Video] = Cancellable(_open, "opening of the film")
+        self.opener: Cancellable[tuple[Path, str], Video] = Cancellable(
+            _open, "opening of the film"
+        )
         self.opener.finished.connect(self.put)
         self.opener.failed.connect(self.failed)
         self.loader: LatestWins[FrameRequest, ShownFrame] = LatestWins(
@@ -109,9 +113,17 @@ class FilmController(QObject):
         else:
             self.player.pause()
 
-    def open(self, path: Path) -> None:
-        """Open a film; what is open stays until it can be shown."""
-        self.opener.start(path)
+    def open(self, path: Path, axis: str = SCAN_AXES[0]) -> None:
+        """Open a film; what is open stays until it can be shown.
+
+        Parameters
+        ----------
+        path
+            The file.
+        axis
+            What of its pictures the shutter scanned, one of SCAN_AXES.
+        """
+        self.opener.start((path, axis))
 
     def put(self, film: Video | None, is_live: bool = False) -> None:
         """Show this film from its first frame, or only the simulated one."""

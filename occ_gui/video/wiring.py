@@ -45,6 +45,7 @@ class VideoWiring(QObject):
     def __init__(self, scenes: SceneStore) -> None:
         super().__init__()
         self._scenes = scenes
+        self._is_frame_missing = False
         self.view = VideoView()
         self.films = FilmController(scenes, self.view.form)
         self.readings = ReadingController()
@@ -68,7 +69,7 @@ class VideoWiring(QObject):
         films.opened.connect(self._on_film)
         films.failed.connect(self.status_message)
         films.frame_shown.connect(self._show_frame)
-        films.frame_failed.connect(view.show_message)
+        films.frame_failed.connect(self._on_frame_failure)
         player.wanted.connect(self._show_index)
         player.playing_changed.connect(view.transport.show_playing)
         view.timeline.sought.connect(player.seek)
@@ -85,7 +86,7 @@ class VideoWiring(QObject):
         bar, live = self.view.bar, self.live
         bar.cameras_asked.connect(self._find_cameras)
         bar.camera_chosen.connect(live.start_camera)
-        bar.axis.chosen.connect(live.scan_along)
+        bar.axis.chosen.connect(self._scan_along)
         bar.lock.toggled.connect(live.lock_exposure)
         live.devices_found.connect(bar.list_cameras)
         live.ended.connect(self._on_live_end)
@@ -197,6 +198,13 @@ class VideoWiring(QObject):
         lock.blockSignals(False)
         self.view.show_message(sentence)
 
+    def _scan_along(self, axis: str) -> None:
+        """Read the film or the camera anew, scanned along another axis."""
+        if self.live.is_filming:
+            self.live.scan_along(axis)
+        elif self.path is not None:
+            self.films.open(self.path, axis)
+
     def _find_cameras(self) -> None:
         self.view.bar.list_cameras(None)
         self.live.find()
@@ -217,13 +225,23 @@ class VideoWiring(QObject):
         self.view.bar.show_film(title, is_film=film is not None, is_live=self.live.is_filming)
         if self.live.video is not None:
             self.view.bar.axis.show_key(self.live.video.axis)
+        elif film is not None:
+            is_turned = getattr(film, "turned", False)
+            self.view.bar.axis.show_key("lines" if is_turned else "columns")
         self.view.transport.set_usable(not self.films.is_live)
 
     def _show_index(self, index: int) -> None:
         self.view.timeline.show_index(index)
 
+    def _on_frame_failure(self, sentence: str) -> None:
+        self._is_frame_missing = True
+        self.view.show_message(sentence)
+
     def _show_frame(self, shown: ShownFrame) -> None:
         view = self.view
+        if self._is_frame_missing:
+            self._is_frame_missing = False
+            view.show_message("")
         instead = self.tr("Open a film, or use a camera, to see it beside the simulated one.")
         view.pictures.show_film(shown.film, instead)
         view.pictures.show_simulated(shown.simulated, shown.instead)

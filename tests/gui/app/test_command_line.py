@@ -28,7 +28,7 @@ import sys
 from occ_gui.app.command_line import OVERLAYS, main
 from occ_gui.picture.photo_overlay import MODES
 code = main(["--screenshot", sys.argv[1]])
-heavy = {"contourpy", "matplotlib", "scipy", "skimage"} & set(sys.modules)
+heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video"} & set(sys.modules)
 sys.exit(f"imported at start: {heavy}" if heavy else code)
 """
 

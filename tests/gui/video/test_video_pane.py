@@ -63,6 +63,22 @@ def test_a_film_is_opened_read_and_seen_beside_the_simulation(
     assert pane.view.form.recording.frame_rate == 30.0
 
 
+def test_the_axis_that_was_scanned_can_be_chosen(
+    application: Application, user: User, film_file: Path
+) -> None:
+    application.video.open(film_file)
+    user.wait_until_idle()
+    pane = application.video.wiring
+    axis = pane.view.bar.axis
+    assert axis.isVisible()
+    assert axis.key() == "columns"
+    axis.setCurrentIndex(axis.findData("lines"))
+    axis.activated.emit(axis.currentIndex())
+    user.wait_until_idle()
+    assert pane.view.bar.title.toolTip().startswith("stripes.avi, 60 x 1600")
+    assert axis.key() == "lines"
+
+
 def test_a_film_that_is_dropped_is_opened(
     application: Application, user: User, film_file: Path
 ) -> None:

@@ -272,7 +272,7 @@ def test_dialogs_begin_in_the_folder_of_the_last_file(
     for ask_user in dialogs:
         ask_user()
     folder = photo_file.parent
-    saved = [str(folder / "scene.toml"), str(folder / "simulation-camera.png")]
+    saved = [str(folder / "scene.occ.toml"), str(folder / "simulation-camera.png")]
     assert asked == [str(folder), str(folder), *saved]
     (tmp_path / "deeper").mkdir()
     bench.files.save_scene(tmp_path / "deeper" / "scene.toml")

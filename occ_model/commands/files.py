@@ -13,6 +13,7 @@ from occ_model.scene.presets import user_folder
 INPUTS = {
     "file": "the photo",
     "more": "one of the photos",
+    "files": "one of the files to open",
     "scene": "the file of --scene",
     "data": "the file of --data",
     "photo": "the file of --photo",

@@ -60,7 +60,8 @@ class Video(ABC):
         Nominal frames a second by the camera's clock; None where a file does not say it.
     frame_count
         How many frames there are, as the recording or the file states; None where it is unknown or
-        endless. A damaged file may hold fewer.
+        endless. A damaged file may hold fewer, and of an MKV or WebM file the number is estimated
+        from its length until all of it has been read.
     time_step
         The times of the frames are whole multiples of this, in seconds, as far as their container's
         kind tells; None where they are not known to be rounded.

@@ -33,6 +33,9 @@ _SAME_TIME = 1e-6
 _NEAR = 10
 """A frame so few frames ahead is decoded to; one further away is looked for by its time."""
 
+_STEPS_LEFT = 2.0
+"""The last frame of a whole film is no further from its end than so many of the longest steps."""
+
 _LOOKED_AT = 5
 """Frames at a film's start on which the scan axis is found."""
 
@@ -206,12 +209,28 @@ class VideoFile(Video):
         return stored
 
     def _note_end(self, frames: int) -> None:
+        """Compare how many frames there are with what the file states."""
         stated = self.frame_count
-        if stated is not None and frames < stated:
+        if stated is None or frames >= stated or frames > len(self._times):
+            return
+        if self._container.counts:
             self._problem = (
                 f"{self._shown} holds {frames} of the {stated} frames that it states: it may be "
                 "cut off or damaged."
             )
+            return
+        # The number was estimated from the length and a rate that the frames need not have.
+        length = stated / self.frame_rate if self.frame_rate else 0.0
+        times = np.array(self._times[:frames])
+        end = float(times[-1] - self._first_time) if frames else 0.0
+        longest = float(np.diff(times).max()) if frames > 1 else 0.0
+        if end + _STEPS_LEFT * longest < length:
+            self._problem = (
+                f"{self._shown} ends after {end:.3g} s of the {length:.3g} s that it states: it "
+                "may be cut off or damaged."
+            )
+        else:
+            self.frame_count = frames
 
     def _look(self, scan_axis: str) -> None:
         """Read the first frames: their size, their first time, and the scan axis."""

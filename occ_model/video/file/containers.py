@@ -24,16 +24,19 @@ class Container:
     time_step
         The frames' times are whole multiples of this, in seconds; None where each file has a step
         of its own.
+    counts
+        Whether it states how many frames it holds; else that is estimated from its length.
     """
 
     name: str
     reader: Literal["opencv", "pillow"]
     time_step: float | None = None
+    counts: bool = True
 
 
 _MP4 = Container("MP4 or MOV", "opencv")
 _AVI = Container("AVI", "opencv")
-_MATROSKA = Container("MKV or WebM", "opencv", 1e-3)
+_MATROSKA = Container("MKV or WebM", "opencv", 1e-3, counts=False)
 _GIF = Container("GIF", "pillow", 1e-2)
 _PNG = Container("animated PNG", "pillow")
 

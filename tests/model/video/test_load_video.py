@@ -92,6 +92,25 @@ def test_frames_can_be_far_apart_and_unequally(tmp_path: Path) -> None:
         np.testing.assert_array_equal(film.frame(index).image, frames[index].image)
 
 
+def test_a_film_of_unequal_steps_that_states_its_length_only_is_whole(tmp_path: Path) -> None:
+    # The first half is twice as fast. A frame's time stands in two bytes after the track's number.
+    content = bytearray(film_bytes("mkv", "MPNG"))
+    for number in range(1, 10):
+        old, new = round(number * 1000 / RATE), round(number * 500 / RATE)
+        block = b"\x81" + old.to_bytes(2, "big") + b"\x80"
+        assert content.count(block) == 1
+        place = content.index(block)
+        content[place + 1 : place + 3] = new.to_bytes(2, "big")
+    film = occ.load_video(saved(tmp_path, bytes(content), "mkv"))
+    frames = list(film)
+    assert len(frames) == 20
+    halved = [number / 2 if number < 10 else number for number in range(20)]
+    assert [frame.time * RATE for frame in frames] == pytest.approx(halved, abs=0.03)
+    assert (film.problem, film.frame_count) == (None, 20)
+    for index in (12, 3, 19):
+        np.testing.assert_array_equal(film.frame(index).image, frames[index].image)
+
+
 def test_a_turned_film_is_shown_upright(tmp_path: Path) -> None:
     still = film_bytes("mp4", "mp4v")
     film = occ.load_video(saved(tmp_path, turned_right(still)), scan_axis="columns")
@@ -155,10 +174,13 @@ def test_a_film_that_was_cut_off_gives_what_it_holds_and_says_so(
         assert 15 <= len(held) <= 20
     else:
         assert 5 <= len(held) <= 15
-        assert film.problem == (
-            f"{film.path} holds {len(held)} of the 20 frames that it states: it may be cut off or "
-            "damaged."
+        assert film.problem is not None
+        stated = (
+            f"holds {len(held)} of the 20 frames"
+            if ending == "avi"
+            else f"ends after {held[-1].time:.3g} s of the 0.667 s"
         )
+        assert film.problem == f"{film.path} {stated} that it states: it may be cut off or damaged."
         assert max(error_of(frame.image, frame.index) for frame in held[:-1]) < 12
 
 

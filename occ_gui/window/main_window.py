@@ -31,6 +31,9 @@ from occ_gui.window.toolbar.toolbar import ToolBar
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
+_WITH_PICTURE = "photo"
+"""The pane that is about what the whole picture shows: the photo stands beside it."""
+
 _IN_STORY = ("profile", "decode")
 """Panes that show in detail what the story shows, too."""
 
@@ -140,19 +143,27 @@ class MainWindow(QMainWindow):
 
         A pane that is open in the present mode stays there.
         """
-        dock = self.docks[name]
-        if dock.isHidden() and name in HOMES:
+        if self.docks[name].isHidden() and name in HOMES:
             self.modes.switch(HOMES[name])
+        self._raise(name)
+
+    def _raise(self, name: str) -> None:
+        dock = self.docks[name]
         dock.show()
         # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, dock.raise_)
 
     def bring_into_view(self, name: str) -> None:
-        """Show a pane in front, unless the story in the middle has a row of the same."""
+        """Show a pane in front in the present mode, unless the story has a row of the same.
+
+        The mode stays, as a lesson asks for this: in another one the lesson would be gone.
+        """
         if name in _IN_STORY and MODES[self.modes.mode].centre:
             self._story.show_whole_picture(False)
             return
-        self.bring_to_front(name)
+        if name == _WITH_PICTURE:
+            self._story.show_whole_picture(True)
+        self._raise(name)
 
     def _show_page(self, page: str) -> None:
         """Show the story in the middle, the whole picture in its place, or neither."""

@@ -177,6 +177,10 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
     guide.step.action.click()
     user.wait_until_idle()
     assert "Right. The match gives" in answer(guide, user, "12.8")
+    # The lesson stays beside the photo.
+    assert application.window.modes.mode == "lessons"
+    assert guide.isVisible()
+    assert application.photo.isVisible()
     lessons = application.learning.lessons
     assert lessons.controller.lesson_under_way is not None
     given = lessons.answers.all_of(lessons.controller.lesson_under_way)

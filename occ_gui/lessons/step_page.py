@@ -58,6 +58,7 @@ class StepPage(QWidget):
         self.control.setAccessibleName(self.tr("Show the control of this step"))
         self.control.clicked.connect(self.control_asked)
         self.action = button("", self.tr("Do what this step is about."))
+        self.action.setAccessibleName(self.tr("Do what this step asks for"))
         self.action.clicked.connect(self.action_asked)
         self.answer_field = AnswerField()
         self.answer_field.checked.connect(self.answer_given)

@@ -13,6 +13,19 @@ DASH = (7.0, 5.0)
 """Pixels of a dash, and of the gap after it."""
 
 
+_STRAIGHT = 1e-6
+"""Pixels from the line between its neighbours up to which a point lies on it."""
+
+
+def _corners(xs: FloatArray, ys: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Leave out the points at which a curve goes straight on, as on its flat tops."""
+    before, after = np.diff(xs), np.diff(ys)
+    turns = np.abs(before[:-1] * after[1:] - before[1:] * after[:-1])
+    bent = turns > _STRAIGHT * np.hypot(before[:-1] + before[1:], after[:-1] + after[1:])
+    kept = np.concatenate([[True], bent, [True]])
+    return xs[kept], ys[kept]
+
+
 def lines_of(
     xs: FloatArray, ys: FloatArray, dash: tuple[float, float] | None = None
 ) -> list[QLineF]:
@@ -27,6 +40,7 @@ def lines_of(
     """
     if len(xs) < 2:
         return []
+    xs, ys = _corners(xs, ys)
     if dash is None:
         return _between(xs, ys)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(xs), np.diff(ys)))])

@@ -62,16 +62,23 @@ class LightRow(StoryRow):
             )
         )
         self._scene: Scene | None = None
+        self._drawn_from: tuple[object, ...] = ()
         self._edged = False
         self._sent: tuple[int, ...] = ()
         self._grabbed: float | None = None
 
     def show_reading(self, reading: Reading) -> None:
         """Show the light of this reading's scene."""
-        shown = (self._scene, self._edged, self._sent)
+        if reading.scene != self._scene:
+            self.update()  # the window, at least
         self._scene, self._sent = reading.scene, reading.sent
         self._edged = "led-edges" in reading.plan
-        if shown != (self._scene, self._edged, self._sent):
+        drawn = (
+            self._scene.transmitter, self._scene.camera.readout_time,
+            self._scene.model.start_time, self._edged, self._sent,
+        )  # fmt: skip
+        if drawn != self._drawn_from:  # at other exposures the same light is seen
+            self._drawn_from = drawn
             self.redraw()
 
     def light(self, first: float, last: float, most: int) -> LightCurve | None:

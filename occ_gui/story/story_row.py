@@ -63,6 +63,7 @@ class StoryRow(QWidget):
         self.name = name
         self.axis, self.crosshair = axis, crosshair
         self._drawn: QPixmap | None = None
+        self._is_drawn = False
         self._press: QPointF | None = None
         self._last: QPointF | None = None
         self._held: int | None = None
@@ -77,7 +78,7 @@ class StoryRow(QWidget):
 
     def redraw(self) -> None:
         """Draw the row anew."""
-        self._drawn = None
+        self._is_drawn = False
         self.update()
 
     def plot_area(self) -> QRectF:
@@ -113,7 +114,7 @@ class StoryRow(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Draw the row anew in another size."""
         super().resizeEvent(event)
-        self._drawn = None
+        self._is_drawn = False
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         """Follow the theme."""
@@ -125,8 +126,8 @@ class StoryRow(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Draw the kept picture and the crosshair over it."""
         ratio = self.devicePixelRatioF()
-        if self._drawn is None or self._drawn.devicePixelRatioF() != ratio:
-            self._drawn = self._picture(ratio)
+        if self._drawn is None or not self._is_drawn or self._drawn.devicePixelRatioF() != ratio:
+            self._drawn, self._is_drawn = self._picture(ratio), True
         painter = QPainter(self)
         painter.drawPixmap(QPoint(0, 0), self._drawn)
         area = self.plot_area()
@@ -148,7 +149,9 @@ class StoryRow(QWidget):
         painter.end()
 
     def _picture(self, ratio: float) -> QPixmap:
-        picture = QPixmap(self.size() * ratio)
+        size, picture = self.size() * ratio, self._drawn
+        if picture is None or picture.size() != size:  # memory that is used again is there at once
+            picture = QPixmap(size)
         picture.setDevicePixelRatio(ratio)
         picture.fill(self.colour(QPalette.ColorRole.Window))
         painter = QPainter(picture)

@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -21,6 +22,32 @@ from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.plot import PACKETS_IN_VIEW
+
+
+class _Held(QWidget):
+    """Holds a widget whose contents change often, and passes no request for another size on.
+
+    A label asks for one with each text, upon which the whole window would be laid out anew.
+    """
+
+    def __init__(self, content: QWidget) -> None:
+        super().__init__()
+        self._content = content
+        content.setParent(self)
+        self.setSizePolicy(content.sizePolicy())
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the size that suits the content."""
+        return self._content.sizeHint()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the least size of the content."""
+        return self._content.minimumSizeHint()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Fill the place with the content."""
+        super().resizeEvent(event)
+        self._content.setGeometry(self.rect())
 
 
 class StoryView(QWidget):
@@ -70,7 +97,7 @@ class StoryView(QWidget):
         line = QHBoxLayout()
         line.setContentsMargins(0, 0, 0, 0)
         line.addSpacing(4)
-        line.addWidget(self.readout, 1)
+        line.addWidget(_Held(self.readout), 1)
         line.addWidget(self.decoder)
         line.addWidget(self.whole, 0, Qt.AlignmentFlag.AlignRight)
         for control in (self.whose, *self.ranges.values()):

@@ -62,6 +62,31 @@ def test_a_column_lies_at_the_same_pixel_in_every_row(
         assert rows.light.column_at(rows.light.x_of(column)) == pytest.approx(column)
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"exposure_time": 97e-6},
+        {"switching_frequency": 7e3},
+        {"readout_time": 9e-6},
+        {"start_time": 1.3e-4},
+        {"code": 5},
+        {"edge_time": 4e-5},
+        {"iso": 60.0},
+    ],
+    ids=lambda changes: "".join(changes),
+)
+def test_what_is_kept_of_an_earlier_scene_looks_as_if_drawn_anew(
+    rows: StoryRows, snapshot_of: Callable[..., Snapshot], changes: dict[str, float]
+) -> None:
+    for snapshot in (snapshot_of(), snapshot_of(**changes)):
+        rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+        rows.show_reading(snapshot)
+        kept = rows.grab().toImage()
+    for row in all_rows(rows):
+        row.redraw()
+    assert kept == rows.grab().toImage()
+
+
 def test_the_stripes_show_each_column_at_its_place(
     rows: StoryRows, snapshot: Snapshot, grey_picture: Callable[[QWidget], Grey]
 ) -> None:

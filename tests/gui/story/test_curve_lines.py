@@ -1,5 +1,7 @@
 """The lines of a curve pass through all of its points, however few lines they are."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -23,7 +25,7 @@ def test_every_point_lies_on_a_line(stairs: tuple[np.ndarray, np.ndarray]) -> No
     drawn = np.interp(xs, [end.x() for end in ends], [end.y() for end in ends])
     np.testing.assert_allclose(drawn, ys, atol=1e-4)
     assert (ends[0].x(), ends[-1].x()) == (xs[0], xs[-1])
-    assert all(one.p2() == other.p1() for one, other in zip(lines, lines[1:], strict=False))
+    assert all(one.p2() == other.p1() for one, other in pairwise(lines))
 
 
 def test_a_straight_part_is_one_line(stairs: tuple[np.ndarray, np.ndarray]) -> None:

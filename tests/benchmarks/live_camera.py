@@ -40,7 +40,8 @@ def main() -> None:
     scene = occ.load_preset("phone-136us").replace(
         rows=1080, columns=1920, readout_time=15e-6, distance=0.6
     )
-    camera, wiring, shown = source(scene), VideoWiring(SceneStore(scene)), []
+    camera, wiring = source(scene), VideoWiring(SceneStore(scene))
+    shown: list[None] = []
     wiring.view.resize(940, 700)
     wiring.view.show()
     wiring.set_seen(True)

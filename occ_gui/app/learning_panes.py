@@ -76,6 +76,9 @@ class LearningPanes(QObject):
     status_message = Signal(str)
     """The outcome of an action, shown until the scene changes."""
 
+    exposure_chooser_made = Signal(QObject)
+    """The controller has been created that chooses the column whose exposure is shown."""
+
     exposure_made = Signal(QWidget)
     """A pane has been created that shows results."""
 
@@ -110,6 +113,7 @@ class LearningPanes(QObject):
         if self._snapshot is not None:
             explanation.show_snapshot(self._snapshot)
         self.exposure_made.emit(explanation.pane.exposure)
+        self.exposure_chooser_made.emit(explanation.exposure)
         return explanation
 
     @cached_property

@@ -6,14 +6,17 @@ from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 
+from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.explanation.exposure_controller import ExposureController
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.controller import SimulationController
+from occ_gui.story.column_axis import Crosshair
 from occ_gui.story.story_view import StoryView
 from occ_gui.window.main_window import MainWindow
 
@@ -28,6 +31,7 @@ class Parts(Protocol):
     image: ImageView
     profile: ProfileView
     decode: DecodeView
+    learning: LearningPanes
     photo: PhotoView
     photos: PhotoController
 
@@ -51,6 +55,8 @@ def tell_story(parts: Parts) -> None:
     story.picture_chosen.connect(image.choose_picture)
     _link_profiles(story, parts.profile)
     _tell_verdicts_apart(parts)
+    crosshair = story.rows.crosshair
+    parts.learning.exposure_chooser_made.connect(lambda made: _share_column(crosshair, made))
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     image.before.chosen.toggled.connect(lambda on: _show_where_asked(story, on))
@@ -104,6 +110,18 @@ def _tell_verdicts_apart(parts: Parts) -> None:
     story.verdict.changed.connect(
         lambda: photo.show_simulation(story.verdict.state, story.verdict.heading)
     )
+
+
+def _share_column(crosshair: Crosshair, exposure: ExposureController) -> None:
+    """Explain the exposure of the column that is chosen in the story, and the other way round."""
+
+    def follow() -> None:
+        if crosshair.column is not None:
+            exposure.follow(crosshair.column)
+
+    crosshair.chosen.connect(follow)
+    exposure.held.connect(crosshair.choose)
+    follow()
 
 
 def _show_where_asked(story: StoryView, asked: bool) -> None:

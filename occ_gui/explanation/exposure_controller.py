@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.teaching import ExposureWindow
@@ -40,6 +40,9 @@ class ExposureController(QObject):
         Marks the column in the profile.
     """
 
+    held = Signal(int)
+    """The column that the user has chosen, until another is."""
+
     def __init__(self, pane: ExposurePane, mark: ColumnMark) -> None:
         super().__init__()
         self._pane = pane
@@ -67,16 +70,26 @@ class ExposureController(QObject):
 
     def click(self, column: int) -> None:
         """Hold a column, or release it if it is the held one."""
-        self._choose(column, held=not (self._held and column == self._column))
+        if self._held and column == self._column:
+            self._choose(column, held=False)
+        else:
+            self.choose(column)
 
     def step(self, columns: int) -> None:
         """Move by some columns, and hold the column there."""
         if self._column is not None:
-            self._choose(self._column + columns, held=True)
+            self.choose(self._column + columns)
 
     def choose(self, column: int) -> None:
         """Hold a column."""
         self._choose(column, held=True)
+        if self._column is not None:
+            self.held.emit(self._column)
+
+    def follow(self, column: int) -> None:
+        """Show the column that was chosen in another pane."""
+        if column != self._column:
+            self._choose(column, held=self._held)
 
     def hold(self, held: bool) -> None:
         """Hold the column that is shown, or let the mouse choose the column."""

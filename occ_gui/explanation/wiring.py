@@ -46,7 +46,7 @@ class ExplanationWiring(QObject):
         self.pane = ExplanationView()
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, self.pane.equations)
-        exposure = self._exposure = ExposureController(self.pane.exposure, self.picker)
+        exposure = self.exposure = ExposureController(self.pane.exposure, self.picker)
         self.picker.hovered.connect(exposure.hover)
         self.picker.clicked.connect(exposure.click)
         self.picker.stepped.connect(exposure.step)
@@ -57,8 +57,8 @@ class ExplanationWiring(QObject):
     def set_seen(self, seen: bool) -> None:
         """Update the pane while it is visible."""
         self._equations.set_seen(seen)
-        self._exposure.set_seen(seen)
+        self.exposure.set_seen(seen)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Explain these results in place of the previous ones."""
-        self._exposure.show_snapshot(snapshot)
+        self.exposure.show_snapshot(snapshot)

@@ -30,6 +30,9 @@ from occ_model.scene.parameter_kinds import (
 
 _SLIDER_STEPS = 1000
 
+_DIGITS = 4
+"""Significant digits of a value that is told."""
+
 
 class ParameterRow(QWidget):
     """Controls that show one parameter and let the user change it."""
@@ -155,11 +158,17 @@ class QuantityRow(ParameterRow):
         self.slider.blockSignals(True)
         self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
         self.slider.blockSignals(False)
+        self._tell_value(value)
+
+    def _tell_value(self, value: float) -> None:
+        """Tell a screen reader the value: that of the slider itself is a number of steps."""
+        self.slider.setAccessibleDescription(self._quantity.format(value, _DIGITS))
 
     def _slide(self, position: int) -> None:
         self.value = value = self._quantity.at(position / _SLIDER_STEPS)
         self.end_refusal()
         self.field.set_value(value)
+        self._tell_value(value)
         held = self.slider.isSliderDown() or self._is_running
         gesture = self._gestures.of_change(held=held)
         self.edited.emit(self.name, value, gesture)

@@ -16,11 +16,13 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.app.story_wiring import story_menu
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.scene.gesture import NO_GESTURE, new_gesture
 from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.story.column_axis import Crosshair
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
@@ -124,6 +126,10 @@ class Monkey:
             self.zoom_every_plot: 4,
             self.hold_the_brightness: 20,
             self.toggle_the_slider_strips: 10,
+            self.run_a_slider: 10,
+            self.measure_between_columns: 10,
+            self.use_a_context_menu: 20,
+            self.go_to_a_limit: 6,
             self.pin: 20,
             self.go_to_what_is_pinned: 10,
             self.clear_the_pins: 6,
@@ -324,6 +330,39 @@ class Monkey:
 
     def choose_a_theme(self) -> None:
         self._trigger(f"theme_{self._random.choice(THEMES)}")
+
+    def run_a_slider(self) -> None:
+        panels = self._application.controls.panels.values()
+        buttons = [button for panel in panels for button in panel.play_buttons.values()]
+        played = self._random.choice(buttons)
+        played.click()
+        self._qtbot.wait(60)
+        played.click()
+
+    def measure_between_columns(self) -> None:
+        self._trigger("measure")
+        cursors, crosshair = self._crosshair().cursors, self._crosshair()
+        for place in (0, 1):
+            column = self._random.uniform(-50.0, crosshair.columns + 50.0)
+            cursors.move(place, column, crosshair.columns)
+        crosshair.choose(self._random.uniform(-50.0, crosshair.columns + 50.0))
+
+    def _crosshair(self) -> Crosshair:
+        return self._application.story.rows.crosshair
+
+    def use_a_context_menu(self) -> None:
+        player = self._application.controls.player
+        name = self._random.choice([*self._application.controls.main_rows()])
+        # Not opened: the platform that draws no window warns that it cannot grab the keyboard.
+        for menu in (story_menu(self._application), player.menu_of(name)):
+            self._dialogs.path = self._folder / "from-a-menu.png"
+            entries = [entry for entry in menu.actions() if entry.isEnabled() and entry.text()]
+            self._random.choice(entries[:-1]).trigger()
+            menu.deleteLater()
+
+    def go_to_a_limit(self) -> None:
+        cards = self._application.detection.cards.cards
+        self._random.choice([*cards.values()]).go.click()
 
     def pin(self) -> None:
         self._trigger(f"pin_{self._random.choice('ab')}")

@@ -154,3 +154,20 @@ def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) ->
     pointed = rows.crosshair.pointed
     assert pointed == pytest.approx(column, abs=1)
     assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
+
+
+def test_the_equations_explain_the_column_that_the_story_shows(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    user.wait_until_idle()
+    crosshair = application.story.rows.crosshair
+    crosshair.choose(700)
+    dock = application.window.docks["equations"]
+    application.window.bring_to_front("equations")
+    qtbot.waitUntil(lambda: not dock.visibleRegion().isEmpty())
+    pane = application.learning.explanation.pane.exposure
+    assert pane.column.value() == 700
+    crosshair.choose(640)
+    assert pane.column.value() == 640
+    pane.column_chosen.emit(655)
+    assert crosshair.column == pane.column.value() == 655

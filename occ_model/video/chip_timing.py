@@ -6,6 +6,7 @@ linear in b and a and nearly so in the timing: least squares, a few times over (
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -195,9 +196,12 @@ class _Levels:
         return cls(powers @ found[_POWERS:], light - parts @ found)
 
 
+@lru_cache(maxsize=8)
 def _powers(count: int) -> FloatArray:
-    place = np.linspace(-1.0, 1.0, count)
-    return np.asarray(place[:, None] ** np.arange(_POWERS))
+    """Return the powers of the place in a picture, from -1 to 1, shape (columns, _POWERS)."""
+    powers = np.vander(np.linspace(-1.0, 1.0, count), _POWERS, increasing=True)
+    powers.flags.writeable = False  # it is cached and shared
+    return powers
 
 
 def _solved(parts: FloatArray, light: FloatArray) -> FloatArray:

@@ -36,10 +36,12 @@ class Film:
     recording: Recording
     frames: int
     rough: occ.Scene
+    seed: int
 
     def video(self) -> SimulatedVideo:
         """Return the film."""
-        return render_video(self.scene, self.frames, self.recording)
+        settings = occ.SimulationSettings(seed=self.seed)
+        return render_video(self.scene, self.frames, self.recording, settings=settings)
 
     @property
     def truth(self) -> dict[str, float]:
@@ -108,7 +110,8 @@ def film(number: int, seconds: float = 5.0) -> Film:
         readout_time=readout * (1.0 + float(random.uniform(-4e-3, 4e-3))),
         switching_frequency=frequency * (1.0 + float(random.uniform(-2e-3, 2e-3))),
     )
-    return Film(scene, recording, round(seconds * rate), rough)
+    # Films of one seed would share their jitter and noise.
+    return Film(scene, recording, round(seconds * rate), rough, seed=number + 1)
 
 
 def _path(random: np.random.Generator, seconds: float) -> tuple[Waypoint, ...]:

@@ -128,7 +128,8 @@ class Joined:
         best = int(likelihood.argmax())
         if by_chips[best] < _UNLIKE or _odds(likelihood, best) < _AHEAD:
             return None
-        return Place(best, is_confirmed=_odds(by_chips, best) > _AHEAD)
+        # A preamble shows the place in a part exactly; the clock only says which part it is.
+        return Place(best, is_confirmed=len(places) > 0 or _odds(by_chips, best) > _AHEAD)
 
     def add(self, frame: FrameReading, place: int) -> None:
         """Add what a frame says of its chips."""

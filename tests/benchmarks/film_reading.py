@@ -14,11 +14,11 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from simulated_films import FILMS, film, judge
 
 
-def main(count: int) -> None:
+def main(first: int, count: int) -> None:
     """Print a line a film, and a summary."""
     ratios: dict[str, list[float]] = {}
     print("film  fps    gap   bits framing    f ppm      +-   t_r %     gap %  seen right ms")
-    for number in range(count):
+    for number in range(first, count):
         judged = judge(film(number))
         one, clock = judged.film, judged.reading.clock
         truth = one.truth
@@ -51,4 +51,5 @@ def main(count: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else FILMS)
+    given = [int(text) for text in sys.argv[1:]]
+    main(given[0] if len(given) > 1 else 0, given[-1] if given else FILMS)

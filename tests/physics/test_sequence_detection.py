@@ -217,12 +217,29 @@ def test_a_readout_time_a_little_off_is_brought_nearer() -> None:
         assert abs(result.chip_length - 6.25) < abs(6.25 / (1.0 + wrong) - 6.25)
 
 
+@pytest.mark.parametrize("wrong", [-0.01, 0.005, 0.01])
+@pytest.mark.parametrize("frequency", [10e3, 30e3])
+def test_a_readout_time_up_to_1_percent_off_is_followed(wrong: float, frequency: float) -> None:
+    random = np.random.default_rng(int(frequency))
+    code = int(random.integers(1024))
+    scene = occ.load_preset("phone-136us").replace(
+        switching_frequency=frequency, code=code, enhancement="none",
+        start_time=float(random.uniform(0.0, 1e-3)),
+    )  # fmt: skip
+    signal = occ.column_profile(scene)[860:2590] + random.standard_normal(1730)
+    off = scene.replace(readout_time=scene.camera.readout_time * (1.0 + wrong))
+    result = occ.decode(signal, off, "sequence")
+    assert result.code == code
+    true = scene.transmitter.switching_period / scene.camera.readout_time
+    assert result.chip_length == pytest.approx(true, rel=1e-4)
+
+
 def test_a_readout_time_far_off_gives_no_code() -> None:
     scene = occ.load_preset("phone-136us").replace(
         rows=60, switching_frequency=20e3, enhancement="none"
     )
     signal = occ.render(scene).signal
-    off = scene.replace(readout_time=scene.camera.readout_time * 1.01)
+    off = scene.replace(readout_time=scene.camera.readout_time * 1.05)
     result = occ.decode(signal, off, "sequence")
     assert result.code is None
     assert "readout time is another one" in (result.failure or "")

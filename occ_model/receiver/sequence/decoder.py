@@ -24,6 +24,7 @@ from occ_model.receiver.sequence.fit import (
     first_guess,
     improve,
 )
+from occ_model.receiver.sequence.follow_timing import follow_timing
 from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.signal import why_flat
@@ -46,7 +47,11 @@ _MOST_CHIPS_A_COLUMN = 1.0
 _LONGEST_MEMORY = 32
 """Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""
 
-_MOST_UNEXPLAINED = 0.1
+_DOUBTFUL = 0.02
+"""Share of the signal's variance that is neither the chips' light nor noise, above which their
+timing may be another one."""
+
+_MOST_UNEXPLAINED = 0.05
 """Largest share of the signal's variance that may be neither the chips' light nor noise."""
 
 
@@ -114,12 +119,24 @@ def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
 def _fit(
     signal: FloatArray, scene: Scene, timing: Timing, words: tuple[Word, ...]
 ) -> tuple[Fit, Light]:
-    """Detect the chips, and improve what they were detected with."""
+    """Detect the chips; where they explain too little, follow their timing and detect them anew."""
     light, expected = in_light(signal, scene), expected_light(scene)
     rows = Rows(light.values, expected)
     brightness = first_guess(rows, timing, PER_CHIP)
-    timing = find_phase(rows, timing, brightness, words)
-    fit = detect(rows, timing, brightness, words)
+    known = find_phase(rows, timing, brightness, words)
+    found = _improved(signal, scene, detect(rows, known, brightness, words), light, words)
+    if found[0].unexplained() <= _DOUBTFUL:
+        return found
+    followed = follow_timing(rows, timing, brightness, words)
+    other = _improved(signal, scene, detect(rows, followed, brightness, words), light, words)
+    return other if other[0].unexplained() < found[0].unexplained() else found
+
+
+def _improved(
+    signal: FloatArray, scene: Scene, fit: Fit, light: Light, words: tuple[Word, ...]
+) -> tuple[Fit, Light]:
+    """Improve what the chips were detected with, and detect them anew."""
+    rows = Rows(light.values, expected_light(scene))
     for _ in range(_IMPROVEMENTS):
         if light.is_estimated:
             # The chips found have a distribution of light of their own, nearer to the picture's.

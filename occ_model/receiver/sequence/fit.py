@@ -19,7 +19,7 @@ from occ_model.receiver.sequence.trellis import Word, most_states, trellis_of
 _PHASES = 8
 """Phases of the chips that are tried, evenly over one chip."""
 
-_TRIED_CHIPS = 96
+TRIED_CHIPS = 96
 """Chips in the middle of the picture that the phases are tried on."""
 
 _LAGS = 3
@@ -144,7 +144,7 @@ def find_phase(
     rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
 ) -> Timing:
     """Find the phase at which the chips in the middle of the picture fit best."""
-    count = min(len(rows.light), round((_TRIED_CHIPS + timing.exposure) / timing.step))
+    count = min(len(rows.light), round((TRIED_CHIPS + timing.exposure) / timing.step))
     first = (len(rows.light) - count) // 2
     part = slice(first, first + count)
     light = brightness.lit_share(rows.light)[part]

@@ -25,7 +25,7 @@ from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.plot import marker, thin
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
-from occ_model.results.bit_errors import FRAME_RATE
+from occ_model.scene.recording import FRAME_RATE
 
 _LEAST_WITH_TABLE = 420
 """Pixels of height from which the table stands below the plots."""

@@ -116,6 +116,7 @@ class RateMap:
     decoders: tuple[str, ...]
     sent: IndexArray = field(init=False)
     right: IndexArray = field(init=False)
+    whole: IndexArray = field(init=False)
     images: IndexArray = field(init=False)
     notes: dict[int, str] = field(init=False, default_factory=dict)
     theory: TheoryFields | None = field(init=False, default=None)
@@ -125,6 +126,7 @@ class RateMap:
         self.sent = np.zeros(shape, dtype=np.int64)
         self.images = np.zeros(shape, dtype=np.int64)
         self.right = np.zeros((*shape, len(self.decoders)), dtype=np.int64)
+        self.whole = np.zeros((*shape, len(self.decoders)), dtype=np.int64)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -137,6 +139,7 @@ class RateMap:
             place = divmod(point.index, len(self.y_values))
             self.sent[place] = point.sent
             self.right[place] = point.right
+            self.whole[place] = point.whole
             self.images[place] = images
             if point.note:
                 self.notes[point.index] = point.note

@@ -32,4 +32,6 @@ def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:
             )
         ]
     ).reshape(*right.shape, 2)
-    return SweepTable(request, sent, right, ends[..., 0], ends[..., 1], dict(rates.notes))
+    return SweepTable(
+        request, sent, right, ends[..., 0], ends[..., 1], dict(rates.notes), rates.whole.copy()
+    )

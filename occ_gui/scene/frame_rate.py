@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_model.results.bit_errors import FRAME_RATE
+from occ_model.scene.recording import FRAME_RATE
 
 
 class FrameRate(QObject):

@@ -18,6 +18,7 @@ from occ_model.results import Limits, Trial
 from occ_model.results.advice import Advice, EndFacts, RangeFacts
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.parameters import quantity
+from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits
@@ -48,6 +49,11 @@ def add_to(commands: Commands) -> None:
         "--images", type=whole_number, default=20,
         help="at each value tried; more of them make the answer surer; default: %(default)s",
     )  # fmt: skip
+    parser.add_argument(
+        "--fps", type=number, default=FRAMES_A_SECOND,
+        help="pictures a second, or as many as can be read out, one payload each; default: "
+        "%(default)g",
+    )  # fmt: skip
     parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.add_argument(
         "--jobs", type=whole_number, default=2, metavar="N",
@@ -58,6 +64,7 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
+    FRAME_RATE.check(options.fps)
     with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
 
         def show(share: float, what: str) -> None:
@@ -73,12 +80,12 @@ def _run(options: argparse.Namespace) -> int:
             jobs=options.jobs,
             progress=show,
         )
-    for line in sentences(advice_of(found)):
+    for line in sentences(advice_of(found), options.fps):
         print(line)
     return 0 if found.highest_frequency and found.longest_exposure else EXIT_FAILURE
 
 
-def sentences(advice: Advice) -> list[str]:
+def sentences(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
     """Write advice as lines of text."""
     found = advice.limits
     scene = found.scene
@@ -91,20 +98,22 @@ def sentences(advice: Advice) -> list[str]:
         *_on_range(f"At {frequency} and {distance} {reads}", advice.exposure),
         f"Each of these values was tried with {found.images} images, seed {found.seed}; the "
         "intervals hold the rate in 95 of 100 cases if bits err independently of each other.",
-        *_bits_a_second(found),
+        *_bits_a_second(found, frames_a_second),
         *_by_theory(advice),
     ]
 
 
-def _bits_a_second(found: Limits) -> list[str]:
+def _bits_a_second(found: Limits, frames_a_second: float) -> list[str]:
     """Say what the scene's payload is a second, where it is read."""
     if not found.highest_frequency:
         return []
     bits = found.scene.transmitter.payload_length
-    a_second = bits * FRAMES_A_SECOND * found.rate / 100.0
+    camera = found.scene.camera
+    pictures = min(frames_a_second, 1.0 / (camera.columns * camera.readout_time))
+    a_second = bits * pictures * found.rate / 100.0
     return [
-        f"Where it does, {bits} bits in each of {FRAMES_A_SECOND:g} pictures a second are at least "
-        f"{a_second:g} right bits a second; occ-model most-bits looks for more."
+        f"Where it does, {bits} bits in each of {pictures:.4g} pictures a second are at least "
+        f"{a_second:.4g} right bits a second; occ-model most-bits looks for more."
     ]
 
 

@@ -25,7 +25,8 @@ from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
 from occ_model.results import RateSettings, SweepRequest, SweepTable
-from occ_model.results.sweep_request import MOST_JOBS, SIGNAL_PATHS
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.sweep_request import MOST_JOBS, SHOWN, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.request_check import checked_request
@@ -59,6 +60,11 @@ def add_to(commands: Commands) -> None:
         f"{BOTH}: {' and '.join(QUICK_DECODERS)}; {ALL}: all but plug-ins; default: "
         f"{PAPER_DECODER}",
     )  # fmt: skip
+    parser.add_argument(
+        "--fps", type=number, default=FRAMES_A_SECOND,
+        help="images a second, or as many as can be read out, by which bits a second are counted; "
+        "default: %(default)g",
+    )  # fmt: skip
     parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.add_argument(
         "--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS",
@@ -87,6 +93,10 @@ def add_to(commands: Commands) -> None:
         "--plot", type=Path, metavar="FILE",
         help="draw one axis as curves, two as maps; PNG, PDF or SVG by its ending",
     )  # fmt: skip
+    parser.add_argument(
+        "--show", choices=SHOWN, default="rate",
+        help="success rates in the plot, or bits a second; default: %(default)s",
+    )  # fmt: skip
     parser.set_defaults(command=_run, writes={"out": TABLE})
 
 
@@ -103,6 +113,7 @@ def _run(options: argparse.Namespace) -> int:
         options.tolerance,
         {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
         options.path,
+        options.fps,
     )
     # All arguments are checked before a cluster is contacted or minutes of work are done.
     request = checked_request(scene, axes, settings)
@@ -121,8 +132,9 @@ def _run(options: argparse.Namespace) -> int:
         # matplotlib takes half a second to import: only where a figure is drawn.
         from occ_model.figures.sweep import write_sweep_figure
 
-        write_sweep_figure(options.plot, table)
-        print(f"{one_line(str(options.plot))}: success rate over {' and '.join(axes)}")
+        write_sweep_figure(options.plot, table, options.show)
+        what = {"rate": "success rate", "bits": "bits a second"}[options.show]
+        print(f"{one_line(str(options.plot))}: {what} over {' and '.join(axes)}")
     return 0
 
 

@@ -1,6 +1,7 @@
 """Draw a sweep's success rates: over one parameter as curves, over two as maps."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +17,12 @@ from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
-from occ_model.results import SweepTable
+from occ_model.results import SweepPoint, SweepTable
+from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.provenance import Provenance
+from occ_model.study.confidence import wilson_interval
 
 _STYLES: tuple[dict[str, Any], ...] = (
     {"color": colours.SIMULATION, "marker": "o", "markersize": 6.5, "linestyle": "-"},
@@ -28,6 +31,9 @@ _STYLES: tuple[dict[str, Any], ...] = (
     {"color": colours.NOISE, "marker": "D", "markersize": 3, "linestyle": "-."},
 )
 """Distinct for colour-blind readers, in grey print, and where curves lie on each other."""
+
+_TITLES = {"rate": "Success rate", "bits": "Bits a second"}
+_LABELS = {"rate": "success rate (%)", "bits": "bits a second"}
 
 _REFUSED = "0.75"
 """Grey, which is not one of the map's colours."""
@@ -39,8 +45,8 @@ _CELLS_WITH_NUMBERS = 14
 """Largest number of cells on a side at which each holds its number."""
 
 
-def write_sweep_figure(path: Path, table: SweepTable) -> None:
-    """Draw a table's success rates and write them in the format of the file's ending.
+def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> None:
+    """Draw a table's success rates, or bits a second, in the format of the file's ending.
 
     One axis: a curve for each decoder, with its 95 % intervals. Two axes: a map for each decoder,
     the first axis from left to right. Points that the model refuses are gaps, or grey.
@@ -51,6 +57,8 @@ def write_sweep_figure(path: Path, table: SweepTable) -> None:
         The file: PNG, PDF or SVG, with its provenance inside.
     table
         The rates.
+    shown
+        What is drawn.
 
     Raises
     ------
@@ -66,32 +74,37 @@ def write_sweep_figure(path: Path, table: SweepTable) -> None:
             f"The sweep varies {', '.join(names)}; allowed to be drawn: one parameter or two."
         )
     with house_style():
-        figure = _curves(table) if len(names) == 1 else _maps(table)
-        write_figure(path, figure, _provenance(table))
+        figure = _curves(table, shown) if len(names) == 1 else _maps(table, shown)
+        write_figure(path, figure, _provenance(table, shown))
 
 
-def sweep_drawing(table: SweepTable) -> Drawing:
-    """Draw a table's success rates over one axis or two.
+def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
+    """Draw a table's success rates, or bits a second, over one axis or two.
 
     Parameters
     ----------
     table
         The rates.
+    shown
+        What is drawn; the table holds both.
     """
     names = list(table.axes)
 
     def rows() -> Iterable[tuple[object, ...]]:
         for row in table.rows:
             values = (row.point[name] for name in names)
-            yield (*values, row.decoder, row.right, row.sent, row.rate, row.low, row.high, row.note)
+            yield (
+                *values, row.decoder, row.right, row.sent, row.rate, row.low, row.high,
+                row.bits_a_second, row.note,
+            )  # fmt: skip
 
     header = (
         *(_with_unit(name) for name in names), "decoder", "right bits", "sent bits",
-        "success rate (%)", "95 % from (%)", "95 % to (%)", "note",
+        "success rate (%)", "95 % from (%)", "95 % to (%)", "bits a second", "note",
     )  # fmt: skip
-    title = f"Success rate over {' and '.join(names)}, {table.request.settings.images} images"
+    title = f"{_TITLES[shown]} over {' and '.join(names)}, {table.request.settings.images} images"
     draw = _curves if len(names) == 1 else _maps
-    return Drawing("map", title, lambda: draw(table), header, rows)
+    return Drawing("map", title, lambda: draw(table, shown), header, rows)
 
 
 def _with_unit(name: str) -> str:
@@ -100,11 +113,12 @@ def _with_unit(name: str) -> str:
     return f"{name} ({unit})" if unit else name
 
 
-def _provenance(table: SweepTable) -> Provenance:
+def _provenance(table: SweepTable, shown: Shown) -> Provenance:
     settings = table.request.settings
-    title = f"Success rate over {' and '.join(table.axes)}"
+    title = f"{_TITLES[shown]} over {' and '.join(table.axes)}"
     notes = (
         f"{settings.images} images a point",
+        f"{settings.frames_a_second:g} images a second, or as many as can be read out",
         *(f"{name}: {', '.join(map(_text, values))}" for name, values in table.axes.items()),
     )
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
@@ -114,7 +128,39 @@ def _text(value: ParameterValue) -> str:
     return value if isinstance(value, str) else repr(value)
 
 
-def _curves(table: SweepTable) -> Figure:
+def _values(table: SweepTable, decoder: str, shown: Shown) -> FloatArray:
+    return table.rates(decoder) if shown == "rate" else table.bits_a_second(decoder)
+
+
+def _intervals(table: SweepTable, decoder: str, shown: Shown) -> tuple[FloatArray, FloatArray]:
+    """Return the ends of the 95 % intervals of what is shown."""
+    if shown == "rate":
+        return table.intervals(decoder)
+    bits, images = table.bits_a_second(decoder), table.request.settings.images
+    whole = table.whole[..., table.decoders.index(decoder)]
+    # What all images would carry: that of one, which no interval can exceed.
+    most = np.array([_most_bits(table, point) for point in table.each_point()])
+    ends = np.array([wilson_interval(int(count), images) for count in whole.ravel()])
+    ends = ends.reshape(*bits.shape, 2) * most.reshape(bits.shape)[..., None]
+    return ends[..., 0], ends[..., 1]
+
+
+def _most_bits(table: SweepTable, point: SweepPoint) -> float:
+    """Return the bits a second of a point if every image were read whole."""
+    whole = (table.request.settings.images,) * len(table.decoders)
+    found = table.request.bits_a_second(replace(point, whole=whole), 0)
+    return np.nan if found is None else found
+
+
+def _most(table: SweepTable, shown: Shown) -> float:
+    """Return the upper end of the axis or the colours."""
+    if shown == "rate":
+        return 100.0
+    bits = [_most_bits(table, point) for point in table.each_point()]
+    return float(np.nanmax(bits)) if np.isfinite(bits).any() else 1.0
+
+
+def _curves(table: SweepTable, shown: Shown) -> Figure:
     ((name, values),) = table.axes.items()
     figure = Figure(figsize=(6.4, 3.6))
     ax = figure.subplots()
@@ -122,8 +168,8 @@ def _curves(table: SweepTable) -> Figure:
     at, labels = _places(name, values, factor)
     for decoder, look in zip(table.decoders, _STYLES * len(table.decoders), strict=False):
         style = look if labels is None else {**look, "linestyle": ""}  # nothing is between words
-        rates = table.rates(decoder)
-        low, high = table.intervals(decoder)
+        rates = _values(table, decoder, shown)
+        low, high = _intervals(table, decoder, shown)
         error = np.maximum([rates - low, high - rates], 0.0)  # rounding can leave less than nothing
         ax.errorbar(
             at, rates, error, label=f"{decoder} decoder", capsize=2, linewidth=1.0,
@@ -136,41 +182,42 @@ def _curves(table: SweepTable) -> Figure:
         ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
         ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.set_ylim(-3, 103)
-    ax.set_yticks(range(0, 101, 20))
+    most = _most(table, shown)
+    ax.set_ylim(-0.03 * most, 1.03 * most)
+    ax.set_yticks(np.linspace(0.0, most, 6))
     ax.grid(linewidth=0.3)
     ax.set_xlabel(_axis_label(name, unit))
-    ax.set_ylabel("success rate (%)")
+    ax.set_ylabel(_LABELS[shown])
     figure.legend(loc="outside upper center", ncols=len(table.decoders), frameon=False)
     return figure
 
 
-def _maps(table: SweepTable) -> Figure:
+def _maps(table: SweepTable, shown: Shown) -> Figure:
     (across, columns), (upwards, rows) = table.axes.items()
     width = min(3.2 * len(table.decoders) + 1.6, 12.0)
     figure = Figure(figsize=(width, 3.6))
     axes = figure.subplots(1, len(table.decoders), squeeze=False, sharex=True, sharey=True)[0]
     for ax, decoder in zip(axes, table.decoders, strict=True):
         # Even cells whatever the values: the axes need not be even, nor numbers.
-        _draw_map(ax, table.rates(decoder).T)
+        _draw_map(ax, _values(table, decoder, shown).T, _most(table, shown))
         _label_cells(ax.xaxis, across, columns)
         _label_cells(ax.yaxis, upwards, rows)
         ax.set_title(f"{decoder} decoder", fontsize=9)
         ax.label_outer(remove_inner_ticks=True)
     figure.supxlabel(_axis_label(across, _shown_unit(across, columns)[0]), fontsize=9)
     figure.supylabel(_axis_label(upwards, _shown_unit(upwards, rows)[0]), fontsize=9)
-    colour = ScalarMappable(Normalize(0, 100), "cividis")
-    figure.colorbar(colour, ax=list(axes), label="success rate (%)")
+    colour = ScalarMappable(Normalize(0, _most(table, shown)), "cividis")
+    figure.colorbar(colour, ax=list(axes), label=_LABELS[shown])
     if table.notes:
         refused = [Patch(color=_REFUSED, label="no picture: see the notes in the table")]
         figure.legend(handles=refused, loc="outside upper left", frameon=False, fontsize=7)
     return figure
 
 
-def _draw_map(ax: Axes, grid: FloatArray) -> None:
+def _draw_map(ax: Axes, grid: FloatArray, most: float) -> None:
     ax.set_facecolor(_REFUSED)
     ax.imshow(
-        grid, cmap="cividis", vmin=0, vmax=100, origin="lower", aspect="auto",
+        grid, cmap="cividis", vmin=0, vmax=most, origin="lower", aspect="auto",
         interpolation="nearest",
     )  # fmt: skip
     ax.spines[:].set_visible(False)
@@ -178,7 +225,7 @@ def _draw_map(ax: Axes, grid: FloatArray) -> None:
         return
     for (y, x), rate in np.ndenumerate(grid):
         if not np.isnan(rate):
-            colour = "black" if rate > 50 else "white"
+            colour = "black" if rate > 0.5 * most else "white"
             ax.text(x, y, f"{rate:.0f}", ha="center", va="center", fontsize=6, color=colour)
 
 

@@ -2,17 +2,7 @@
 
 from dataclasses import dataclass
 
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.units import Unit
-
-FRAME_RATE = Quantity(
-    "frames_a_second",
-    "Pictures a second",
-    "",
-    "Pictures that the camera takes in a second, each of another payload.",
-    unit=Unit("fps", spellings=(("1/s", 1.0), ("Hz", 1.0))),
-    low=0.01, high=1e6, slider=(1.0, 240.0), scale="log", default=30.0,
-)  # fmt: skip
+from occ_model.scene.recording import FRAME_RATE
 
 FRAMES_A_SECOND = FRAME_RATE.default
 """Pictures that a camera takes a second where nothing else is said."""
@@ -92,3 +82,21 @@ class BitErrors:
         It is below 0 where the camera cannot take so many pictures.
         """
         return 1.0 / frames_a_second - self.readout_time
+
+
+def bits_a_second(share: float, bits: int, frames_a_second: float, readout_time: float) -> float:
+    """Return the net bits a second of a video whose every picture shows another payload.
+
+    Parameters
+    ----------
+    share
+        Of the pictures of which every bit is right.
+    bits
+        Bits of a payload.
+    frames_a_second
+        Pictures a second.
+    readout_time
+        Time in seconds in which a picture is read out: no picture begins before the end of the one
+        before, however many are asked for.
+    """
+    return share * bits * min(frames_a_second, 1.0 / readout_time)

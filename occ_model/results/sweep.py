@@ -1,5 +1,6 @@
 """The table of a sweep: a success rate for each point and decoder."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,6 +33,9 @@ class SweepRow:
         The ends of the rate's 95 % interval, percent; None where the model refuses the scene.
     note
         Why the model refuses the scene; empty where it does not.
+    bits_a_second
+        Net bits a second of a video whose every image shows another payload; None where the model
+        refuses the scene.
     """
 
     point: Mapping[str, ParameterValue]
@@ -42,6 +46,7 @@ class SweepRow:
     low: float | None
     high: float | None
     note: str
+    bits_a_second: float | None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -64,6 +69,8 @@ class SweepTable:
         true interval is wider.
     notes
         Why the model refuses a scene, by the point's index, the last axis running fastest.
+    whole : ndarray of int64, shape (..., decoders)
+        Images of which every bit was read rightly.
     """
 
     request: SweepRequest
@@ -72,6 +79,7 @@ class SweepTable:
     low: FloatArray
     high: FloatArray
     notes: Mapping[int, str]
+    whole: IndexArray
 
     @property
     def axes(self) -> Mapping[str, tuple[ParameterValue, ...]]:
@@ -99,15 +107,18 @@ class SweepTable:
                     rate = 100.0 * point.right[number] / point.sent
                     low, high = float(self.low[place][number]), float(self.high[place][number])
                 yield SweepRow(
-                    values, decoder, point.right[number], point.sent, rate, low, high, point.note
-                )
+                    values, decoder, point.right[number], point.sent, rate, low, high, point.note,
+                    self.request.bits_a_second(point, number),
+                )  # fmt: skip
 
     def each_point(self) -> Iterator[SweepPoint]:
         """Give the counts point by point, in the order of the axes."""
         right = self.right.reshape(-1, len(self.decoders))
+        whole = self.whole.reshape(-1, len(self.decoders))
         for index, sent in enumerate(self.sent.ravel().tolist()):
             counts = tuple(right[index].tolist())
-            yield SweepPoint(index, sent, counts, self.notes.get(index, ""))
+            note = self.notes.get(index, "")
+            yield SweepPoint(index, sent, counts, note, tuple(whole[index].tolist()))
 
     def rates(self, decoder: str | None = None) -> FloatArray:
         """Give the success rates of a decoder in percent.
@@ -131,6 +142,16 @@ class SweepTable:
         right = 100.0 * self.right[..., self._place(decoder)]
         np.divide(right, self.sent, out=rates, where=self.sent > 0)
         return rates
+
+    def bits_a_second(self, decoder: str | None = None) -> FloatArray:
+        """Give the net bits a second of a decoder, in the shape of :meth:`rates`.
+
+        Not a number where the model refuses the scene.
+        """
+        place = self._place(decoder)
+        found = [self.request.bits_a_second(point, place) for point in self.each_point()]
+        numbers = [math.nan if one is None else one for one in found]
+        return np.array(numbers).reshape(self.sent.shape)
 
     def intervals(self, decoder: str | None = None) -> tuple[FloatArray, FloatArray]:
         """Give the ends of the 95 % intervals of :meth:`rates`, percent, in the same shape."""
@@ -173,5 +194,6 @@ class SweepTable:
             and list(self.axes) == list(other.axes)
             and np.array_equal(self.sent, other.sent)
             and np.array_equal(self.right, other.right)
+            and np.array_equal(self.whole, other.whole)
             and dict(self.notes) == dict(other.notes)
         )

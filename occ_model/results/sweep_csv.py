@@ -10,7 +10,7 @@ from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.version import __version__
 
-_FORMAT = 1
+_FORMAT = 2
 
 TITLE = "# Success rate over "
 """The beginning of every table of a sweep."""
@@ -28,6 +28,7 @@ def header_text(request: SweepRequest) -> str:
         f"# images {settings.images}, at every point",
         f"# decoders {', '.join(settings.decoders)}",
         f"# path {settings.path}",
+        f"# images a second {settings.frames_a_second!r}",
         f"# tolerance {settings.tolerance!r} levels of the profile",
         f"# by hand: {forced or 'nothing'}",
     ]
@@ -41,7 +42,8 @@ def header_text(request: SweepRequest) -> str:
 def _columns(request: SweepRequest) -> list[str]:
     return [
         *map(_column, request.axes), "decoder", "images", "seed", "right bits", "sent bits",
-        "success rate (%)", "95 % from (%)", "95 % to (%)", "note",
+        "success rate (%)", "95 % from (%)", "95 % to (%)", "images read whole", "bits a second",
+        "note",
     ]  # fmt: skip
 
 
@@ -69,10 +71,11 @@ def point_text(
     settings = request.settings
     values = [_written(value) for value in request.values(point.index).values()]
     text = ""
-    for decoder, right, ends in zip(settings.decoders, point.right, intervals, strict=True):
-        found: list[object] = [None] * 5
+    for place, (decoder, ends) in enumerate(zip(settings.decoders, intervals, strict=True)):
+        found: list[object] = [None] * 7
         if point.sent:
-            found = [right, point.sent, 100.0 * right / point.sent, *ends]
+            right, bits = point.right[place], request.bits_a_second(point, place)
+            found = [right, point.sent, 100.0 * right / point.sent, *ends, point.whole[place], bits]
         text += _row([*values, decoder, settings.images, settings.seed, *found, point.note])
     return text
 
@@ -105,7 +108,8 @@ class PointReader:
             for places, text in zip(self._axes, rows[0], strict=False):
                 index = index * len(places) + places[text]
             right = tuple(int(row[first] or 0) for row in rows)
-            return SweepPoint(index, int(rows[0][first + 1] or 0), right, rows[0][-1])
+            whole = tuple(int(row[first + 5] or 0) for row in rows)
+            return SweepPoint(index, int(rows[0][first + 1] or 0), right, rows[0][-1], whole)
         except (ValueError, LookupError, StopIteration, csv.Error):
             return None
 

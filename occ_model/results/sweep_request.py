@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import Literal, TypeAlias
 
+from occ_model.results.bit_errors import FRAMES_A_SECOND, bits_a_second
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
@@ -13,6 +14,11 @@ from occ_model.scene.simulation_settings import TOLERANCE
 SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
 """How a decoder's signal is simulated: as column means, from a sample of the image's rows, from the
 whole image, or by the first of these that the plan allows."""
+
+Shown: TypeAlias = Literal["rate", "bits"]
+"""What is drawn of a sweep: success rates in percent, or net bits a second."""
+
+SHOWN: tuple[Shown, ...] = ("rate", "bits")
 
 SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "rows", "image")
 
@@ -52,6 +58,8 @@ class RateSettings:
         As for :func:`occ_model.plan`.
     path
         As for :func:`occ_model.success_rate`.
+    frames_a_second
+        Images a second by which bits a second are counted; it changes no rate.
     """
 
     images: int
@@ -60,6 +68,7 @@ class RateSettings:
     tolerance: float = TOLERANCE.default
     force: Mapping[str, bool] = field(default_factory=dict)
     path: SignalPath = "auto"
+    frames_a_second: float = FRAMES_A_SECOND
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +107,28 @@ class SweepRequest:
             found.append(values[place])
         return dict(zip(self.axes, reversed(found), strict=True))
 
+    def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
+        """Give the net bits a second of a point; None where the model refuses the scene.
+
+        Each image shows another payload, and counts where all its bits are right.
+
+        Parameters
+        ----------
+        point
+            The point's counts.
+        decoder
+            The decoder's place.
+        """
+        if not point.sent or not point.whole:
+            return None
+        images, values = self.settings.images, self.values(point.index)
+        camera = self.scene.camera
+        columns = values.get("columns", camera.columns)
+        readout_time = float(columns) * float(values.get("readout_time", camera.readout_time))
+        share = point.whole[decoder] / images
+        bits = point.sent // images
+        return bits_a_second(share, bits, self.settings.frames_a_second, readout_time)
+
     def in_order_of_work(self) -> Iterator[int]:
         """Give the indices of the points in the order in which they take the least time."""
         names = list(self.axes)
@@ -122,9 +153,12 @@ class SweepPoint:
         Number of these bits that each decoder read rightly.
     note
         Why the model refuses the scene, empty where it does not.
+    whole
+        Images of which each decoder read every bit rightly; empty where they were not counted.
     """
 
     index: int
     sent: int
     right: tuple[int, ...]
     note: str = ""
+    whole: tuple[int, ...] = ()

@@ -112,10 +112,23 @@ def right_bits(
     ProjectionError
         The scene has no picture.
     """
-    correct = [0] * len(settings.decoders)
+    return right_and_whole(scene, settings, heartbeat)[0]
+
+
+def right_and_whole(
+    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Count the bits that each decoder reads rightly, and the images of which it reads all.
+
+    The arguments and errors are those of :func:`right_bits`.
+    """
+    length = scene.transmitter.payload_length
+    correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
     for counts in right_bits_of_images(scene, settings, heartbeat):
-        correct = [total + count for total, count in zip(correct, counts, strict=True)]
-    return tuple(correct)
+        for place, count in enumerate(counts):
+            correct[place] += count
+            whole[place] += count == length
+    return tuple(correct), tuple(whole)
 
 
 def right_bits_of_images(

@@ -234,7 +234,7 @@ class _Search:
 
     def _try(self, value: float, enough: int = FEW_IMAGES) -> Trial:
         """Count right bits until the rate cannot be reached, or is reached by enough images."""
-        images, bits = self._settings.images, self._scene.transmitter.bits
+        images, bits = self._settings.images, self._scene.transmitter.payload_length
         right = read = 0
         for read, count_of_image in enumerate(self._images_at(value), 1):
             right += count_of_image
@@ -246,7 +246,7 @@ class _Search:
         return self._trial_of(value, right, read)
 
     def _trial_of(self, value: float, right: int, images: int) -> Trial:
-        sent = images * self._scene.transmitter.bits
+        sent = images * self._scene.transmitter.payload_length
         ((low, high),) = rate_intervals(SweepPoint(0, sent, (right,)))
         return Trial(value, right, sent, low, high, images)
 

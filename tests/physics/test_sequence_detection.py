@@ -47,7 +47,7 @@ def test_bit_errors_of_manchester_stay_below_the_rates(
 
 
 def test_4_chips_at_15_db_have_a_rate_near_6_in_10000() -> None:
-    # That of the bitwise best detector, 6e-4, leaves no room below it: see decoders.md.
+    # The best detector errs at 5.5e-4: see test_best_detector.py.
     wrong, bits = wrong_bits(4, 15, 60_000, seed=1)
     assert 3e-4 < wrong / bits < 9e-4
 

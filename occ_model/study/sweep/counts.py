@@ -31,6 +31,7 @@ class Counts:
         self._there = np.zeros(request.points, dtype=np.bool_)
         self._sent = np.zeros(request.points, dtype=np.int64)
         self._right = np.zeros((request.points, decoders), dtype=np.int64)
+        self._whole = np.zeros((request.points, decoders), dtype=np.int64)
         self._ends = np.zeros((request.points, decoders, 2))
         self._notes: dict[int, str] = {}
         self.entered = 0
@@ -44,6 +45,7 @@ class Counts:
         self._there[point.index] = True
         self._sent[point.index] = point.sent
         self._right[point.index] = point.right
+        self._whole[point.index] = point.whole
         self._ends[point.index] = rate_intervals(point)
         if point.note:
             self._notes[point.index] = point.note
@@ -59,4 +61,5 @@ class Counts:
             self._ends[..., 0].reshape(*shape, -1),
             self._ends[..., 1].reshape(*shape, -1),
             dict(sorted(self._notes.items())),
+            self._whole.reshape(*shape, -1),
         )

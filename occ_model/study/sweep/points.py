@@ -11,7 +11,7 @@ from occ_model.results import RateSettings, SweepPoint, SweepRequest
 from occ_model.results.sweep_csv import one_line
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
-from occ_model.study.success_rate import check_rate, right_bits
+from occ_model.study.success_rate import check_rate, right_and_whole
 
 PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]
 """A point's index and the values of the parameters that are varied."""
@@ -47,10 +47,11 @@ def measure_point(
     try:
         at = scene.replace(**values)
         check_rate(at, settings)
-        right = right_bits(at, settings, heartbeat)
+        right, whole = right_and_whole(at, settings, heartbeat)
     except OccError as refusal:
-        return SweepPoint(index, 0, (0,) * len(settings.decoders), one_line(str(refusal)))
-    return SweepPoint(index, settings.images * at.transmitter.payload_length, right)
+        none = (0,) * len(settings.decoders)
+        return SweepPoint(index, 0, none, one_line(str(refusal)), none)
+    return SweepPoint(index, settings.images * at.transmitter.payload_length, right, "", whole)
 
 
 def measure_points(

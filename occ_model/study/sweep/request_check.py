@@ -11,6 +11,7 @@ from occ_model.results.sweep_request import JOBS_A_CORE, MOST_AXES, MOST_JOBS, M
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import Choice, ParameterValue
 from occ_model.scene.parameters import parameter_named
+from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.success_rate import check_rate
 
@@ -35,6 +36,7 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
     """
     check_scene(scene)
     check_rate(scene, settings)
+    FRAME_RATE.check(settings.frames_a_second)
     if not isinstance(axes, Mapping) or not axes:
         raise ParameterError(
             f"axes is {shown(axes)}; allowed: one parameter or more by name, a list of values each."

@@ -13,6 +13,7 @@ from occ_model.errors import one_line
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results import RateSettings, SignalPath, SweepPoint, SweepRequest, SweepTable
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -45,6 +46,7 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     path: SignalPath = "auto",
     tolerance: float = TOLERANCE.default,
     force: Mapping[str, bool] | None = None,
+    frames_a_second: float = FRAMES_A_SECOND,
 ) -> SweepTable:
     """Measure the success rate at all combinations of some parameters' values.
 
@@ -67,6 +69,8 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
         As for :func:`run_sweep`.
     path, tolerance, force
         As for :func:`occ_model.success_rate`.
+    frames_a_second
+        Images a second by which bits a second are counted, or as many as can be read out.
 
     Returns
     -------
@@ -78,7 +82,8 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     ParameterError, OutputError
         An argument is not allowed, or as for :func:`run_sweep`.
     """
-    settings = RateSettings(images, decoders_of(decoder), seed, tolerance, force or {}, path)
+    names = decoders_of(decoder)
+    settings = RateSettings(images, names, seed, tolerance, force or {}, path, frames_a_second)
     request = checked_request(scene, axes, settings)
     return run_sweep(request, executor=executor, jobs=jobs, progress=progress, results=results)
 

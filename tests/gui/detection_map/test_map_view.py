@@ -39,8 +39,12 @@ def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -
     """Give a map of which some points are known."""
     x_values, y_values = lattice(FREQUENCY, SHAPE[0]), lattice(DISTANCE, SHAPE[1])
     rates = RateMap(FREQUENCY, DISTANCE, x_values, y_values, DECODERS)
-    rates.enter([SweepPoint(index, 10, counts) for index, counts in right.items()], 1)
-    rates.enter([SweepPoint(index, 0, (0, 0), "It cannot be.") for index in refused], 1)
+    read = [
+        SweepPoint(index, 10, counts, "", tuple(int(count == 10) for count in counts))
+        for index, counts in right.items()
+    ]
+    rates.enter(read, 1)
+    rates.enter([SweepPoint(index, 0, (0, 0), "It cannot be.", (0, 0)) for index in refused], 1)
     return rates
 
 
@@ -82,7 +86,7 @@ def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:
     x, _ = rates.owners()
     assert (x[:3, :3] == 0).all()
     assert (x[4:] == -1).all()
-    rates.enter([SweepPoint(SHAPE[1] + 1, 10, (0, 0))], 1)
+    rates.enter([SweepPoint(SHAPE[1] + 1, 10, (0, 0), "", (0, 0))], 1)
     x, y = rates.owners()
     assert (x[1, 1], y[1, 1]) == (1, 1)
     assert (x[2, 2], y[2, 2]) == (0, 0)

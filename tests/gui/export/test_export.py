@@ -64,7 +64,7 @@ def test_the_map_is_exported_once_it_is_complete(
     scene, settings = application.store.scene, application.settings.settings
     x, y = "switching_frequency", "distance"
     rates = RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), ("threshold",))
-    rates.enter([SweepPoint(index, 10, (4,)) for index in range(rates.images.size)], 2)
+    rates.enter([SweepPoint(index, 10, (4,), "", (0,)) for index in range(rates.images.size)], 2)
     asked = MapRequest(scene, x, y, settings, with_image_effects=False)
     map_pane = type(application.detection_map.map)
     monkeypatch.setattr(map_pane, "full", property(lambda _: (rates, asked)))

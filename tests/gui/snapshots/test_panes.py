@@ -79,12 +79,13 @@ def test_the_map_looks_as_stored(
     rates = RateMap("switching_frequency", "distance", x, y, ("threshold", "matched"))
     points = [(column, row) for column in range(13) for row in range(7)]
     known = [
-        SweepPoint(number, 10, (max(0, 10 - column), max(0, 10 - abs(column + row - 9))))
+        SweepPoint(number, 10, right, "", tuple(int(count == 10) for count in right))
         for number, (column, row) in enumerate(points)
         if row < 6
+        for right in [(max(0, 10 - column), max(0, 10 - abs(column + row - 9)))]
     ]
     refused = [
-        SweepPoint(number, 0, (0, 0), "The panel is behind the camera.")
+        SweepPoint(number, 0, (0, 0), "The panel is behind the camera.", (0, 0))
         for number, (_, row) in enumerate(points)
         if row == 6
     ]

@@ -12,8 +12,10 @@ from occ_model.cli import main
 from occ_model.results import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import paper_grid
-from occ_model.study.success_rate import right_bits
+from occ_model.study.success_rate import right_and_whole
 from occ_model.study.sweep import points
+
+Counted = tuple[tuple[int, ...], tuple[int, ...]]
 
 
 @pytest.fixture(scope="module")
@@ -118,24 +120,24 @@ def test_figures_that_were_interrupted_go_on_with_the_rates_kept(
     command = ["figures", "--out", str(tmp_path), "--images", "1", "--seed", "3"]
     measured: list[float] = []
 
-    def measured_by_hand(scene: Scene, settings: RateSettings, pulse: object) -> tuple[int, ...]:
+    def measured_by_hand(scene: Scene, settings: RateSettings, pulse: object) -> Counted:
         if len(measured) == 10:
             raise KeyboardInterrupt
         measured.append(scene.pose.distance)
-        return right_bits(scene, settings)
+        return right_and_whole(scene, settings)
 
     with monkeypatch.context() as patch:
-        patch.setattr(points, "right_bits", measured_by_hand)
+        patch.setattr(points, "right_and_whole", measured_by_hand)
         assert main(command) == 130
     (kept,) = tmp_path.glob("rates-*.csv")
     assert len(rows(kept)) == 10 * 2
     again: list[float] = []
 
-    def counted(scene: Scene, settings: RateSettings, pulse: object) -> tuple[int, ...]:
+    def counted(scene: Scene, settings: RateSettings, pulse: object) -> Counted:
         again.append(scene.pose.distance)
-        return right_bits(scene, settings)
+        return right_and_whole(scene, settings)
 
-    monkeypatch.setattr(points, "right_bits", counted)
+    monkeypatch.setattr(points, "right_and_whole", counted)
     assert main(command) == 0
     assert len(again) == 4 * 80 - 10
     assert {path.name for path in tmp_path.iterdir()} == {path.name for path in folder.iterdir()}

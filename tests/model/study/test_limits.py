@@ -387,3 +387,10 @@ def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[s
     printed = capsys.readouterr().out
     assert "at no switching frequency from 500 Hz to 100 kHz" in printed
     assert "there is no light that could saturate" in printed
+
+
+def test_the_bits_of_a_payload_are_counted_as_sent() -> None:
+    scene = SCENE.replace(payload="text:Hi", line_code="manchester", framing="preamble")
+    end = occ.limits(scene, images=2).frequency.highest
+    assert end is not None
+    assert (end.works.right, end.works.sent) == (32, 32)

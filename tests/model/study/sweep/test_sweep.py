@@ -19,6 +19,7 @@ from occ_model.results import RateSettings, SweepTable
 from occ_model.results.sweep_request import MOST_AXES
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.sweep.request_check import checked_request
 
 BOTH = ("threshold", "matched")
@@ -210,3 +211,27 @@ def test_a_sweep_may_vary_as_many_parameters_as_are_allowed() -> None:
     names = [name for name in PARAMETERS if name != "pattern"][:MOST_AXES]
     axes = {name: [start.value(name)] for name in names}
     assert occ.sweep(start, axes, 1).rates().shape == (1,) * MOST_AXES
+
+
+def test_bits_a_second_count_the_images_of_which_every_bit_is_read() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=3.3e3)
+    table = occ.sweep(scene, {"distance": [0.6, 1.2]}, images=6, frames_a_second=20.0)
+    for place, distance in enumerate((0.6, 1.2)):
+        at = scene.replace(distance=distance)
+        counts = [count for (count,) in right_bits_of_images(at, RateSettings(6, ("threshold",)))]
+        whole = sum(count == 10 for count in counts)
+        assert table.bits_a_second()[place] == pytest.approx(20.0 * 10 * whole / 6)
+    assert 0.0 < table.bits_a_second()[1] < table.bits_a_second()[0] == 200.0
+
+
+def test_no_more_pictures_count_than_can_be_read_out() -> None:
+    scene = occ.load_preset("phone-68us").replace(rows=100)
+    table = occ.sweep(scene, {"readout_time": [8e-6, 20e-6]}, images=1, frames_a_second=30.0)
+    columns = scene.camera.columns
+    assert table.bits_a_second() == pytest.approx([300.0, 10.0 / (columns * 20e-6)])
+
+
+@pytest.mark.parametrize("frames", [0.0, float("nan"), -1.0])
+def test_a_frame_rate_that_is_none_is_refused(scene: Scene, frames: float) -> None:
+    with pytest.raises(occ.ParameterError, match="frame_rate"):
+        occ.sweep(scene, {"iso": [100.0]}, images=1, frames_a_second=frames)

@@ -155,7 +155,7 @@ def test_an_error_of_the_model_itself_is_passed_on_from_a_worker(
     def fail(*_: object) -> None:
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr(points, "right_bits", fail)
+    monkeypatch.setattr(points, "right_and_whole", fail)
     with ThreadPoolExecutor(1) as executor, pytest.raises(ZeroDivisionError, match="a bug"):
         occ.sweep(scene, AXES, executor=executor)
 
@@ -217,7 +217,7 @@ def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
             future: Future[JobResult] = Future()
             waiting.append(future)
             most = max(most, len(waiting))
-            points = tuple(SweepPoint(index, 10, (10,)) for index, _ in job.arguments[2])
+            points = tuple(SweepPoint(index, 10, (10,), "", (1,)) for index, _ in job.arguments[2])
             future.set_result(JobResult(MeasuredPoints(points, 1, 0.001 * len(points))))
             return future
 

@@ -107,10 +107,10 @@ class Application(QObject):
         readers = (self.image, comparison, self.profile, self.decode, self.story)
         self.simulation.show_in([self.image, self.learning, self.accuracy], readers)
         self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
-        self.detection_map = DetectionMapWiring(
-            self.store, self.settings, self.detection, self.slider_strips
-        )
         self.frame_rate = FrameRate()
+        self.detection_map = DetectionMapWiring(
+            self.store, self.settings, self.detection, self.slider_strips, self.frame_rate
+        )
         self.bench = BenchDock(
             self.window, self.store, self.frame_rate, self.detection_map.for_bench
         )

@@ -103,7 +103,7 @@ class Desktop(QObject):
             parts.accuracy.plot,
             QUICK_DECODERS,
         )
-        self.figures.add_map(lambda: parts.detection_map.map.full)
+        self.figures.add_map(lambda: parts.detection_map.map.full, parts.frame_rate)
         self.figures.add_bench(lambda: parts.bench.full, parts.frame_rate)
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_model.results import Limits, Trial, WorkingRange
 from occ_model.results.advice import Advice, EndFacts, TheoryLimits
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 
@@ -36,6 +37,9 @@ class AdviceLine:
 class AdviceSentences(QObject):
     """Writes advice in translatable sentences."""
 
+    frames_a_second = FRAMES_A_SECOND
+    """Pictures a second by which bits a second are counted."""
+
     def lines(self, advice: Advice) -> list[AdviceLine]:
         """Write a title and a few lines on what was found."""
         ends = {
@@ -58,8 +62,18 @@ class AdviceSentences(QObject):
                 if (end.parameter, end.side) in ends
             )
             lines.append(AdviceLine(theory))
+        if advice.frequency.ends:
+            lines.append(AdviceLine(self._bits_a_second(advice.limits)))
         lines.append(AdviceLine(self._confidence(advice.limits)))
         return lines
+
+    def _bits_a_second(self, found: Limits) -> str:
+        camera, bits = found.scene.camera, found.scene.transmitter.payload_length
+        pictures = min(self.frames_a_second, 1.0 / (camera.columns * camera.readout_time))
+        return self.tr(
+            "Where it reads, {bits} bits in each of {pictures:.4g} pictures a second are at least "
+            "{right:.4g} right bits a second."
+        ).format(bits=bits, pictures=pictures, right=found.rate / 100.0 * bits * pictures)
 
     def on_highest_frequency(self, advice: Advice) -> AdviceLine:
         """Write the line on the highest frequency that is read, or that there is none."""

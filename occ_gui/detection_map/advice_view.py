@@ -99,6 +99,10 @@ class AdviceView(QWidget):
         self.again.setVisible(not running)
         self.state.setVisible(not running)
 
+    def use_frame_rate(self, frames_a_second: float) -> None:
+        """Count bits a second at so many pictures a second in the advice that comes."""
+        self._sentences.frames_a_second = frames_a_second
+
     def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
         """Remove the previous advice, and show that a search is running and what it leaves out."""
         for line in self._lines:

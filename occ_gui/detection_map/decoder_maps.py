@@ -1,5 +1,6 @@
 """Maps of the decoders side by side, or of their difference, with the colour bar."""
 
+import math
 from collections.abc import Collection, Sequence
 
 import numpy as np
@@ -18,7 +19,9 @@ from occ_gui.detection_map.colour_map import (
 from occ_gui.detection_map.map_plot import MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
 from occ_model.arrays import FloatArray
+from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
+from occ_model.scene.recording import FRAME_RATE
 
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
 """Values at both ends of each colour map, in percent."""
@@ -48,6 +51,8 @@ class MapPlots(QWidget):
         super().__init__(parent)
         self._decoders = tuple(decoders)
         self._what = "both"
+        self._shown: Shown = "rate"
+        self._frames_a_second = FRAME_RATE.default
         self._rates: RateMap | None = None
         self._theory: TheoryFields | None = None
         self._lines: dict[str, list[FloatArray]] = {}
@@ -124,6 +129,12 @@ class MapPlots(QWidget):
         self._name_plots()
         self._redraw()
 
+    def show_bits(self, shown: Shown, frames_a_second: float) -> None:
+        """Show success rates, or bits a second at so many pictures a second."""
+        self._shown, self._frames_a_second = shown, frames_a_second
+        self._bar_drawn = ""
+        self._redraw()
+
     def show_limit(self, limit: str, shown: bool) -> None:
         """Show or hide the line of a limit."""
         if shown:
@@ -159,8 +170,8 @@ class MapPlots(QWidget):
 
     def _redraw(self) -> None:
         scheme = DIFFERENCES if self._what == "difference" else RATES
-        low, high = _SCALES[scheme]
-        if self._bar_drawn != scheme:
+        low, high = self._scale(scheme)
+        if self._bar_drawn != f"{scheme} {high}":
             self._draw_bar(scheme)
         rates = self._rates
         if rates is None:
@@ -173,10 +184,26 @@ class MapPlots(QWidget):
             plot.show_picture(image_of(to_colours(values, low, high, scheme)), rates.shape, refused)
         self._show_lines()
 
+    def _scale(self, scheme: str) -> tuple[float, float]:
+        """Return the values at both ends of a colour map."""
+        low, high = _SCALES[scheme]
+        if self._shown == "rate":
+            return low, high
+        known = 0.0 if self._rates is None else float(self._most(self._rates))
+        return math.copysign(known, low) if low else 0.0, known or 1.0
+
+    def _most(self, rates: RateMap) -> float:
+        return float(rates.most_bits(self._frames_a_second).max())
+
     def _values(self, rates: RateMap, name: str) -> FloatArray:
         if name == "difference":
-            return rates.rates(self._decoders[1]) - rates.rates(self._decoders[0])
-        return rates.rates(name)
+            return self._of(rates, self._decoders[1]) - self._of(rates, self._decoders[0])
+        return self._of(rates, name)
+
+    def _of(self, rates: RateMap, decoder: str) -> FloatArray:
+        if self._shown == "rate":
+            return rates.rates(decoder)
+        return rates.bits_a_second(decoder, self._frames_a_second)
 
     def _show_lines(self) -> None:
         lines = {key: found for key, found in self._lines.items() if key not in self._hidden}
@@ -186,18 +213,25 @@ class MapPlots(QWidget):
 
     def _draw_bar(self, scheme: str) -> None:
         table = colour_table(scheme)
-        low, high = _SCALES[scheme]
+        low, high = self._scale(scheme)
         opaque = np.full((len(table), 1), 255, dtype=np.uint8)
         image: QImage = image_of(np.hstack([table, opaque])[None])
         numbers = tuple(
-            (share, _signed(low + share * (high - low)) if low else f"{100 * share:.0f} %")
+            (share, self._number(low + share * (high - low), bool(low)))
             for share in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
         name = self.tr("Share of the bits that are read correctly, in percent")
         if scheme == DIFFERENCES:
             name = self.tr("Difference of the shares of bits that are read correctly, in percent")
+        if self._shown == "bits":
+            name = self.tr("Net bits a second, of pictures of which every bit is read correctly")
         self.bar.show_colours(image, numbers, name)
-        self._bar_drawn = scheme
+        self._bar_drawn = f"{scheme} {high}"
+
+    def _number(self, value: float, signed: bool) -> str:
+        if self._shown == "bits":
+            return f"{value:+,.0f}" if signed and value else f"{value:,.0f}"
+        return _signed(value) if signed else f"{value:.0f} %"
 
 
 def _signed(percent: float) -> str:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
 
+import numpy as np
 from PySide6.QtCore import QObject
 
 from occ_gui.background.result_age import ResultAges
@@ -12,12 +13,15 @@ from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
 from occ_gui.detection_map.worker import left_out
+from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_model.arrays import FloatArray
 from occ_model.parallel.job import Stage
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results import SweepPoint
+from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -61,6 +65,9 @@ class MapPane(Protocol):
 
     def show_facts(self, facts: PointFacts | None) -> None:
         """Show what is known of the point under the mouse."""
+
+    def show_bits(self, shown: Shown, frames_a_second: float) -> None:
+        """Show success rates, or bits a second at so many pictures a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,14 +116,24 @@ class DetectionMapController(QObject):
         Does the work.
     pane
         Shows the map; nothing is measured before :meth:`set_seen`.
+    frame_rate
+        The pictures a second; by default a store of its own.
     """
 
     def __init__(
-        self, scenes: SceneStore, settings: SettingsStore, channel: JobChannel, pane: MapPane
+        self,
+        scenes: SceneStore,
+        settings: SettingsStore,
+        channel: JobChannel,
+        pane: MapPane,
+        frame_rate: FrameRate | None = None,
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
         self._channel, self._pane = channel, pane
+        self._frame_rate = frame_rate or FrameRate()
+        self._frame_rate.changed.connect(self._show_bits)
+        self._frame_rate.shown_changed.connect(self._show_bits)
         self._axes = FIRST_AXES
         self._with_image_effects = True
         self._seen = False
@@ -200,7 +217,15 @@ class DetectionMapController(QObject):
 
     def _empty(self, request: MapRequest) -> RateMap:
         x, y = request.x, request.y
-        return RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), QUICK_DECODERS)
+        values = (lattice(x, SHAPE[0]), lattice(y, SHAPE[1]))
+        camera = request.scene.camera
+        readout: list[FloatArray] = [
+            np.array(along) if name == "readout_time" else np.array([camera.readout_time])
+            for name, along in zip((x, y), values, strict=True)
+        ]
+        # Only one of the axes can be the readout time.
+        times = readout[0][:, None] * readout[1] / camera.readout_time * camera.columns
+        return RateMap(x, y, *values, QUICK_DECODERS, times)
 
     def _show_left_out(self) -> None:
         scene, settings = self._scenes.scene, self._settings.settings
@@ -217,6 +242,9 @@ class DetectionMapController(QObject):
         self._show_age()
         self._pane.show_map(self.map)
         self._show_progress()
+
+    def _show_bits(self) -> None:
+        self._pane.show_bits(self._frame_rate.shown, self._frame_rate.value)
 
     def _show_age(self) -> None:
         self._pane.show_age(0.0 if self._shown is None else self._ages.age(self._shown))
@@ -258,6 +286,8 @@ class DetectionMapController(QObject):
             PointFacts(
                 shown.x_values[x], shown.y_values[y], counts, sent,
                 int(shown.images[x, y]), shown.notes.get(index, ""),
+                tuple(int(count) for count in shown.whole[x, y]),
+                float(shown.most_bits(self._frame_rate.value)[x, y]),
             )
         )  # fmt: skip
 

@@ -18,10 +18,13 @@ from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.decoder_maps import MapPlots
 from occ_gui.detection_map.map_legend import MapLegend
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
+from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.outdated_mark import OutdatedMark
+from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
+from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 
 _LEAST_WITH_CARDS = 480
@@ -47,6 +50,12 @@ class MapView(QWidget):
 
     image_effects_switched = Signal(bool)
     """Whether rows of the picture are simulated where the scene needs them."""
+
+    shown_chosen = Signal(str)
+    """Whether the user sees success rates (``"rate"``) or bits a second (``"bits"``)."""
+
+    frame_rate_edited = Signal(float)
+    """The pictures a second that the user has entered."""
 
     picked = Signal(object)
     """The point that the user chose, by its indices along both axes."""
@@ -105,12 +114,26 @@ class MapView(QWidget):
             self.tr("Decoders"), self.tr("The decoder whose success rates are shown."), words
         )
 
+        self.shown = KeyedComboBox(
+            self.tr("What is shown"),
+            self.tr("Success rates, or the net bits a second of a video, one payload a picture."),
+            {"rate": self.tr("success rate"), "bits": self.tr("bits a second")},
+        )
+        self.frame_rate = QuantityEdit(FRAME_RATE)
+        self.frame_rate.setAccessibleName(FRAME_RATE.label)
+        self.frame_rate.setToolTip(
+            self.tr("Pictures a second, or as many as can be read out; each is of another payload.")
+        )
+        self.frame_rate.hide()
+
     def _lay_out(self) -> None:
         head = QHBoxLayout()
         head.addWidget(self.across, 3)
         head.addWidget(QLabel("×"))  # noqa: RUF001 - the sign for it
         head.addWidget(self.up, 3)
         head.addWidget(self.what, 2)
+        head.addWidget(self.shown, 2)
+        head.addWidget(self.frame_rate)
         head.addWidget(self.advise)
         foot = QHBoxLayout()
         foot.addWidget(self.legend, 1)
@@ -141,6 +164,9 @@ class MapView(QWidget):
         self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))
         self.up.chosen.connect(lambda y: self.axes_chosen.emit(self._axes[0], y))
         self.what.chosen.connect(self.plots.show_what)
+        self.shown.chosen.connect(self.shown_chosen)
+        self.frame_rate.edited.connect(self.frame_rate_edited)
+        self.frame_rate.refused.connect(self.show_failure)
         self.legend.toggled.connect(self.plots.show_limit)
         self.image_effects.toggled.connect(self.image_effects_switched)
         self.plots.picked.connect(self.picked)
@@ -207,6 +233,14 @@ class MapView(QWidget):
             self.tr("The map leaves out: {effects}.").format(effects=", ".join(effects))
         )
 
+    def show_bits(self, shown: Shown, frames_a_second: float) -> None:
+        """Show success rates, or bits a second at so many pictures a second."""
+        self.shown.show_key(shown)
+        self.frame_rate.setVisible(shown == "bits")
+        self.frame_rate.set_value(frames_a_second)
+        self.plots.show_bits(shown, frames_a_second)
+        self._show_status()
+
     def show_facts(self, facts: PointFacts | None) -> None:
         """Show the results at the point under the mouse."""
         self._facts = facts
@@ -227,6 +261,16 @@ class MapView(QWidget):
         return f"{x.format(facts.x, 4)}, {y.format(facts.y, 4)}"
 
     def _counts(self, facts: PointFacts) -> str:
+        if self.shown.key() == "bits":
+            texts = (
+                self.tr("{decoder} {bits:,.0f} bits a second, {whole} of {images} pictures whole")
+                .format(
+                    decoder=decoder, bits=facts.most_bits * whole / facts.images, whole=whole,
+                    images=facts.images,
+                )
+                for (decoder, *_), whole in zip(facts.counts, facts.whole, strict=True)
+            )  # fmt: skip
+            return "; ".join(texts)
         counts = (
             self.tr("{decoder} {rate:.0f} %, {right} of {sent} bits ({low:.0f} to {high:.0f} %)")
             .format(

@@ -85,6 +85,10 @@ class PointFacts:
         Images in which they were sent.
     note
         Why the model refuses the point, empty if it does not.
+    whole
+        Images of which each decoder read every bit.
+    most_bits
+        Bits a second if all were read.
     """
 
     x: float
@@ -93,6 +97,8 @@ class PointFacts:
     sent: int
     images: int
     note: str
+    whole: tuple[int, ...] = ()
+    most_bits: float = 0.0
 
 
 @dataclass(eq=False, slots=True)
@@ -107,6 +113,8 @@ class RateMap:
         The lattice, in SI units.
     decoders
         The decoders' names.
+    picture_times : ndarray of float64, shape (points along x, points along y), or float
+        Time in seconds in which a picture is read out: no more of them come in a second.
     """
 
     x: str
@@ -114,6 +122,7 @@ class RateMap:
     x_values: tuple[float, ...]
     y_values: tuple[float, ...]
     decoders: tuple[str, ...]
+    picture_times: FloatArray | float = 0.0
     sent: IndexArray = field(init=False)
     right: IndexArray = field(init=False)
     whole: IndexArray = field(init=False)
@@ -166,6 +175,27 @@ class RateMap:
         right = 100.0 * self.right[..., self.decoders.index(decoder)]
         np.divide(right, self.sent, out=rates, where=self.sent > 0)
         return rates
+
+    def bits_a_second(self, decoder: str, frames_a_second: float) -> FloatArray:
+        """Return the net bits a second at every point, of a payload in each picture.
+
+        Returns
+        -------
+        ndarray of float64, shape (points along x, points along y)
+            NaN where it is not known or the model refuses the point.
+        """
+        share = np.full(self.shape, np.nan)
+        whole = self.whole[..., self.decoders.index(decoder)]
+        np.divide(whole, self.images, out=share, where=self.sent > 0)
+        return share * self.most_bits(frames_a_second)
+
+    def most_bits(self, frames_a_second: float) -> FloatArray:
+        """Return the bits a second at every point if all were read, 0 where none is known."""
+        bits = np.zeros(self.shape)
+        np.divide(self.sent, self.images, out=bits, where=self.sent > 0)
+        with np.errstate(divide="ignore"):
+            most = 1.0 / np.broadcast_to(np.asarray(self.picture_times), self.shape)
+        return np.asarray(bits * np.minimum(frames_a_second, most))
 
     def refused(self) -> IndexArray:
         """Return 1 for points that the model refuses, else 0; shape (points along x, along y)."""

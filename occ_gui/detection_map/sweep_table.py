@@ -1,15 +1,20 @@
 """Conversion of the detection map to the table of a sweep, which figures and files use."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import map_request
 from occ_gui.detection_map.rate_map import RateMap
 from occ_model.results import SweepPoint, SweepTable
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.study.sweep.counts import rate_intervals
 
 
-def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:
+def table_of(
+    rates: RateMap, asked: MapRequest, frames_a_second: float = FRAMES_A_SECOND
+) -> SweepTable:
     """Return a complete map as a table; later points do not change it.
 
     Parameters
@@ -18,11 +23,15 @@ def table_of(rates: RateMap, asked: MapRequest) -> SweepTable:
         The map.
     asked
         The request that it was measured for.
+    frames_a_second
+        Pictures a second.
     """
     request = map_request(
         asked.scene, asked.x, asked.y, asked.settings, rates.decoders,
         images=rates.least_images, with_image_effects=asked.with_image_effects,
     )  # fmt: skip
+    settings = replace(request.settings, frames_a_second=frames_a_second)
+    request = replace(request, settings=settings)
     sent, right = rates.sent.copy(), rates.right.copy()
     ends = np.array(
         [

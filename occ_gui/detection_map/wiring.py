@@ -9,6 +9,7 @@ from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.worker import PRELOAD
+from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Workers
@@ -41,16 +42,24 @@ class DetectionMapWiring(QObject):
         Shows the map and the advice.
     strips
         Show success rates along the sliders.
+    frame_rate
+        The pictures a second; by default a store of its own.
     """
 
     def __init__(
-        self, scenes: SceneStore, settings: SettingsStore, pane: MapView, strips: SliderStrips
+        self,
+        scenes: SceneStore,
+        settings: SettingsStore,
+        pane: MapView,
+        strips: SliderStrips,
+        frame_rate: FrameRate | None = None,
     ) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
         self.queue = WorkQueue(4, lambda: new_workers())
         for_map, for_strips, for_advice, self.for_bench = self.queue.channels
-        self.map = DetectionMapController(scenes, settings, for_map, pane)
+        self.frame_rate = frame_rate or FrameRate()
+        self.map = DetectionMapController(scenes, settings, for_map, pane, self.frame_rate)
         self.slider_strips = SliderStripController(
             scenes, settings, for_strips, strips, strips.strips
         )
@@ -62,6 +71,9 @@ class DetectionMapWiring(QObject):
         pane.visibility_changed.connect(self.map.set_seen)
         pane.axes_chosen.connect(self.map.choose_axes)
         pane.picked.connect(self.map.go_to)
+        pane.shown_chosen.connect(self.frame_rate.show)
+        pane.frame_rate_edited.connect(self.frame_rate.change)
+        self.frame_rate.changed.connect(pane.advice.use_frame_rate)
         pane.pointed.connect(self.map.point_at)
         pane.image_effects_switched.connect(self.map.use_image_effects)
         pane.image_effects_switched.connect(self.advisor.use_image_effects)

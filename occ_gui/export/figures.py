@@ -144,24 +144,29 @@ class Figures(QObject):
             self.add(name, title, partial(self._of_decoding, decoder))
         self.add("accuracy", self.tr("Accuracy and time"), self._of_accuracy)
 
-    def add_map(self, full: Callable[[], "tuple[RateMap, MapRequest] | None"]) -> None:
+    def add_map(
+        self, full: Callable[[], tuple[RateMap, MapRequest] | None], frame_rate: FrameRate
+    ) -> None:
         """Add the figure of the detection map, which is available once all its points are known."""
-        self.add("map", self.tr("Detection map"), partial(self._of_map, full))
+        self.add("map", self.tr("Detection map"), partial(self._of_map, full, frame_rate))
 
     def _of_map(
-        self, full: Callable[[], "tuple[RateMap, MapRequest] | None"], shown: Snapshot
+        self,
+        full: Callable[[], tuple[RateMap, MapRequest] | None],
+        frame_rate: FrameRate,
+        shown: Snapshot,
     ) -> FigureRequest:
         there = full()
         if there is None:
             raise NothingToDraw(
                 self.tr("The detection map is not complete yet: open its pane and wait a moment.")
             )
-        table = table_of(*there)
+        table, what = table_of(*there, frame_rate.value), frame_rate.shown
 
         def draw() -> "Drawing":
             from occ_model.figures.sweep import sweep_drawing
 
-            return sweep_drawing(table)
+            return sweep_drawing(table, what)
 
         return self.request(shown.frame.scene, draw)
 

@@ -59,6 +59,9 @@ class RecordingPane:
     def show_left_out(self, effects: tuple[str, ...]) -> None:
         self.left_out = effects
 
+    def show_bits(self, shown: str, frames_a_second: float) -> None:
+        self.bits = (shown, frames_a_second)
+
     def show_facts(self, facts: PointFacts | None) -> None:
         self.facts = facts
 

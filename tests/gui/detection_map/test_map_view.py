@@ -277,3 +277,29 @@ def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: Map
     view.show_age(0.0)
     assert view.outdated.isHidden()
     assert view.status.toolTip() == "91 points, images at each: 20; colour: share of bits read"
+
+
+def test_bits_a_second_are_shown_of_whole_payloads(qtbot: QtBot) -> None:
+    view = MapView(DECODERS)
+    qtbot.addWidget(view)
+    rates = rates_of({0: (10, 9)})
+    view.show_axes(FREQUENCY, DISTANCE)
+    view.show_map(rates)
+    view.show_bits("bits", 25.0)
+    # Nine of ten bits are a success rate of 90 %, and no payload.
+    assert rates.bits_a_second(DECODERS[0], 25.0)[0, 0] == pytest.approx(250.0)
+    assert rates.bits_a_second(DECODERS[1], 25.0)[0, 0] == 0.0
+    assert not view.frame_rate.isHidden()
+    facts = PointFacts(1e3, 1.0, ((DECODERS[0], 10, 70, 100), (DECODERS[1], 9, 60, 98)), 10, 1, "",
+                       (1, 0), 250.0)  # fmt: skip
+    view.show_facts(facts)
+    assert f"{DECODERS[0]} 250 bits a second, 1 of 1 pictures whole" in view.status._full
+    assert f"{DECODERS[1]} 0 bits a second" in view.status._full
+    view.show_bits("rate", 25.0)
+    assert f"{DECODERS[0]} 100 %, 10 of 10 bits" in view.status._full
+
+
+def test_no_more_pictures_are_counted_than_can_be_read_out() -> None:
+    rates = rates_of({0: (10, 10)})
+    rates.picture_times = 0.1
+    assert rates.bits_a_second(DECODERS[0], 30.0)[0, 0] == pytest.approx(100.0)

@@ -209,9 +209,9 @@ class MapView(QWidget):
         if known < total:
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
-            text = self.tr(
-                "{total} points, images at each: {images}; colour: share of bits read"
-            ).format(total=total, images=images)
+            text = self.tr("{total} points, images at each: {images}; colour: {what}").format(
+                total=total, images=images, what="{what}"
+            )
         self._progress = text
         self._show_status()
 
@@ -249,7 +249,9 @@ class MapView(QWidget):
     def _show_status(self) -> None:
         facts = self._facts
         if facts is None:
-            text = self._failure or self._refusal or self._progress
+            what = {"rate": self.tr("share of bits read"), "bits": self.tr("bits a second")}
+            progress = self._progress.replace("{what}", what[self.shown.key()])
+            text = self._failure or self._refusal or progress
         else:
             text = f"{self._position(facts)}: {facts.note or self._counts(facts)}"
         if self._is_outdated and not self._failure:

@@ -77,13 +77,16 @@ def test_a_film_gives_its_clock_and_the_payload(number: int) -> None:
 @pytest.mark.whole
 def test_forty_films_give_their_clocks_and_payloads_with_errors_that_hold() -> None:
     judged = [judge(film(number)) for number in range(FILMS)]
-    unread = [one for one in judged if one.reading.clock is None]
-    # Where nothing is stated nothing was in view: not all chips of what was sent.
-    assert not any(one.all_seen for one in unread)
     read = [one for one in judged if one.reading.clock is not None]
-    assert len(read) >= FILMS - 2
     for one in read:
         assert_as_demanded(one)
+    # Of packets of more than 2,000 chips hardly any frame shows the header: that is said.
+    unread = [one for one in judged if one.reading.clock is None]
+    assert len(unread) <= 3
+    for one in unread:
+        assert one.film.scene.transmitter.payload_length == 1024
+        assert one.reading.failure is not None
+        assert not one.reading.bits.size
     ratios = [off / error for one in read for off, error in map(one.error, _VALUES)]
     assert np.mean(np.abs(ratios) < 1.0) == pytest.approx(0.68, abs=0.07)
 

@@ -116,9 +116,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
     hypotheses = _hypotheses(candidates, sent, report)
     chosen = _chosen(judge, hypotheses, stripes, sent)
-    found = candidates.polished(chosen)
-    other = candidates.nearest_other(found)
-    others = [one for one in (*hypotheses, other) if one is not None and one is not chosen]
+    found, beside = candidates.corrected(candidates.polished(chosen))
+    others = [*(one for one in hypotheses if one is not chosen), *beside]
     verdict = judge.verdict(found, [one for one in others if not is_turned(one, found)])
     report(0.9)
     match = described(

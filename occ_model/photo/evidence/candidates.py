@@ -29,6 +29,12 @@ _UNCLIPPED = 0.02
 _SURELY = 100.0
 """Bits by which they must be better than chance, for other chips to be read from the edges only."""
 
+_CORRECTIONS = 6
+"""Most times that chips which were read are replaced by others near to them."""
+
+_MORE = 0.9
+"""Share of the sum of squared residuals below which other chips explain more than those read."""
+
 _DUTIES = 50
 """Parts of a period of which a pulse takes up a whole number."""
 
@@ -138,6 +144,30 @@ class Candidates:
 
     def _power(self, found: Hypothesis) -> float:
         return found.power(self.stripes.profile)
+
+    def corrected(self, found: Hypothesis) -> tuple[Hypothesis, list[Hypothesis]]:
+        """Take the nearest other chips instead of those that were read, while they explain more.
+
+        Chips are read as if white pixels were as bright as the light: where they are not, the fit
+        may tell a few chips better.
+
+        Returns
+        -------
+        found, others
+            The others are those nearest to it and those that it was taken instead of.
+        """
+        others: list[Hypothesis] = []
+        for _ in range(_CORRECTIONS):
+            other = self.nearest_other(found)
+            if other is None:
+                return found, others
+            if not found.was_read or self._power(other) >= _MORE * self._power(found):
+                return found, [*others, other]
+            others.append(found)
+            found = self.polished(
+                replace(other, sent=f"{self._named(other.chips)} read from the photo")
+            )
+        return found, others
 
     def nearest_other(self, found: Hypothesis) -> Hypothesis | None:
         """Suppose the other chips that explain the stripes best at the timing of a hypothesis."""

@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import QCoreApplication, QObject, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 
@@ -97,19 +97,31 @@ def _link_profiles(story: StoryView, profile: ProfileView) -> None:
 
 def _tell_verdicts_apart(parts: Parts) -> None:
     """Show first what the mode is about, and name the simulation where a photo is shown, too."""
-    story, photo, modes = parts.story, parts.photo.verdict, parts.window.modes
+    story, photo = parts.story, parts.photo.verdict
     story.take_photo_verdict(photo)
-
-    def name_simulation(*_news: object) -> None:
-        is_about_photo = modes.mode == "photo"
-        story.be_about_photo(is_about_photo)
-        story.verdict.name_simulation(is_about_photo or parts.photo.has_photo)
-
-    modes.changed.connect(name_simulation)
-    parts.photos.opened.connect(name_simulation)
+    naming = _SimulationNaming(parts)
+    parts.window.modes.changed.connect(naming.show)
+    parts.photos.opened.connect(naming.show)
     story.verdict.changed.connect(
         lambda: photo.show_simulation(story.verdict.state, story.verdict.heading)
     )
+
+
+class _SimulationNaming(QObject):
+    """Names the simulation where a photo is shown, too.
+
+    A slot, not a function: the signal of the photos would hold that beyond the window's end.
+    """
+
+    def __init__(self, parts: Parts) -> None:
+        super().__init__(parts.window)
+        self._story, self._photo, self._modes = parts.story, parts.photo, parts.window.modes
+
+    def show(self) -> None:
+        """Name it as the mode and the photo of the moment ask for."""
+        is_about_photo = self._modes.mode == "photo"
+        self._story.be_about_photo(is_about_photo)
+        self._story.verdict.name_simulation(is_about_photo or self._photo.has_photo)
 
 
 def _share_column(crosshair: Crosshair, exposure: ExposureController) -> None:

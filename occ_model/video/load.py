@@ -17,6 +17,7 @@ from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.provenance import first_scene_in
 from occ_model.scene.recording import Recording
 from occ_model.video.file.containers import FIRST_BYTES, container_of
+from occ_model.video.file.decoder_main import NO_MEMORY
 from occ_model.video.file.decoder_process import (
     DecoderProcess,
     DecoderStoppedError,
@@ -196,6 +197,8 @@ class VideoFile(Video):
             return None
         if stored is None:
             self._note_end(index)
+            if self._problem is not None and decoder.is_full:
+                self._problem = f"{self._shown} ends early, after {index} frames: {NO_MEMORY}"
             return None
         if stored.pixels.shape != self._stored_shape:
             lines, columns = stored.pixels.shape
@@ -239,7 +242,9 @@ class VideoFile(Video):
         try:
             first = decoder.read()
             if first is None:
-                raise VideoError("it holds no frame that can be decoded.")
+                raise VideoError(
+                    NO_MEMORY if decoder.is_full else "it holds no frame that can be decoded."
+                )
             self._stored_shape = first.pixels.shape
             self._first_time = first.time
             self.turned = scan_axis == "lines" or (

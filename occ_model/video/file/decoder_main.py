@@ -19,8 +19,11 @@ from typing import IO, Any
 DECODER_OPTION = "--decoder-of-films"
 """Tells a program that was bundled with its Python to become a decoder."""
 
-MOST_MEMORY = 420_000_000
-"""Bytes of data that the process may have, where the system can limit it."""
+MOST_MEMORY = 400_000_000
+"""Bytes that decoding may take, beyond those that the process has at its start."""
+
+_FRAMES_LEFT = 12
+"""Bytes for each pixel that a decoder which goes on has left: four frames in colours."""
 
 LONGEST = 4.0
 """Seconds of processor time that one request may take."""
@@ -30,6 +33,12 @@ TOOK_TOO_LONG = 21
 
 HEADER = struct.Struct("<II")
 """Before each answer: the bytes of its JSON part and those of its pixels."""
+
+NO_MEMORY = "decoding it takes more memory than is allowed."
+"""End of the sentence about a film whose decoder needs more."""
+
+_NO_MEMORY_LEFT = -4
+"""OpenCV's code of an error where memory lacks: ``cv2.Error.StsNoMem``."""
 
 _CHECK = 0.2
 """Seconds between looks at the processor time."""
@@ -113,9 +122,9 @@ class _Answering:
             return self._answered(request)
         except VideoError as error:
             return {"refused": str(error)}, None
-        except MemoryError:
-            return {"refused": "decoding it takes more memory than is allowed."}, None
         except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files
+            if isinstance(error, MemoryError) or getattr(error, "code", 0) == _NO_MEMORY_LEFT:
+                return {"refused": NO_MEMORY}, None
             return {"refused": f"decoding it failed ({type(error).__name__})."}, None
 
     def _answered(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
@@ -138,7 +147,7 @@ class _Answering:
         else:
             frame = self._source.read()
         if frame is None:
-            return {"end": True}, None
+            return {"end": True, "full": _is_memory_full(self._source)}, None
         return {"time": frame.time, "shape": frame.pixels.shape}, frame.pixels
 
 
@@ -164,4 +173,24 @@ def _limit_memory() -> None:
     import resource
 
     with suppress(OSError, ValueError):
-        resource.setrlimit(resource.RLIMIT_DATA, (MOST_MEMORY, MOST_MEMORY))
+        most = _data_of_this_process() + MOST_MEMORY
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
+
+
+def _data_of_this_process() -> int:
+    """Return the bytes that count for the limit: more than are in use, of threads for example."""
+    for line in Path("/proc/self/status").read_text(encoding="ascii").splitlines():
+        if line.startswith("VmData:"):
+            return int(line.split()[1]) * 1024
+    return 0
+
+
+def _is_memory_full(source: Any) -> bool:
+    """Say whether a few more frames do not fit into the memory: FFmpeg gives no reason."""
+    import numpy as np
+
+    try:
+        np.empty(_FRAMES_LEFT * source.pixels, np.uint8)
+    except MemoryError:
+        return True
+    return False

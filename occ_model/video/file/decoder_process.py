@@ -48,6 +48,11 @@ class DecoderProcess:
     """A process that decodes films, one at a time.
 
     A frame may be asked for ahead: it is decoded while the one before it is worked on.
+
+    Attributes
+    ----------
+    is_full
+        Whether the film ended, and a few more frames would not have fitted into the memory.
     """
 
     def __init__(self) -> None:
@@ -60,6 +65,7 @@ class DecoderProcess:
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
         self._ahead = False
+        self.is_full = False
         self._end = weakref.finalize(self, _end, process)
 
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
@@ -91,7 +97,9 @@ class DecoderProcess:
         if not self._ahead:
             self._send({"do": "read"})
         self._ahead = False
-        frame = _frame(*self._receive())
+        answer, pixels = self._receive()
+        frame = _frame(answer, pixels)
+        self.is_full = bool(answer.get("full"))
         if frame is not None:
             self._send({"do": "read"})
             self._ahead = True

@@ -28,9 +28,11 @@ class OpenCvSource(FrameSource):
         if not self._capture.isOpened():
             raise VideoError("no film was found in it.")
         width = self._capture.get(cv2.CAP_PROP_FRAME_WIDTH)
-        problem = too_large(width, self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT))
+        height = self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT)
+        problem = too_large(width, height)
         if problem:
             raise VideoError(problem)
+        self.pixels = int(width * height)
         rate = self._capture.get(cv2.CAP_PROP_FPS)
         count = self._capture.get(cv2.CAP_PROP_FRAME_COUNT)
         self.frame_rate = rate if 0.0 < rate < _FASTEST else None

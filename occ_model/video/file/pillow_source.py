@@ -22,7 +22,8 @@ class PillowSource(FrameSource):
         self._channel = channel
         try:
             self._picture = Image.open(path, formats=("GIF", "PNG"))
-            problem = too_large(*self._picture.size)
+            width, height = self._picture.size
+            problem, self.pixels = too_large(width, height), width * height
             if problem is None:
                 self.frame_count = int(getattr(self._picture, "n_frames", 1))
         except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files

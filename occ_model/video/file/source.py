@@ -13,7 +13,7 @@ CHANNELS = ("luma", "red", "green", "blue")
 """The channels of a film; most files keep the luma of each pixel, but colours of 2 x 2 pixels."""
 
 MAX_PIXELS = 36_000_000
-"""Largest frame that is read: 8K films have 35 million pixels."""
+"""Largest frame that is read, if its codec does not take too much memory: that of 8K films."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,8 +39,11 @@ class FrameSource(ABC):
     ----------
     frame_rate, frame_count
         As the container states them; None where it does not.
+    pixels
+        Pixels of a frame.
     """
 
+    pixels: int = 0
     frame_rate: float | None = None
     frame_count: int | None = None
 

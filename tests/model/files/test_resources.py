@@ -61,7 +61,7 @@ def test_lessons_are_loaded_out_of_an_archive(archive: Path) -> None:
         "for each in lessons().lessons: print(each.name, len(each.steps))\n"
     )
     here = [*run(ROOT, program)]
-    assert len(here) == 7
+    assert len(here) == 10
     assert run(archive, program) == here
 
 

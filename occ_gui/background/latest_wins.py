@@ -65,6 +65,11 @@ class LatestWins(QObject, Generic[Request, Result]):
         """Whether nothing is at work or waiting."""
         return not self._busy
 
+    @property
+    def is_stopped(self) -> bool:
+        """Whether it was stopped: what the work has emitted before may still be waiting."""
+        return self._stopped
+
     def submit(self, request: Request) -> None:
         """Ask for a result; a request still waiting is forgotten."""
         if self._busy:

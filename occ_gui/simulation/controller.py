@@ -140,8 +140,7 @@ class SimulationController(QObject):
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._more: tuple[str, ...] = ()
         # Emitted on the simulation's thread, received on the window's.
-        self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
-        self.picture_ready.connect(self._show_with_picture)
+        self._rendered.connect(self._show_picture, Qt.ConnectionType.QueuedConnection)
         self._read_early.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
@@ -228,11 +227,15 @@ class SimulationController(QObject):
         sleep(_PAINT_TIME)
         return snapshot_of(request, frame)
 
-    def _show_with_picture(self, picture: Picture) -> None:
-        self._show_early(picture.reading)
+    def _show_picture(self, picture: Picture) -> None:
+        if not self.runner.is_stopped:  # else the panes may be gone
+            self._show_early(picture.reading)
+            self.picture_ready.emit(picture)
 
     def _show_early(self, reading: Reading | None) -> None:
-        if reading is not None and self._is_news(reading):
+        if self.runner.is_stopped or reading is None:
+            return
+        if self._is_news(reading):
             self._show_reading(reading)
 
     def _show(self, snapshot: Snapshot) -> None:

@@ -19,10 +19,10 @@ A reading is never replaced by one of an earlier scene. ``failed`` says why a sc
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from time import sleep
+from threading import Event
 from typing import Protocol
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.background.result_age import ResultAges
@@ -52,8 +52,8 @@ from occ_model.simulation.render import render_with
 _REST = 0.05
 """Seconds without a change after which a hand rests, and the exact picture is begun."""
 
-_PAINT_TIME = 0.004
-"""Seconds between the delivery of a picture and its decoding, for the window to paint it."""
+_LONGEST_PAINT = 0.1
+"""Seconds for which work waits at most until the window has painted what it has been given."""
 
 
 def _go_on() -> None:
@@ -139,6 +139,7 @@ class SimulationController(QObject):
         self._whose = PICTURES[0]
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._more: tuple[str, ...] = ()
+        self._is_painted = Event()
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self._show_picture, Qt.ConnectionType.QueuedConnection)
         self._read_early.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
@@ -213,7 +214,7 @@ class SimulationController(QObject):
         heartbeat: Callable[[], None] = _go_on
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
-            self._rendered.emit(Picture.of(draft, request.whose, request, reading))
+            self._deliver(Picture.of(draft, request.whose, request, reading))
             reading, heartbeat = None, self.runner.give_way
             self.runner.give_way(self.ages.rest(_REST))
         elif reading is not None and not is_soon(request):
@@ -222,15 +223,31 @@ class SimulationController(QObject):
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
         if reading is not None:
             reading = replace(reading, has_picture=True)
-        self._rendered.emit(Picture.of(frame, request.whose, request, reading))
-        # Decoding at once would delay the painting, which needs the same interpreter and memory.
-        sleep(_PAINT_TIME)
+        self._deliver(Picture.of(frame, request.whose, request, reading))
+        if reading is not None:
+            self.runner.give_way()  # the scene's verdict is there: a later scene comes first
         return snapshot_of(request, frame)
 
+    def _deliver(self, picture: Picture) -> None:
+        """Show a picture, and go on when it is painted.
+
+        Painting needs the interpreter, the memory and a core, as what follows does: side by side
+        both take twice as long, and what the user waits for is the picture.
+        """
+        self._is_painted.clear()
+        self._rendered.emit(picture)
+        self._is_painted.wait(_LONGEST_PAINT)
+
     def _show_picture(self, picture: Picture) -> None:
-        if not self.runner.is_stopped:  # else the panes may be gone
-            self._show_early(picture.reading)
-            self.picture_ready.emit(picture)
+        if self.runner.is_stopped:  # the panes may be gone
+            return
+        self._show_early(picture.reading)
+        self.picture_ready.emit(picture)
+        # After the paint that this has asked for, and that which panes ask for in their next turn.
+        QTimer.singleShot(0, self, self._await_paint)
+
+    def _await_paint(self) -> None:
+        QTimer.singleShot(0, self, self._is_painted.set)
 
     def _show_early(self, reading: Reading | None) -> None:
         if self.runner.is_stopped or reading is None:
@@ -264,5 +281,6 @@ class SimulationController(QObject):
 
     def stop(self) -> None:
         """Stop simulating; no picture or snapshot arrives from now on."""
+        self._is_painted.set()
         self.runner.stop()
         self.blockSignals(True)

@@ -257,7 +257,10 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
     values = mode.values
     covariance = np.zeros((4, 4))
     covariance[:3, :3] = mode.covariance[:3, :3]
-    unknown = math.hypot(_UNKNOWN_RAMP * values[1], _blur_deviation(values))
+    timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
+    unknown = math.hypot(
+        _UNKNOWN_RAMP * values[1], _blur_deviation(values), _rounding(model, timing) * values[1]
+    )
     covariance[1] *= _TOO_SURE
     covariance[:, 1] *= _TOO_SURE
     covariance[1, 1] += unknown**2
@@ -267,6 +270,16 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, with_gamma: bo
         covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
     timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
     return model.described(timing, covariance)
+
+
+def _rounding(model: StripeModel, timing: Timing) -> float:
+    """Give the share of an exposure by which the rounding of both levels changes it.
+
+    A level is rounded by up to half of one, of standard deviation 1/sqrt(12), the same in all rows
+    where there is little noise; a ramp between two levels changes its length as their distance.
+    """
+    _, swing, _ = model.levels(timing)
+    return math.sqrt(2.0 / 12.0) / max(float(np.median(swing)), 1.0)
 
 
 def _blur_deviation(values: FloatArray) -> float:

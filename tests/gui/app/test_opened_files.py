@@ -141,7 +141,7 @@ def test_what_is_nothing_usable_is_answered_by_a_sentence(
     application: Application, user: User, tmp_path: Path, what: str
 ) -> None:
     application.window.dropped.emit([] if what == "nothing" else [tmp_path])
-    assert user.message.endswith("; drop a photo or a scene (.toml).")
+    assert user.message.endswith("; drop a photo, a film or a scene (.toml).")
     assert ("computer" in user.message) == (what == "nothing")
 
 

@@ -197,6 +197,7 @@ def test_an_exported_profile_is_the_one_that_is_shown(
 def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(
     application: Application, user: User
 ) -> None:
+    application.window.bring_to_front("decode")
     for whose in PICTURES:
         application.image.choose_picture(whose)
         application.store.change(iso=200.0 if whose == "camera" else 300.0)

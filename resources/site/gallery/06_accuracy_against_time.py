@@ -17,15 +17,12 @@ points = list(takewhile(lambda point: point.part == "integration", study))
 
 # %%
 figure, axis = plt.subplots(figsize=(8, 3.5))
-for point in points:
-    axis.loglog(point.seconds * 1e3, max(point.error, 1e-13), "o", color="C0")
-    axis.annotate(
-        point.name,
-        (point.seconds * 1e3, max(point.error, 1e-13)),
-        textcoords="offset points",
-        xytext=(5, 3),
-        fontsize=7,
-    )
+for place, point in enumerate(points):
+    time, error = point.seconds * 1e3, max(point.error, 1e-13)
+    axis.loglog(time, error, "o", color="C0")
+    if place % 3 == 0 or point is points[-1]:
+        offset = {"textcoords": "offset points", "xytext": (5, 5), "fontsize": 8}
+        axis.annotate(point.name, (time, error), **offset)
 axis.set(xlabel="time in ms", ylabel="error in grey levels (RMS)")
 figure.tight_layout()
 plt.show()

@@ -141,7 +141,8 @@ class SimulationController(QObject):
         self._more: tuple[str, ...] = ()
         self._is_painted = Event()
         # Emitted on the simulation's thread, received on the window's.
-        self._rendered.connect(self._show_picture, Qt.ConnectionType.QueuedConnection)
+        self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
+        self.picture_ready.connect(self._show_with_picture)
         self._read_early.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
         self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
             self._simulate, "simulation"
@@ -214,7 +215,8 @@ class SimulationController(QObject):
         heartbeat: Callable[[], None] = _go_on
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
-            self._deliver(Picture.of(draft, request.whose, request, reading))
+            self._rendered.emit(Picture.of(draft, request.whose, request, reading))
+            self._wait_for_paint()
             reading, heartbeat = None, self.runner.give_way
             self.runner.give_way(self.ages.rest(_REST))
         elif reading is not None and not is_soon(request):
@@ -223,26 +225,23 @@ class SimulationController(QObject):
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
         if reading is not None:
             reading = replace(reading, has_picture=True)
-        self._deliver(Picture.of(frame, request.whose, request, reading))
+        self._rendered.emit(Picture.of(frame, request.whose, request, reading))
+        self._wait_for_paint()
         if reading is not None:
             self.runner.give_way()  # the scene's verdict is there: a later scene comes first
         return snapshot_of(request, frame)
 
-    def _deliver(self, picture: Picture) -> None:
-        """Show a picture, and go on when it is painted.
+    def _wait_for_paint(self) -> None:
+        """Go on when the window has painted what it was given.
 
         Painting needs the interpreter, the memory and a core, as what follows does: side by side
         both take twice as long, and what the user waits for is the picture.
         """
-        self._is_painted.clear()
-        self._rendered.emit(picture)
         self._is_painted.wait(_LONGEST_PAINT)
+        self._is_painted.clear()
 
-    def _show_picture(self, picture: Picture) -> None:
-        if self.runner.is_stopped:  # the panes may be gone
-            return
+    def _show_with_picture(self, picture: Picture) -> None:
         self._show_early(picture.reading)
-        self.picture_ready.emit(picture)
         # After the paint that this has asked for, and that which panes ask for in their next turn.
         QTimer.singleShot(0, self, self._await_paint)
 
@@ -250,7 +249,7 @@ class SimulationController(QObject):
         QTimer.singleShot(0, self, self._is_painted.set)
 
     def _show_early(self, reading: Reading | None) -> None:
-        if self.runner.is_stopped or reading is None:
+        if self.runner.is_stopped or reading is None:  # the panes may be gone
             return
         if self._is_news(reading):
             self._show_reading(reading)

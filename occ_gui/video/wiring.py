@@ -158,6 +158,7 @@ class VideoWiring(QObject):
         self.view.timeline.show_index(0)
         self._take_rate(film)
         self._show_bar()
+        self.view.pictures.show_film(None, self._instead_of_film())
         self._show_reading()
         self.film_changed.emit(self.path)
         if film is not None and not self.films.is_live:
@@ -242,13 +243,18 @@ class VideoWiring(QObject):
         if self._is_frame_missing:
             self._is_frame_missing = False
             view.show_message("")
-        instead = self.tr("Open a film, or use a camera, to see it beside the simulated one.")
-        view.pictures.show_film(shown.film, instead)
+        view.pictures.show_film(shown.film, self._instead_of_film())
         view.pictures.show_simulated(shown.simulated, shown.instead)
         view.rows.show_story(shown.story, shown.instead)
         count = None if self.films.is_live else self.films.player.count
         index = shown.request.index if shown.request.live is None else shown.request.live.index
         view.transport.show_place(index, count, shown.time)
+
+    def _instead_of_film(self) -> str:
+        """Return what stands in the place of a film's frame while there is none."""
+        if self.films.film is not None or self.films.is_live:
+            return self.tr("The frame is on its way.")
+        return self.tr("Open a film, or use a camera, to see it beside the simulated one.")
 
     def _show_reading(self) -> None:
         readings = self.readings

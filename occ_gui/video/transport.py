@@ -1,18 +1,16 @@
 """Transport: buttons that play a film and step through it, and where it stands."""
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.icons import icon
+from occ_gui.widgets.icon_button import IconButton
 
 _ICON = 16
 
 
-class TransportButton(QToolButton):
-    """A button with an icon that is drawn when it is first seen.
+class TransportButton(IconButton):
+    """A button that acts on the film.
 
     Parameters
     ----------
@@ -27,36 +25,14 @@ class TransportButton(QToolButton):
     def __init__(
         self, drawing: str, name: str, meaning: str, parent: QWidget | None = None
     ) -> None:
-        super().__init__(parent)
-        self._drawing, self._is_drawn = drawing, False
-        self.setAutoRaise(True)
-        self.setIconSize(QSize(_ICON, _ICON))
+        super().__init__(drawing, _ICON, parent)
         self.rename(drawing, name, meaning)
 
     def rename(self, drawing: str, name: str, meaning: str) -> None:
         """Give the button another icon and meaning."""
-        self._drawing = drawing
+        self.show_drawing(drawing)
         self.setAccessibleName(name)
         self.setToolTip(meaning)
-        if self._is_drawn:
-            self._draw()
-
-    def _draw(self) -> None:
-        self._is_drawn = True
-        self.setIcon(icon(self._drawing, self.palette(), _ICON, self.devicePixelRatioF()))
-
-    @guarded
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the icon when it is first seen."""
-        if not self._is_drawn:
-            self._draw()
-        super().paintEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and self._is_drawn:
-            self._draw()
 
 
 class Transport(QWidget):

@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 import cv2
 import numpy as np
 
+import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.video.file.write import write_frames
 
@@ -72,6 +73,28 @@ def damaged_film(seed: int) -> tuple[str, bytes]:
     damage = chance.choice((_cut, _changed, _changed_head, _enlarged, _blanked, _other_codec))
     damage(content, chance)
     return ending, bytes(content)
+
+
+def what_damaged_films_say(seeds: range, folder: Path) -> list[str]:
+    """Read damaged films: each gives frames, a sentence, or both; give the sentences."""
+    sentences: list[str] = []
+    for seed in seeds:
+        ending, content = damaged_film(seed)
+        path = folder / f"film.{ending}"
+        path.write_bytes(content)
+        try:
+            film = occ.load_video(path)
+        except occ.VideoError as refusal:
+            sentences.append(str(refusal))
+            continue
+        frames = list(film)
+        assert {frame.image.shape for frame in frames} <= {film.shape}, seed
+        assert [frame.index for frame in frames] == list(range(len(frames))), seed
+        sentences += [film.problem] if film.problem is not None else []
+        film.close()
+    assert [each for each in sentences if not each.startswith(f"{folder}/film.")] == []
+    assert [each for each in sentences if not each.endswith(".")] == []
+    return sentences
 
 
 def _cut(content: bytearray, chance: random.Random) -> None:

@@ -1,7 +1,6 @@
 """Pane of the story: the verdict, and below it the four rows or the whole picture."""
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
@@ -110,17 +109,6 @@ class StoryView(QWidget):
         layout.addLayout(line)
         layout.addWidget(self.measured)
         layout.addWidget(self._pages, 1)
-        self._order_focus()
-
-    def _order_focus(self) -> None:
-        """Let the tab key go as the rows are read."""
-        rows = self.rows
-        order = (
-            self.decoder, self.whole, rows.light, rows.stripes.thumbnail, rows.stripes,
-            self.whose, *self.ranges.values(), rows.profile, rows.code,
-        )  # fmt: skip
-        for one, other in pairwise(order):
-            QWidget.setTabOrder(one, other)
 
     def offer(self, decoders: Sequence[str]) -> None:
         """Offer these decoders, beside those offered before."""

@@ -25,6 +25,7 @@ from occ_gui.window.dock import Dock
 from occ_gui.window.menus import Menus
 from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
 from occ_gui.window.modes.mode_switch import ModeSwitch
+from occ_gui.window.reading_order import bring_into_view, next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar
@@ -198,6 +199,16 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         if not self.modes.is_shown:
             self.modes.begin()
+
+    def focusNextPrevChild(self, next_: bool) -> bool:  # noqa: N802 - Qt's name
+        """Let the Tab key go through toolbar, panes and story as they are read."""
+        found = next_to_focus(self, self.focusWidget(), next_)
+        if found is None:
+            return False
+        reason = Qt.FocusReason.TabFocusReason if next_ else Qt.FocusReason.BacktabFocusReason
+        found.setFocus(reason)
+        bring_into_view(found)
+        return True
 
     def dress(self) -> None:
         """Set the style sheet in the colours of the present theme."""

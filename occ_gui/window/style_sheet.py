@@ -14,7 +14,7 @@ _SHEET = """
 QToolBar {
     border: none; border-bottom: 1px solid palette(midlight); padding: 2px 4px; spacing: 4px;
 }
-QToolBar::separator { background: palette(midlight); width: 1px; margin: 6px 4px; }
+QToolBar::separator { background: palette(midlight); width: 1px; margin: 6px 2px; }
 QToolBar QToolButton {
     padding: 5px; border: 1px solid transparent; border-radius: 6px; background: transparent;
 }
@@ -25,14 +25,14 @@ QToolBar QToolButton:focus { border: 2px solid palette(accent); padding: 4px; }
 
 QTabBar#modes { background: transparent; }
 QTabBar#modes::tab {
-    padding: 6px 12px; margin-right: 4px; border: 2px solid transparent; border-radius: 6px;
+    padding: 6px 7px; margin-right: 2px; border: 2px solid transparent; border-radius: 6px;
 }
 QTabBar#modes::tab:hover:!selected { background: palette(midlight); }
 QTabBar#modes::tab:selected {
-    background: palette(base); border: 1px solid palette(mid);
+    background: palette(base); border: 1px solid palette(mid); padding: 6px 8px;
     border-bottom: 3px solid palette(accent);
 }
-QTabBar#modes::tab:selected:focus { border: 2px solid palette(accent); }
+QTabBar#modes::tab:selected:focus { border: 2px solid palette(accent); padding: 6px 7px; }
 
 QPushButton {
     padding: 4px 9px; min-height: 16px; border: 1px solid palette(mid); border-radius: 4px;

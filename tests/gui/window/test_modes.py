@@ -116,6 +116,21 @@ def test_a_pane_that_is_open_stays_in_its_mode(application: Application, qtbot: 
     assert window.modes.mode == "effects"
 
 
+def test_the_narrowest_usual_window_shows_every_mode_with_its_icon_beside_the_tools(
+    application: Application, qtbot: QtBot
+) -> None:
+    window, tabs = application.window, bar(application)
+    window.resize(1000, 700)
+    widths = set()
+    for place, mode in enumerate(NAMES):
+        window.modes.switch(mode)
+        qtbot.waitUntil(lambda place=place: not tabs.tabIcon(place).isNull())
+        widths.add(tabs.sizeHint().width())
+        assert tabs.tabRect(len(NAMES) - 1).right() < tabs.width()
+    assert len(widths) == 1, "the tabs move when another one is chosen"
+    assert all(b.isVisible() for b in window.toolbar.buttons.values())
+
+
 @pytest.mark.parametrize("mode", ["limits", "effects"])
 def test_the_pane_of_a_mode_has_most_of_the_window(
     application: Application, qtbot: QtBot, mode: str

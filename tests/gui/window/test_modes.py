@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,10 @@ def shown(application: Application) -> set[str]:
 
 def in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
+
+
+def has_icon(tabs: QTabBar, place: int) -> bool:
+    return not tabs.tabIcon(place).isNull()
 
 
 def test_the_command_line_knows_the_modes_of_the_window() -> None:
@@ -124,7 +129,7 @@ def test_the_narrowest_usual_window_shows_every_mode_with_its_icon_beside_the_to
     widths = set()
     for place, mode in enumerate(NAMES):
         window.modes.switch(mode)
-        qtbot.waitUntil(lambda place=place: not tabs.tabIcon(place).isNull())
+        qtbot.waitUntil(partial(has_icon, tabs, place))
         widths.add(tabs.sizeHint().width())
         assert tabs.tabRect(len(NAMES) - 1).right() < tabs.width()
     assert len(widths) == 1, "the tabs move when another one is chosen"

@@ -1,6 +1,6 @@
 """Controller of the pins: keep two states, compare them, and return to either."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Protocol
 
 import numpy as np
@@ -114,11 +114,7 @@ class PinController(QObject):
         outputs: tuple[ComparedRow, ...] = ()
         if a is not None and b is not None:
             inputs = tuple(self._differing_inputs(a, b))
-            outputs = tuple(
-                ComparedRow(what, one, other, meaning)
-                for (what, one, meaning), (_, other, _) in zip(a.outputs, b.outputs, strict=True)
-                if one != other
-            )
+            outputs = tuple(self._differing_outputs(a, b))
         self.pinned = Pinned(a, b, inputs, outputs)
         self._pane.show_pinned(self.pinned)
 
@@ -140,6 +136,15 @@ class PinController(QObject):
             meaning = self.tr("Effects that you have switched on or off; the plan decides others.")
             rows.append(ComparedRow(self.tr("Effects by hand"), first, second, meaning))
         return rows
+
+    def _differing_outputs(self, a: Pin, b: Pin) -> Iterator[ComparedRow]:
+        """Compare by name: a slow decoder, or a plug-in's, has read only where it was chosen."""
+        texts = [{what: text for what, text, _ in pin.outputs} for pin in (a, b)]
+        meanings = {what: meaning for what, _, meaning in (*a.outputs, *b.outputs)}
+        for what, meaning in meanings.items():
+            one, other = (found.get(what, self.tr("not read")) for found in texts)
+            if one != other:
+                yield ComparedRow(what, one, other, meaning)
 
     def _pin_of(self, snapshot: Snapshot) -> Pin:
         frame = snapshot.frame
@@ -174,7 +179,6 @@ class PinController(QObject):
                 self.tr("{chips:.3f} chips").format(chips=scene.camera.exposure_time / period),
                 self.tr("Exposure time divided by switching period."),
             ),
-            *self._readings(snapshot),
             (
                 self.tr("Effects simulated"),
                 ", ".join(shown.values()) or self.tr("none"),
@@ -185,6 +189,7 @@ class PinController(QObject):
                 self.tr("{time:.1f} ms").format(time=1e3 * snapshot.simulation_seconds),
                 self.tr("Computing time of the picture."),
             ),
+            *self._readings(snapshot),
         ]
 
     def _readings(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:

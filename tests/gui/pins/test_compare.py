@@ -1,6 +1,7 @@
 """Two pinned states: what differs is listed, both are drawn, and either can be gone back to."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from occ_gui.pins.compare_view import CompareView
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.pins.pinned import Pinned
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
@@ -95,6 +97,20 @@ def test_the_outputs_are_those_of_the_two_states(
     assert found["Decoder “threshold”"] == ("code 718, right", b.decoded.failure)
     assert "Effects simulated" not in found  # none in both
     assert all(row.meaning for row in pane.pinned.outputs)
+
+
+def test_a_decoder_that_read_only_one_of_them_is_compared_with_none(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    once = bare_snapshot_of()
+    asked = replace(once.request, more=("sequence",))
+    twice = snapshot_of_frame(asked, once.frame)
+    for a, b, texts in ((once, twice, ("not read", "code 718, right")),
+                        (twice, once, ("code 718, right", "not read"))):  # fmt: skip
+        pin_two(pins, a, b)
+        found = outputs(pane.pinned)
+        assert found["Decoder “sequence”"] == texts
+        assert "Decoder “threshold”" not in found  # the same in both
 
 
 def test_the_same_state_twice_has_no_differing_inputs(

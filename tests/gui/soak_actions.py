@@ -7,11 +7,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from gui.soak_errands import Errands
 from gui.wheel import turn_wheel, views_of
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QInputDialog
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -71,7 +72,7 @@ def short_film() -> list[VideoFrame]:
 
 
 class FileDialogs:
-    """Answers every dialog that asks for a file or a folder with the path that was laid ready."""
+    """Answers every dialog that asks for a path with the one laid ready, and gives a name."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.path = Path()
@@ -79,6 +80,11 @@ class FileDialogs:
             monkeypatch.setattr(QFileDialog, name, lambda *_: (str(self.path), ""))
         monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([str(self.path)], ""))
         monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(self.path))
+        monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("Ada", True))
+
+    def lay_ready(self, path: Path) -> None:
+        """Answer the next dialogs with this path."""
+        self.path = path
 
 
 class Monkey:
@@ -106,6 +112,10 @@ class Monkey:
         self._dialogs, self._folder = dialogs, folder
         self._random = random.Random(seed)
         self._gesture = new_gesture()
+        scene = smaller(occ.load_preset("phone-68us"))
+        self._errands = Errands(
+            application, qtbot, dialogs.lay_ready, folder, scene, self._random
+        )  # fmt: skip
         # In an order in which each finds at the first time what it needs.
         self._deeds: dict[Callable[[], object], int] = {
             self.move_a_slider: 1200,
@@ -152,6 +162,7 @@ class Monkey:
             self.record_otherwise: 10,
             self.film_live: 6,
             self.close_the_film: 10,
+            **self._errands.deeds,
         }
         self._never_done = list(self._deeds)
 
@@ -181,6 +192,7 @@ class Monkey:
         self._films().live.stop_filming()
         self._films().films.player.pause()
         self._films().films.close()
+        self._errands.come_home()
         self.clear_the_pins()
         self.leave_the_lesson()
         self._application.desktop.theme.choose(THEMES[0])

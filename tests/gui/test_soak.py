@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
+from gui.soak_errands import install_plugins
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
@@ -21,7 +22,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import GarbageCollector
 from occ_gui.lessons import lesson_controller as lessons_room
 
-ACTIONS = int(os.environ.get("OCC_SOAK", "300"))
+ACTIONS = int(os.environ.get("OCC_SOAK", "200"))
 _LONG = 5_000
 """Actions after whose first fifth all that is kept on purpose has been filled."""
 
@@ -57,9 +58,17 @@ def resident_bytes() -> float:
     return float(pages * os.sysconf("SC_PAGE_SIZE"))
 
 
+@pytest.fixture
+def some_plugins(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Let the window find plug-ins when it starts."""
+    with pytest.MonkeyPatch.context() as patch:
+        yield from install_plugins(tmp_path_factory.mktemp("plug-ins"), patch)
+
+
 @pytest.fixture(params=[1])
 def monkey(
     request: pytest.FixtureRequest,
+    some_plugins: None,
     application: Application,
     qtbot: QtBot,
     monkeypatch: pytest.MonkeyPatch,
@@ -74,7 +83,7 @@ def monkey(
 
 
 def test_random_actions_cause_no_exception_warning_or_leak(
-    application: Application, monkey: Monkey, caplog: pytest.LogCaptureFixture
+    monkey: Monkey, application: Application, caplog: pytest.LogCaptureFixture
 ) -> None:
     if ACTIONS >= _LONG:
         keep_nothing_free()

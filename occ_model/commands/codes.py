@@ -10,15 +10,11 @@ from occ_model.receiver.decoders import decoder_named, decoders
 from occ_model.scene.units import HERTZ
 from occ_model.transmitter.framings.framing import Framing
 from occ_model.transmitter.framings.registry import (
-    built_in_framings,
-    framing_named,
-    framings,
+    FRAMINGS,
 )
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.line_codes.registry import (
-    built_in_line_codes,
-    line_code_named,
-    line_codes,
+    LINE_CODES,
 )
 from occ_model.transmitter.scheme import Scheme
 
@@ -40,11 +36,11 @@ def _run(options: argparse.Namespace) -> int:
         print(framing_table())
         return 0
     print("line codes")
-    for name in line_codes():
-        print(f"  {name:26}{_title(line_code_named, name)}")
+    for name in LINE_CODES.names():
+        print(f"  {name:26}{_title(LINE_CODES.named, name)}")
     print("framings")
-    for name in framings():
-        print(f"  {name:26}{_title(framing_named, name)}")
+    for name in FRAMINGS.names():
+        print(f"  {name:26}{_title(FRAMINGS.named, name)}")
     print("decoders")
     for name in decoders():
         print(f"  {name:26}{_title(decoder_named, name)}")
@@ -66,7 +62,7 @@ def line_code_table() -> str:
         "| slowest wave | its runs unseen from | one wrong chip |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_properties(code))} |" for code in built_in_line_codes().values()]
+    lines += [f"| {' | '.join(_properties(code))} |" for code in LINE_CODES.built_in().values()]
     return "\n".join(lines)
 
 
@@ -97,12 +93,12 @@ def framing_table() -> str:
         f"| framing | a frame | chips for {bits} bits, `{name}` | checks the payload |",
         "|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_frame(framing))} |" for framing in built_in_framings().values()]
+    lines += [f"| {' | '.join(_frame(framing))} |" for framing in FRAMINGS.built_in().values()]
     return "\n".join(lines)
 
 
 def _frame(framing: Framing) -> tuple[str, ...]:
     name, bits = _EXAMPLE
-    scheme = Scheme(line_code_named(name), framing, "", "none", bits)
+    scheme = Scheme(LINE_CODES.named(name), framing, "", "none", bits)
     checks = "yes" if framing.checks else "no"
     return f"`{framing.name}`", framing.title, str(scheme.length), checks

@@ -23,10 +23,10 @@ from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
 from occ_model.study.success_rate import right_bits_of_images
-from occ_model.transmitter.line_codes.registry import line_code_named
+from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
-LINE_CODES = ("manchester", "4b6b", "8b10b")
+_TRIED = ("manchester", "4b6b", "8b10b")
 """The line codes that are tried: of those as short, only the better known."""
 
 _FRAMING = "preamble"
@@ -118,7 +118,7 @@ def _candidates(scene: Scene) -> list[_Candidate]:
     seen = 0.0 if region is None else region.columns * camera.readout_time
     found = {
         _Candidate(line_code, frequency, bits)
-        for line_code in LINE_CODES
+        for line_code in _TRIED
         for frequency in _frequencies(scene)
         for filled in _FILLED
         if (bits := _bits_in(line_code, filled * seen * frequency)) > 0
@@ -136,7 +136,7 @@ def _frequencies(scene: Scene) -> list[float]:
 
 def _bits_in(line_code: str, chips: float) -> int:
     """Return the bits of the longest payload that takes at most so many chips."""
-    code = line_code_named(line_code)
+    code = LINE_CODES.named(line_code)
     overhead = scheme_of(_sending(Scene(), line_code, 1, 1e3).transmitter).length
     blocks = int((chips - overhead) // code.block_chips)
     return min(MAX_PAYLOAD_BITS, max(0, blocks) * code.block_bits)

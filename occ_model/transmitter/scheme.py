@@ -10,9 +10,9 @@ from occ_model.arrays import ByteArray
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter import error_correction
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.framings.registry import framing_named
+from occ_model.transmitter.framings.registry import FRAMINGS
 from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.registry import line_code_named
+from occ_model.transmitter.line_codes.registry import LINE_CODES
 
 _PAPERS = ("differential-manchester", "paper", "none")
 
@@ -140,4 +140,4 @@ def scheme_of(transmitter: Transmitter) -> Scheme:
 @lru_cache(maxsize=256)
 def scheme_named(line_code: str, framing: str, preamble: str, correction: str, bits: int) -> Scheme:
     """Return the scheme of these names for payloads of some bits; errors as :func:`scheme_of`."""
-    return Scheme(line_code_named(line_code), framing_named(framing), preamble, correction, bits)
+    return Scheme(LINE_CODES.named(line_code), FRAMINGS.named(framing), preamble, correction, bits)

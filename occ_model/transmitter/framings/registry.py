@@ -1,49 +1,15 @@
 """The framings by name: the built-in ones and those of plug-ins."""
 
 from dataclasses import replace
-from functools import lru_cache
-from importlib import import_module
 
 import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
 from occ_model.errors import OccError, PluginError
-from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.line_codes.registry import checked_chips, is_bits
-
-_MODULES = {"paper": "paper", "preamble": "preamble", "c-ook": "c_ook", "raw": "raw"}
-"""The file of each built-in framing, imported when the framing is first used."""
-
-
-def built_in_framings() -> dict[str, Framing]:
-    """Return the built-in framings by name."""
-    return {name: framing_named(name) for name in _MODULES}
-
-
-def framings() -> tuple[str, ...]:
-    """Return the names of all framings, those of plug-ins last."""
-    return open_choice("framing").all_choices()
-
-
-@lru_cache(maxsize=64)
-def framing_named(name: str) -> Framing:
-    """Find a framing.
-
-    Raises
-    ------
-    ParameterError
-        There is none of that name.
-    PluginError
-        It is a plug-in that cannot be used.
-    """
-    open_choice("framing").check(name)
-    if name in _MODULES:
-        module = import_module(f"occ_model.transmitter.framings.{_MODULES[name]}")
-        built_in: Framing = module.FRAMING
-        return built_in
-    return _guarded(plugins.load_plugin(plugins.FRAMINGS, name, Framing))
+from occ_model.transmitter.registry import Registry
 
 
 def _guarded(offered: Framing) -> Framing:
@@ -71,3 +37,20 @@ def _guarded(offered: Framing) -> Framing:
         return read
 
     return replace(offered, encode=encode, decode=decode)
+
+
+FRAMINGS = Registry(
+    parameter="framing",
+    kind=Framing,
+    constant="FRAMING",
+    package=__package__,
+    files={"paper": "paper", "preamble": "preamble", "c-ook": "c_ook", "raw": "raw"},
+    group=plugins.FRAMINGS,
+    guarded=_guarded,
+)
+"""The framings that a scene chooses among."""
+
+
+def framings() -> tuple[str, ...]:
+    """Return the names of all framings, those of plug-ins last."""
+    return FRAMINGS.names()

@@ -1,55 +1,14 @@
 """The line codes by name: the built-in ones and those of plug-ins."""
 
 from dataclasses import replace
-from functools import lru_cache
-from importlib import import_module
 
 import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
 from occ_model.errors import PluginError, shown
-from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
-
-_MODULES = {
-    "differential-manchester": "differential_manchester",
-    "manchester": "manchester",
-    "nrz": "nrz",
-    "4b6b": "four_b_six_b",
-    "8b10b": "eight_b_ten_b",
-    "fsk": "fsk",
-}
-"""The file of each built-in line code, imported when the code is first used."""
-
-
-def built_in_line_codes() -> dict[str, LineCode]:
-    """Return the built-in line codes by name."""
-    return {name: line_code_named(name) for name in _MODULES}
-
-
-def line_codes() -> tuple[str, ...]:
-    """Return the names of all line codes, those of plug-ins last."""
-    return open_choice("line_code").all_choices()
-
-
-@lru_cache(maxsize=64)
-def line_code_named(name: str) -> LineCode:
-    """Find a line code.
-
-    Raises
-    ------
-    ParameterError
-        There is none of that name.
-    PluginError
-        It is a plug-in that cannot be used.
-    """
-    open_choice("line_code").check(name)
-    if name in _MODULES:
-        module = import_module(f"occ_model.transmitter.line_codes.{_MODULES[name]}")
-        built_in: LineCode = module.LINE_CODE
-        return built_in
-    return _guarded(plugins.load_plugin(plugins.LINE_CODES, name, LineCode))
+from occ_model.transmitter.registry import Registry
 
 
 def _guarded(offered: LineCode) -> LineCode:
@@ -110,3 +69,27 @@ def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArra
     if count is not None and len(chips) != count:
         raise PluginError(f"{who} gives {len(chips)} chips in place of {count}.")
     return chips.astype(np.uint8)
+
+
+LINE_CODES = Registry(
+    parameter="line_code",
+    kind=LineCode,
+    constant="LINE_CODE",
+    package=__package__,
+    files={
+        "differential-manchester": "differential_manchester",
+        "manchester": "manchester",
+        "nrz": "nrz",
+        "4b6b": "four_b_six_b",
+        "8b10b": "eight_b_ten_b",
+        "fsk": "fsk",
+    },
+    group=plugins.LINE_CODES,
+    guarded=_guarded,
+)
+"""The line codes that a scene chooses among."""
+
+
+def line_codes() -> tuple[str, ...]:
+    """Return the names of all line codes, those of plug-ins last."""
+    return LINE_CODES.names()

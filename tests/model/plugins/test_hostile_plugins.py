@@ -11,14 +11,12 @@ import occ_model as occ
 from occ_model import plugins
 from occ_model.receiver import decoders
 from occ_model.transmitter import packet, scheme
-from occ_model.transmitter.framings import registry as framings
-from occ_model.transmitter.line_codes import registry as line_codes
+from occ_model.transmitter.registry import Registry
 
 CACHES = (
     plugins._found,
     decoders._plugin,
-    line_codes.line_code_named,
-    framings.framing_named,
+    Registry.named,
     scheme.scheme_named,
     packet._payload_chips,
 )

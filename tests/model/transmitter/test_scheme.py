@@ -8,15 +8,15 @@ import pytest
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.transmitter.error_correction import PARITY_BYTES, protected_bits
+from occ_model.transmitter.framings import registry as framings
 from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.framings.registry import built_in_framings
-from occ_model.transmitter.line_codes.registry import built_in_line_codes
+from occ_model.transmitter.line_codes import registry as line_codes
 from occ_model.transmitter.packet import sends_paper_code
 from occ_model.transmitter.scheme import Scheme, scheme_named
 
-LINE_CODES = built_in_line_codes()
-FRAMINGS = built_in_framings()
+LINE_CODES = line_codes.LINE_CODES.built_in()
+FRAMINGS = framings.FRAMINGS.built_in()
 
 CORRECTIONS = ("none", "reed-solomon")
 

@@ -9,10 +9,10 @@ import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
-from occ_model.transmitter.line_codes.registry import built_in_line_codes, line_code_named
+from occ_model.transmitter.line_codes.registry import LINE_CODES as REGISTRY
 from occ_model.transmitter.packet import bits_of
 
-LINE_CODES = built_in_line_codes()
+LINE_CODES = REGISTRY.built_in()
 
 every_code = pytest.mark.parametrize("code", LINE_CODES.values(), ids=lambda code: code.name)
 
@@ -141,4 +141,4 @@ def test_from_the_least_frequency_no_run_lasts_long_enough_to_be_seen(code: Line
 def test_the_names_are_those_of_the_scene() -> None:
     assert occ.line_codes()[0] == "differential-manchester"
     assert set(LINE_CODES) == set(occ.line_codes()[: len(LINE_CODES)])
-    assert [line_code_named(name).name for name in LINE_CODES] == list(LINE_CODES)
+    assert [REGISTRY.named(name).name for name in LINE_CODES] == list(LINE_CODES)

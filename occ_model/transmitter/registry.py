@@ -1,0 +1,67 @@
+"""What a parameter's names stand for: objects of the program's own files and of plug-ins."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from typing import Generic, TypeVar
+
+from occ_model import plugins
+from occ_model.scene.parameters import open_choice
+
+_Kind = TypeVar("_Kind")
+
+
+@dataclass(frozen=True, eq=False)
+class Registry(Generic[_Kind]):
+    """The objects that a parameter chooses among, each imported when it is first asked for.
+
+    Attributes
+    ----------
+    parameter
+        The parameter, which declares the names of the built-in ones.
+    kind
+        Their class.
+    constant
+        What a module calls the object that it offers.
+    package, files
+        Where the built-in ones stand: a folder, and the file of each name in it.
+    group
+        The entry point of the plug-ins.
+    guarded
+        Turns the faults of a plug-in's object into sentences.
+    """
+
+    parameter: str
+    kind: type[_Kind]
+    constant: str
+    package: str
+    files: Mapping[str, str]
+    group: str
+    guarded: Callable[[_Kind], _Kind]
+
+    def names(self) -> tuple[str, ...]:
+        """Return all names, those of plug-ins last."""
+        return open_choice(self.parameter).all_choices()
+
+    def built_in(self) -> dict[str, _Kind]:
+        """Return the built-in objects by name."""
+        return {name: self.named(name) for name in self.files}
+
+    @cache  # noqa: B019 - the registries live as long as the program, and names are few
+    def named(self, name: str) -> _Kind:
+        """Find an object.
+
+        Raises
+        ------
+        ParameterError
+            There is none of that name.
+        PluginError
+            It is a plug-in that cannot be used.
+        """
+        open_choice(self.parameter).check(name)
+        if name in self.files:
+            module = import_module(f"{self.package}.{self.files[name]}")
+            built_in: _Kind = getattr(module, self.constant)
+            return built_in
+        return self.guarded(plugins.load_plugin(self.group, name, self.kind))

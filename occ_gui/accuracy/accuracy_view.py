@@ -4,6 +4,8 @@ Each of the three questions has a part of the pane: the table of effects with th
 slider from fast to exact with its sentence, and the plot of the ways to compute.
 """
 
+from dataclasses import replace
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
@@ -198,13 +200,21 @@ class AccuracyView(QWidget):
         same = pending is None or pending.plan.included == frame.plan.included
         self.table.show_rows(rows_of(frame, costs, self._new, None if same else pending))
         if same or pending is None:
-            sentence = f"{picture_sentence(costs.picture, pending)} {ends_sentence(costs)}".strip()
+            stated = picture_sentence(costs, snapshot.simulation_seconds, pending)
+            sentence = f"{stated} {ends_sentence(costs)}".strip()
         else:
             sentence = forecast_sentence(frame, costs.picture, pending)
         if self._changes.switches:
-            sentence += " " + switch_sentence(self._changes.switches) + "."
+            sentence += " " + switch_sentence(self._measured_switches(costs)) + "."
         self.summary.set_full_text(sentence)
         self._show_detail(costs)
+
+    def _measured_switches(self, costs: MeasuredCosts) -> tuple[Switch, ...]:
+        """Return the last switches with the times that the table states."""
+        if not costs.is_comparable:
+            return self._changes.switches
+        known = ((each, costs.seconds_of(each.decision.effect)) for each in self._changes.switches)
+        return tuple(each if s is None else replace(each, seconds=s) for each, s in known)
 
     def _known_costs(self, snapshot: Snapshot) -> MeasuredCosts:
         picture = TimeShares.of(snapshot.frame)

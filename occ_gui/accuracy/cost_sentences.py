@@ -10,40 +10,50 @@ from occ_gui.accuracy.plan_changes import Switch
 from occ_model.results import Forecast, Frame, MeasuredCosts, TimeShares
 
 
-def picture_sentence(times: TimeShares, expected: Forecast | None) -> str:
-    """Say what the picture took and how exact it is.
+def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | None) -> str:
+    """Say what the picture takes and how exact it is.
 
     Parameters
     ----------
-    times
-        Its times.
+    costs
+        Its times, and what has been measured of the scene.
+    made
+        The seconds that it took when it was made.
     expected
         The forecast for the same effects, None where there is none yet.
     """
-    time = _tr("This picture: {time} ms").format(time=milliseconds(times.seconds))
-    return f"{time}, {_error(expected)}." if expected is not None else f"{time}."
+    now, then = milliseconds(costs.picture.seconds), milliseconds(made)
+    time = _tr("This picture: {time} ms").format(time=now)
+    if costs.is_comparable and now != then:
+        time = _tr("{time}, measured again ({made} when it was made)").format(time=time, made=then)
+    return f"{time}; {_error(expected)}." if expected is not None else f"{time}."
 
 
 def ends_sentence(costs: MeasuredCosts) -> str:
-    """Say what other ends of the slider take: no effects, and all; empty until it is measured.
+    """Say what other ends of the slider take: no effects, and all.
+
+    It is empty until they are measured, in turn with the picture.
 
     Parameters
     ----------
     costs
         What has been measured of the scene.
     """
-    measured = (*costs.others, costs.picture)
-    bare = next((shares for shares in measured if not shares.effects), None)
-    most = max(reversed(measured), key=lambda shares: len(shares.effects) + len(shares.together))
+    if not costs.is_comparable:
+        return ""
+    bare = next((shares for shares in costs.others if not shares.included), None)
+    most = max(costs.others, key=lambda shares: len(shares.included))
     error = costs.errors.get(frozenset())
     if bare is None or error is None or most is bare:
         return ""
     sentence = _tr("Fastest: {time} ms, error {error} levels.").format(
         time=milliseconds(bare.seconds), error=levels(error)
     )
+    if bare is costs.picture:
+        sentence = ""
     if most is not costs.picture:
         sentence += " " + _tr("Exact: {time} ms.").format(time=milliseconds(most.seconds))
-    return sentence
+    return sentence.strip()
 
 
 def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> str:

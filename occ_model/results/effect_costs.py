@@ -45,6 +45,11 @@ class TimeShares:
         )
 
     @property
+    def included(self) -> frozenset[str]:
+        """The effects of the picture."""
+        return frozenset((*self.effects, *self.together))
+
+    @property
     def everything_else(self) -> float:
         """The seconds that belong to no effect."""
         return fsum(self.stages.values())
@@ -108,11 +113,11 @@ class MeasuredCosts:
     Parameters
     ----------
     picture
-        The times of the last picture.
+        The times of the picture that is shown.
     others
-        Those of a picture with all effects, and of one with none: the first gives the times of
-        effects that the last picture leaves out, the second that of everything else where no effect
-        makes rows differ.
+        Those of pictures of its scene that were made in turn, among them one with all effects and
+        one with none: the first gives the times of effects that the picture leaves out, the second
+        that of everything else where no effect makes rows differ.
     differences
         What each effect changes, by its name.
     errors
@@ -123,6 +128,15 @@ class MeasuredCosts:
     others: tuple[TimeShares, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
+
+    @property
+    def is_comparable(self) -> bool:
+        """Whether the picture's times were measured in turn with the others, not at another time.
+
+        A first picture takes longer than one that is made again, and all take longer while the
+        machine is busy.
+        """
+        return any(shares is self.picture for shares in self.others)
 
     def seconds_of(self, effect: str) -> float | None:
         """Return an effect's time in the last picture or, if not in there, in another."""

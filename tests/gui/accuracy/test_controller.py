@@ -256,9 +256,28 @@ def test_costs_of_another_scene_or_observable_are_not_used(tiny: SimulationReque
     assert costs.of(tiny, times).differences
     other = replace(tiny, scene=tiny.scene.replace(iso=200.0))
     assert costs.of(other, times) == MeasuredCosts(times)
+    assert not costs.of(other, times).is_comparable
     profile = replace(tiny, settings=replace(FIRST_SETTINGS, observable="profile"))
     assert not costs.of(profile, times).differences
     assert costs.of(profile, times).others
+
+
+def test_all_times_that_are_stated_of_a_scene_are_of_one_measurement(
+    tiny: SimulationRequest,
+) -> None:
+    reports = measured_of(tiny, CostMeasurement())
+    costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
+    frame = occ.render(tiny.scene, noise="reused")
+    stated = costs.of(tiny, TimeShares.of(frame))
+    assert stated.is_comparable
+    assert stated.picture.included == set(frame.plan.included)
+    points = [m.point for m in reports if isinstance(m, Measured) and m.point.part == "effects"]
+    (now,) = [point for point in points if point.current]
+    assert now.seconds == stated.picture.seconds
+    (bare,) = [shares for shares in stated.others if not shares.included]
+    assert points[0].seconds == bare.seconds
+    slower = replace(tiny, settings=replace(FIRST_SETTINGS, noise="exact"))
+    assert not costs.of(slower, TimeShares.of(frame)).is_comparable
 
 
 def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot: QtBot) -> None:

@@ -20,22 +20,23 @@ def shares(milliseconds: float, *effects: str) -> TimeShares:
 
 
 def test_an_error_is_called_measured_predicted_or_promised(frame: Frame) -> None:
-    times = shares(4.0)
+    costs = MeasuredCosts(shares(4.0))
     plan = frame.plan
-    assert picture_sentence(times, None) == "This picture: 4.0 ms."
+    assert picture_sentence(costs, 0.004, None) == "This picture: 4.0 ms."
     for expected, words in (
         (Forecast(plan, 0.004, 0.0, is_measured=True), "exact: nothing is left out"),
         (Forecast(plan, 0.004, 1.234, is_measured=True), "error 1.2 levels (measured)"),
         (Forecast(plan, 0.004, 1.234, is_measured=False), "error about 1.2 levels (predicted)"),
         (Forecast(plan, 0.004, None, is_measured=False), "error at most 0 levels (calculated)"),
     ):
-        assert picture_sentence(times, expected) == f"This picture: 4.0 ms, {words}."
+        assert picture_sentence(costs, 0.004, expected) == f"This picture: 4.0 ms; {words}."
 
 
 def test_no_promise_is_made_of_what_is_off_by_hand_or_without_limit(frame: Frame) -> None:
     for tolerance, force in ((math.inf, {}), (0.5, {"led-edges": False})):
         plan = occ.plan(frame.scene, tolerance, force=force)
-        sentence = picture_sentence(shares(4.0), Forecast(plan, None, None, is_measured=False))
+        costs = MeasuredCosts(shares(4.0))
+        sentence = picture_sentence(costs, 0.004, Forecast(plan, None, None, is_measured=False))
         assert sentence.endswith("error not measured yet.")
 
 
@@ -48,11 +49,29 @@ def test_a_forecast_names_what_is_switched_either_way(frame: Frame) -> None:
     )
 
 
-def test_the_ends_of_the_slider_are_stated_once_both_are_measured() -> None:
+def test_a_time_that_was_measured_again_is_stated_beside_that_of_the_picture_shown() -> None:
+    picture = shares(4.0, "jpeg")
+    again = MeasuredCosts(picture, (picture, shares(1.0)))
+    assert picture_sentence(again, 0.187, None) == (
+        "This picture: 5.0 ms, measured again (187 when it was made)."
+    )
+    assert picture_sentence(again, 0.005, None) == "This picture: 5.0 ms."
+
+
+def test_the_ends_of_the_slider_are_stated_once_all_are_measured_in_turn() -> None:
     picture, bare, complete = shares(4.0, "jpeg"), shares(1.0), shares(8.0, "jpeg", "flicker")
+    errors = {frozenset[str](): 12.34}
     assert ends_sentence(MeasuredCosts(picture)) == ""
-    assert ends_sentence(MeasuredCosts(picture, (complete, bare))) == ""
-    known = MeasuredCosts(picture, (complete, bare), errors={frozenset(): 12.34})
+    assert ends_sentence(MeasuredCosts(picture, (picture, complete, bare))) == ""
+    known = MeasuredCosts(picture, (picture, complete, bare), errors=errors)
     assert ends_sentence(known) == "Fastest: 1.0 ms, error 12 levels. Exact: 10.0 ms."
-    exact = MeasuredCosts(complete, (bare,), errors={frozenset(): 12.34})
+    exact = MeasuredCosts(complete, (complete, bare), errors=errors)
     assert ends_sentence(exact) == "Fastest: 1.0 ms, error 12 levels."
+    fastest = MeasuredCosts(bare, (bare, complete), errors=errors)
+    assert ends_sentence(fastest) == "Exact: 10.0 ms."
+
+
+def test_times_of_different_moments_are_not_compared() -> None:
+    others = (shares(205.0), shares(220.0, "jpeg"))
+    stale = MeasuredCosts(shares(90.0, "jpeg"), others, errors={frozenset(): 9.7})
+    assert ends_sentence(stale) == ""

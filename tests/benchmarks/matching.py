@@ -20,9 +20,9 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from coverage import table
 from photo_world.trials import trials
 from round_trips import Found, round_trips
+from stated_errors import table
 from verdicts import Said, said_of, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 

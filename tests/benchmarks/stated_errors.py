@@ -1,4 +1,4 @@
-"""How well stated errors hold: ``python tests/benchmarks/coverage.py [photos] [first]``.
+"""How well stated errors hold: ``python tests/benchmarks/stated_errors.py [photos] [first]``.
 
 600 photographs (or as many as named) of a world that is wider than the model are matched; the table
 tells which share of the true values lies within one and two of the stated standard deviations.

@@ -1,0 +1,97 @@
+"""What became of mutants: the results of trials, the list of equivalents, and their table."""
+
+import json
+import tomllib
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from mutation.mutants import Mutant
+from mutation.reach import CACHE
+from mutation.trial import KILLED, Outcome
+
+EQUIVALENT = "equivalent"
+LIST = Path(__file__).with_name("equivalent.toml")
+RESULTS = CACHE / "results.json"
+
+HEAD = """\
+| package | tried | killed | equivalent | survived | killed of those that change behaviour |
+|---|---|---|---|---|---|"""
+
+
+@dataclass(frozen=True)
+class Equivalent:
+    """Mutants that change nothing that the program promises, known by their texts."""
+
+    file: str
+    where: str
+    before: str
+    after: str
+    reason: str
+
+    def is_of(self, mutant: Mutant) -> bool:
+        """Tell whether this is the entry of a mutant."""
+        return (self.file, self.where, self.before, self.after) == mutant.key[:4]
+
+
+def equivalents(path: Path = LIST) -> list[Equivalent]:
+    """Read the list of equivalent mutants."""
+    entries = tomllib.loads(path.read_text(encoding="utf-8"))["equivalent"]
+    return [Equivalent(**entry) for entry in entries]
+
+
+def package_of(file: str) -> str:
+    """Return the package that a file is counted to."""
+    parts = PurePosixPath(file).parts
+    return "/".join(parts[:2]) if len(parts) > 2 else f"{parts[0]}/*.py"
+
+
+class Ledger:
+    """The results of all trials so far, kept beside the project and out of git."""
+
+    def __init__(self, path: Path = RESULTS) -> None:
+        self.path = path
+        rows = json.loads(path.read_text(encoding="utf-8")) if path.exists() else []
+        self._rows: dict[tuple[Any, ...], dict[str, Any]] = {tuple(row["key"]): row for row in rows}
+
+    def note(self, mutant: Mutant, outcome: Outcome, seed: int) -> None:
+        """Store a result, and keep the first one of the same mutant beside it."""
+        before = self._rows.get(mutant.key, {})
+        self._rows[mutant.key] = {
+            "key": mutant.key,
+            "kind": mutant.kind,
+            "line": mutant.line,
+            "seed": before.get("seed", seed),
+            "first": before.get("first", outcome.result),
+            "result": outcome.result,
+            "by": outcome.by,
+            "tried": outcome.tried,
+            "left out": outcome.left_out,
+        }
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        self.path.write_text(json.dumps([*self._rows.values()], indent=1), encoding="utf-8")
+
+    def results(self) -> Mapping[tuple[Any, ...], str]:
+        """Return what became of each mutant at last."""
+        return {key: str(row["result"]) for key, row in self._rows.items()}
+
+    def table(self, known: Iterable[Equivalent]) -> list[str]:
+        """Write the table by package, in Markdown."""
+        listed = {(one.file, one.where, one.before, one.after) for one in known}
+        counts: dict[str, Counter[str]] = {}
+        for key, row in sorted(self._rows.items()):
+            result = EQUIVALENT if key[:4] in listed else row["result"]
+            counts.setdefault(package_of(key[0]), Counter())[result] += 1
+        lines = [HEAD]
+        for package, count in counts.items():
+            lines.append(_row(f"`{package}`", count))
+        return [*lines, _row("all", sum(counts.values(), Counter()))]
+
+
+def _row(name: str, count: Counter[str]) -> str:
+    tried, killed, equal = count.total(), count[KILLED], count[EQUIVALENT]
+    changing = tried - equal
+    share = f"{100.0 * killed / changing:.0f} %" if changing else ""
+    return f"| {name} | {tried} | {killed} | {equal} | {changing - killed} | {share} |"

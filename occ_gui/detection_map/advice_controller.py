@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer
@@ -33,8 +34,9 @@ _USUAL = len(LIMITED) * expected_images(IMAGES)
 
 _LOOK_MS = 100
 
-_RANK = -1
-"""Below all others: somebody waits for it."""
+ASKED, IN_TURN = -1, 3
+"""Ranks: before all else where the user asks; otherwise after all points of a map that is seen,
+before further images of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +62,13 @@ class AdviceRequest:
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
 
-    def stages(self) -> Iterator[Stage]:
+    def stages(self, rank: int) -> Iterator[Stage]:
         """Give one job for each decoder."""
         jobs = []
         for counter, decoder in enumerate(QUICK_DECODERS, 1):
             settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
             jobs.append(Job(advise, (self.scene, settings, decoder, RATE), counter))
-        yield Stage(_RANK, tuple(jobs))
+        yield Stage(rank, tuple(jobs))
 
 
 class AdvicePane(Protocol):
@@ -146,12 +148,19 @@ class AdvisorController(QObject):
         return AdviceRequest(self._scenes.scene, self._settings.settings, self._with_image_effects)
 
     def start(self) -> None:
-        """Search for the limits of the current scene."""
+        """Search for the limits of the current scene, as the user asks for them."""
+        self._start(ASKED)
+
+    def search_in_turn(self) -> None:
+        """Search for the limits of the current scene, which the map does not wait for."""
+        self._start(IN_TURN)
+
+    def _start(self, rank: int) -> None:
         request = self._advised = self._request()
         self._counted = self._count()
         without = () if self._with_image_effects else left_out(request.scene, request.settings)
         self._pane.show_advice_begun(without)
-        self._channel.put(request, request.stages)
+        self._channel.put(request, partial(request.stages, rank))
         self._look.start()
 
     def cancel(self) -> None:

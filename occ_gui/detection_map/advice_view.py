@@ -49,7 +49,6 @@ class AdviceView(QWidget):
         super().__init__(parent)
         self.cards = LimitCards(decoders)
         """The highest frequencies in short, for another place than this page."""
-        self.cards.asked.connect(self.asked)
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._sentences = AdviceSentences(self)
         self._lines: list[QWidget] = []

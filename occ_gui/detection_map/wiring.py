@@ -78,6 +78,7 @@ class DetectionMapWiring(QObject):
         pane.image_effects_switched.connect(self.map.use_image_effects)
         pane.image_effects_switched.connect(self.advisor.use_image_effects)
         pane.advice.asked.connect(self.advisor.start)
+        pane.advice.cards.asked.connect(self.advisor.search_in_turn)
         pane.advice.cancelled.connect(self.advisor.cancel)
         pane.advice.destination_chosen.connect(self.advisor.take_there)
 

@@ -11,12 +11,13 @@ from PySide6.QtWidgets import QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map import advice_controller as module
-from occ_gui.detection_map import wiring, worker
+from occ_gui.detection_map import map_schedule, wiring, worker
 from occ_gui.detection_map.advice_sentences import AdviceSentences
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import sentences
-from occ_model.parallel.job import Job, JobResult
+from occ_model.parallel.job import Job, JobResult, Stages
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.advice import Advice, TheoryLimits
@@ -227,6 +228,22 @@ def test_closing_the_window_during_a_search_ends_the_look_at_it(
     assert any(look.isActive() for look in looks)
     application.window.close()
     assert not any(look.isActive() for look in looks)
+
+
+def test_only_limits_that_the_user_asks_for_come_before_the_map(
+    application: Application, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ranks: list[int] = []
+
+    def put(_channel: JobChannel, _request: object, stages: Stages) -> None:
+        ranks.append(min(stage.rank for stage in stages()))
+
+    monkeypatch.setattr(JobChannel, "put", put)
+    application.detection.cards.asked.emit()
+    application.detection.advise.click()
+    in_turn, asked = ranks
+    assert asked < map_schedule.COARSE
+    assert map_schedule.FINE < in_turn < map_schedule.SURE
 
 
 def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:

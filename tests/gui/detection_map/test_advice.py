@@ -234,13 +234,18 @@ def test_only_limits_that_the_user_asks_for_come_before_the_map(
     application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ranks: list[int] = []
+    put_really = JobChannel.put
 
-    def put(_channel: JobChannel, _request: object, stages: Stages) -> None:
+    def put(channel: JobChannel, request: object, stages: Stages) -> None:
         ranks.append(min(stage.rank for stage in stages()))
+        put_really(channel, request, stages)
+
+    monkeypatch.setattr(wiring, "new_workers", Never)
 
     monkeypatch.setattr(JobChannel, "put", put)
     application.detection.cards.asked.emit()
     application.detection.advise.click()
+    application.detection_map.advisor.cancel()
     in_turn, asked = ranks
     assert asked < map_schedule.COARSE
     assert map_schedule.FINE < in_turn < map_schedule.SURE

@@ -5,7 +5,9 @@ is a difference of two values of the waveform's running integral: the same work 
 exposure time to switching period, with no sampling in time and no loop over chips.
 """
 
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 
@@ -41,12 +43,39 @@ def column_phases(
 
     Returns
     -------
-    Phases, shape (columns,)
+    Phases, shape (columns,), read-only
     """
-    frequency = Fraction(scene.transmitter.switching_frequency)
-    start = (Fraction(scene.model.start_time) * frequency + shift) % period
-    step = Fraction(scene.camera.readout_time) * frequency % period
-    return _phases(start, step, period, scene.camera.columns if columns is None else columns)
+    return _column_starts(
+        scene.transmitter.switching_frequency,
+        scene.camera.readout_time,
+        scene.model.start_time,
+        period,
+        shift,
+        scene.camera.columns if columns is None else columns,
+    )
+
+
+@lru_cache(maxsize=8)
+def _column_starts(
+    switching_frequency: float,
+    readout_time: float,
+    start_time: float,
+    period: int,
+    shift: Fraction,
+    columns: int,
+) -> Phases:
+    """Return the phases for all that they depend on: another exposure time leaves them."""
+    frequency = Fraction(switching_frequency)
+    start = (Fraction(start_time) * frequency + shift) % period
+    phases = _phases(start, _step(readout_time, switching_frequency, period), period, columns)
+    phases.chip.flags.writeable = phases.fraction.flags.writeable = False
+    return phases
+
+
+@lru_cache(maxsize=8)
+def _step(readout_time: float, frequency: float, period: int) -> Fraction:
+    """Return the step from column to column, within one period."""
+    return Fraction(readout_time) * Fraction(frequency) % period
 
 
 def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
@@ -73,25 +102,54 @@ def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
 
 def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
     """Count up from ``start`` by ``step``, both within one period."""
-    start_chip, step_chip = int(start), int(step)
-    within = step - step_chip
-    coarse = float(np.float32(float(within)))
-    fine = float(within - Fraction(coarse))
-
-    column = np.arange(count, dtype=np.float64)
-    position = column * coarse
-    chip = np.floor(position)
-    fraction = (position - chip) + (column * fine + float(start - start_chip))
+    start_chip = int(start)
+    steps = _steps(step, count)
+    fraction = steps.fraction + (steps.remainder + float(start - start_chip))
     carry = np.floor(fraction)
     fraction -= carry
     # A fraction just below zero rounds up to a whole chip when that chip is taken away from it.
     over = fraction >= 1.0
     fraction[over] = 0.0
-    chip += column * step_chip
-    chip += carry + over + start_chip
+    carry += over
+    carry += start_chip
+    chip = np.add(steps.chip, carry, out=carry)
     # Exact: a quotient of whole numbers this small never rounds up to a whole number.
     chip -= period * np.floor(chip / period)
     return Phases(chip.astype(np.int64), fraction)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Steps:
+    """How far each column starts after the first one.
+
+    Parameters
+    ----------
+    chip : ndarray of float64, shape (columns,)
+        Whole chips, of the part of the step whose products are exact.
+    fraction, remainder : ndarray of float64, shape (columns,)
+        Fraction of a chip of that part, and the rest of the step.
+    """
+
+    chip: FloatArray
+    fraction: FloatArray
+    remainder: FloatArray
+
+
+@lru_cache(maxsize=8)
+def _steps(step: Fraction, count: int) -> _Steps:
+    """Count up from 0 by ``step``; pictures that differ in their start time only share it."""
+    step_chip = int(step)
+    within = step - step_chip
+    coarse = float(np.float32(float(within)))
+    column = np.arange(count, dtype=np.float64)
+    position = column * coarse
+    chip = np.floor(position)
+    fraction = position - chip
+    chip += column * step_chip
+    made = _Steps(chip, fraction, column * float(within - Fraction(coarse)))
+    for values in (made.chip, made.fraction, made.remainder):
+        values.flags.writeable = False
+    return made
 
 
 def lit_fraction(scene: Scene) -> FloatArray:
@@ -99,14 +157,51 @@ def lit_fraction(scene: Scene) -> FloatArray:
 
     Returns
     -------
-    ndarray of float64, shape (columns,), from 0 to 1
+    ndarray of float64, shape (columns,), from 0 to 1; read-only
     """
-    waveform = Waveform(sent_chips(scene.transmitter))
-    frequency = Fraction(scene.transmitter.switching_frequency)
-    exposure = Duration.of(Fraction(scene.camera.exposure_time) * frequency, waveform.period)
-    lit = waveform.lit_chips(column_phases(scene, waveform.period), exposure)
+    transmitter, camera = scene.transmitter, scene.camera
+    return _lit_fraction(
+        sent_chips(transmitter).tobytes(),
+        transmitter.switching_frequency,
+        camera.exposure_time,
+        camera.readout_time,
+        camera.columns,
+        scene.model.start_time,
+    )
+
+
+@lru_cache(maxsize=8)
+def _lit_fraction(
+    chips: bytes,
+    switching_frequency: float,
+    exposure_time: float,
+    readout_time: float,
+    columns: int,
+    start_time: float,
+) -> FloatArray:
+    """Return the share for all that it depends on: what a scene is seen from changes nothing."""
+    waveform = _waveform(chips)
+    frequency = Fraction(switching_frequency)
+    exposure = Duration.of(Fraction(exposure_time) * frequency, waveform.period)
+    starts = _column_starts(
+        switching_frequency, readout_time, start_time, waveform.period, _AT_ONCE, columns
+    )
+    lit = waveform.lit_chips(starts, exposure)
     lit /= exposure.in_chips(waveform.period)
-    return np.clip(lit, 0.0, 1.0, out=lit)
+    np.clip(lit, 0.0, 1.0, out=lit)
+    lit.flags.writeable = False
+    return lit
+
+
+def forget_exposures() -> None:
+    """Forget what is kept of earlier scenes: the next exposure takes the time of a first one."""
+    for kept in (_steps, _step, _column_starts, _lit_fraction, _waveform):
+        kept.cache_clear()
+
+
+@lru_cache(maxsize=16)
+def _waveform(chips: bytes) -> Waveform:
+    return Waveform(np.frombuffer(chips, dtype=np.uint8))
 
 
 def on_time(scene: Scene) -> FloatArray:

@@ -65,7 +65,12 @@ def image_points(rays: FloatArray, camera: Camera) -> FloatArray:
 
 def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
     """Return points of the image, (column, row), as rays (x, y) in focal lengths, same shape."""
-    return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
+    return rays_at(points, *geometry_of(camera))
+
+
+def rays_at(points: FloatArray, rows: int, columns: int, focal_length: float) -> FloatArray:
+    """Return the same for the :func:`geometry_of` a camera."""
+    return np.asarray((points - _middle(rows, columns)) / focal_length)
 
 
 def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
@@ -89,7 +94,11 @@ def geometry_of(camera: Camera) -> tuple[int, int, float]:
 
 
 def _centre(camera: Camera) -> FloatArray:
-    return np.array([(camera.columns - 1) / 2, (camera.rows - 1) / 2])
+    return _middle(camera.rows, camera.columns)
+
+
+def _middle(rows: int, columns: int) -> FloatArray:
+    return np.array([(columns - 1) / 2, (rows - 1) / 2])
 
 
 def rotation_of(pose: Pose) -> FloatArray:

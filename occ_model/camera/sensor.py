@@ -5,12 +5,13 @@ pixels. How far a single pixel deviates from it follows from the number of its e
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE, luminance_of, pixel_value
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Camera, Scene, Sensor
 
 _EXPOSURE_FACTOR = 0.65
 """H = 0.65 L t / N^2 in lux seconds, the exposure behind a lens for a luminance (ISO 12232).
@@ -26,7 +27,10 @@ _TINY = np.finfo(np.float64).tiny
 
 def electrons_per_luminance(scene: Scene) -> float:
     """Return the electrons that a pixel collects in the exposure time, for each cd/m2."""
-    camera, sensor = scene.camera, scene.sensor
+    return _electrons_per_luminance(scene.camera, scene.sensor)
+
+
+def _electrons_per_luminance(camera: Camera, sensor: Sensor) -> float:
     illumination = _EXPOSURE_FACTOR * camera.exposure_time / camera.f_number**2
     collected: float = illumination * _PHOTONS * sensor.pixel_pitch**2 * sensor.quantum_efficiency
     return collected
@@ -44,8 +48,14 @@ def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
 
 def converter_step(scene: Scene) -> float:
     """Return the electrons of one step of the converter, whose range ends at the largest value."""
-    largest = float(electrons_of(np.array([WHITE]), scene)[0])
-    return min(largest, scene.sensor.full_well) / float(2**scene.sensor.adc_bits)
+    return _converter_step(scene.camera, scene.sensor)
+
+
+@lru_cache(maxsize=8)
+def _converter_step(camera: Camera, sensor: Sensor) -> float:
+    brightest = luminance_of(np.array([WHITE]), camera)
+    largest = float(brightest[0]) * _electrons_per_luminance(camera, sensor)
+    return min(largest, sensor.full_well) / float(2**sensor.adc_bits)
 
 
 def deviation(
@@ -82,5 +92,10 @@ def deviation(
 
 def saturation_value(scene: Scene) -> float:
     """Return the pixel value at which a pixel is full, at most the largest."""
-    full = float(values_of(np.array([scene.sensor.full_well]), scene)[0])
-    return min(full, WHITE)
+    return _saturation_value(scene.camera, scene.sensor)
+
+
+@lru_cache(maxsize=8)
+def _saturation_value(camera: Camera, sensor: Sensor) -> float:
+    full = np.array([sensor.full_well]) / _electrons_per_luminance(camera, sensor)
+    return min(float(pixel_value(full, camera)[0]), WHITE)

@@ -7,6 +7,7 @@ for what the other effects can do to the light, so that each holds whichever of 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,9 +22,9 @@ from occ_model.camera.photometry import (
     pixel_value,
     saturate,
 )
-from occ_model.camera.projection import image_rays, panel_corners
+from occ_model.camera.projection import geometry_of, panel_corners, rays_at
 from occ_model.results import Region
-from occ_model.scene.scene import Camera, Scene
+from occ_model.scene.scene import Scene
 
 _BINS = 64
 """Steps between the darkest and the brightest column in which columns are counted."""
@@ -137,27 +138,48 @@ def paper_view_of(
         Part of the panel is behind the camera.
     """
     corners = panel_corners(scene)
+    outline = _outline_of(corners.tobytes(), *geometry_of(scene.camera))
     stage_ended("projection")
     light = ColumnLight.of(scene)
     values = panel_values(scene, light)
     stage_ended("exposure")
     lowest, highest = (min(max(float(end), 0.0), WHITE) for end in (values.min(), values.max()))
-    seen_region = region_of(corners, scene.camera.rows, scene.camera.columns)
-    region = seen_region or Region(0, scene.camera.rows, 0, scene.camera.columns)
+    region = outline.region
     levels, shares = _histogram(values[region.first_column : region.last_column])
     return PaperView(
         scene=scene,
         corners=corners,
         light=light,
         values=values,
-        sides=_sides(corners),
-        is_seen=seen_region is not None,
+        sides=outline.sides,
+        is_seen=outline.is_seen,
         region=region,
-        corner_rays=_corner_rays(region, scene.camera),
+        corner_rays=outline.corner_rays,
         swing=max(highest - lowest, FLAT),
         levels=levels,
         shares=shares,
     )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Outline:
+    """What follows from the panel's corners: see :class:`PaperView`."""
+
+    sides: tuple[float, float, float, float] | None
+    is_seen: bool
+    region: Region
+    corner_rays: FloatArray
+
+
+@lru_cache(maxsize=16)
+def _outline_of(corners: bytes, rows: int, columns: int, focal_length: float) -> _Outline:
+    """Return what follows from the corners, which stay while pose and lens do."""
+    places = np.frombuffer(corners).reshape(-1, 2)
+    seen = region_of(places, rows, columns)
+    region = seen or Region(0, rows, 0, columns)
+    rays = _corner_rays(region, rows, columns, focal_length)
+    rays.flags.writeable = False
+    return _Outline(_sides(places), seen is not None, region, rays)
 
 
 def _histogram(values: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -180,11 +202,11 @@ def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
     return (left, top, right, bottom) if upright and level else None
 
 
-def _corner_rays(region: Region, camera: Camera) -> FloatArray:
+def _corner_rays(region: Region, rows: int, columns: int, focal_length: float) -> FloatArray:
     left, right = region.first_column, region.last_column - 1
     top, bottom = region.first_row, region.last_row - 1
     points = np.array([(left, top), (right, top), (right, bottom), (left, bottom)], np.float64)
-    return image_rays(points, camera)
+    return rays_at(points, rows, columns, focal_length)
 
 
 def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:

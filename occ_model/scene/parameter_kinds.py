@@ -64,12 +64,15 @@ class Quantity(Declaration):
 
     def check(self, value: object) -> float:
         """Return ``value`` as a float, or raise :class:`ParameterError`."""
-        if isinstance(value, bool) or not isinstance(value, Real):
+        if type(value) is float:  # as most are, and sooner told than any number
+            number = value
+        elif isinstance(value, bool) or not isinstance(value, Real):
             raise self.refuse(f"is {shown(value)}, which is not a number", self.allowed)
-        try:
-            number = float(value)
-        except OverflowError:
-            number = -math.inf if value < 0 else math.inf
+        else:
+            try:
+                number = float(value)
+            except OverflowError:
+                number = -math.inf if value < 0 else math.inf
         if not self.low <= number <= self.high:
             raise self.refuse(f"is {self._outside(number)}", self.allowed)
         return number

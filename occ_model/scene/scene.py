@@ -30,6 +30,20 @@ class _Checked:
         for name in self.__dataclass_fields__:
             if name in PARAMETERS:
                 object.__setattr__(self, name, PARAMETERS[name].check(getattr(self, name)))
+        self._check_together()
+
+    def _check_together(self) -> None:
+        """Refuse values that are allowed each but not together."""
+
+    def replaced(self, changes: Mapping[str, ParameterValue]) -> Self:
+        """Return the group with some values changed; only these are checked again."""
+        made = object.__new__(type(self))
+        for name in self.__dataclass_fields__:
+            object.__setattr__(made, name, getattr(self, name))
+        for name, value in changes.items():
+            object.__setattr__(made, name, PARAMETERS[name].check(value))
+        made._check_together()
+        return made
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,8 +65,7 @@ class Transmitter(_Checked):
     edge_time: float = _declared("edge_time")
     lambertian_order: float = _declared("lambertian_order")
 
-    def __post_init__(self) -> None:
-        _Checked.__post_init__(self)
+    def _check_together(self) -> None:
         if self.code >= 2**self.bits:
             raise ParameterError(
                 f"code is {self.code}; allowed with {self.bits} bits: 0 to {2**self.bits - 1}.",
@@ -204,8 +217,7 @@ class Scene:
         for name, value in changes.items():
             by_group.setdefault(group_of(name), {})[name] = value
         groups = {
-            group: dataclasses.replace(getattr(self, group), **values)
-            for group, values in by_group.items()
+            group: getattr(self, group).replaced(values) for group, values in by_group.items()
         }
         return dataclasses.replace(self, **groups)
 

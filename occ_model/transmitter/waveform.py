@@ -109,9 +109,13 @@ class Waveform:
         """
         windows = Windows.of(starts, duration)
         first, last, crosses = windows.first, windows.last, windows.crosses
-        level_first, level_last = self._level[first], self._level[last]
+        level_first, level_last = self._level.take(first), self._level.take(last)
         part: FloatArray = level_last * duration.fraction
-        part += (level_last - level_first) * np.where(crosses, -windows.before, starts.fraction)
-        part += self._lit_before[last] - self._lit_before[first + crosses]
+        level_last -= level_first
+        level_last *= np.where(crosses, -windows.before, starts.fraction)
+        part += level_last
+        whole = self._lit_before.take(last)
+        whole -= self._lit_before.take(first + crosses)
+        part += whole
         part += duration.periods * float(self._lit_before[self.period])
         return part

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.camera.exposure import column_phases, lit_fraction
+from occ_model.camera.exposure import column_phases, forget_exposures, lit_fraction
 from occ_model.scene.scene import Scene
 
 PATTERNS = st.text(alphabet="01", min_size=1, max_size=40)
@@ -196,3 +196,19 @@ def test_every_run_shows_beyond_the_period_at_10_khz() -> None:
     assert scene.camera.exposure_time > scene.transmitter.switching_period
     assert lit.max() == 1.0  # the header's three ones outlast the exposure
     assert lit.min() == 0.0  # and so do two zeros
+
+
+def test_scenes_of_the_same_light_share_its_exposure() -> None:
+    scene = occ.load_preset("phone-136us")
+    lit = lit_fraction(scene)
+    assert lit_fraction(scene.replace(distance=0.7, iso=200.0, yaw=0.1)) is lit
+    for change in (
+        {"code": 5}, {"switching_frequency": 3e3}, {"exposure_time": 1e-4},
+        {"readout_time": 9e-6}, {"columns": 3000}, {"start_time": 1e-4},
+    ):  # fmt: skip
+        assert not np.array_equal(lit_fraction(scene.replace(**change)), lit)
+    with pytest.raises(ValueError, match="read-only"):
+        lit[0] = 1.0
+    forget_exposures()
+    assert lit_fraction(scene) is not lit
+    np.testing.assert_array_equal(lit_fraction(scene), lit)

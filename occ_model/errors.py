@@ -106,9 +106,10 @@ def shown(value: object) -> str:
 
     Long texts, long numbers and deep nesting are cut, control characters escaped.
     """
-    text = _ShortRepr().repr(value)
+    # An array's has several lines.
+    text = " ".join(line.strip() for line in _ShortRepr().repr(value).split("\n"))
     half = _LONGEST_VALUE // 2
-    return text if len(text) <= _LONGEST_VALUE + 3 else f"{text[:half]}...{text[-half:]}"
+    return one_line(text if len(text) <= _LONGEST_VALUE + 3 else f"{text[:half]}...{text[-half:]}")
 
 
 def one_line(text: str, longest: int = _LONGEST_NAME) -> str:

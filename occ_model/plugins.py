@@ -3,7 +3,7 @@
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
-from occ_model.errors import PluginError, one_line
+from occ_model.errors import PluginError, one_line, shown
 
 if TYPE_CHECKING:  # its import is slow, and most scenes ask for no plug-in
     from importlib.metadata import EntryPoint
@@ -14,13 +14,16 @@ DECODERS = "occ_explorer.decoders"
 
 _Kind = TypeVar("_Kind")
 
+_LONGEST_NAME = 60
+"""Characters of a plug-in's name."""
+
 FAULTS = (Exception, SystemExit)
 """What a plug-in may raise that does not end the program."""
 
 
 @lru_cache(maxsize=8)
 def _found(group: str) -> "dict[str, EntryPoint]":
-    """Find the entry points of a group, the first of each name."""
+    """Find the entry points of a group, the first of each name that can be shown."""
     from importlib.metadata import entry_points
 
     try:
@@ -29,8 +32,14 @@ def _found(group: str) -> "dict[str, EntryPoint]":
         return {}
     found: dict[str, EntryPoint] = {}
     for entry in offered:
-        found.setdefault(entry.name, entry)
+        if _is_name(entry.name):
+            found.setdefault(entry.name, entry)
     return found
+
+
+def _is_name(name: object) -> bool:
+    """Whether lists, sentences and scene files can show a name; a package may have any."""
+    return isinstance(name, str) and 0 < len(name) <= _LONGEST_NAME and name.isprintable()
 
 
 def plugin_names(group: str) -> tuple[str, ...]:
@@ -67,8 +76,8 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
             f"{described(group, name)} is a {type(offered).__name__}, not a {kind.__name__}."
         )
     own = getattr(offered, "name", None)
-    if own != name:
-        raise PluginError(f"{described(group, name)} calls itself {one_line(str(own))!r}.")
+    if not isinstance(own, str) or own != name:  # an array would compare its elements
+        raise PluginError(f"{described(group, name)} calls itself {shown(own)}.")
     return offered
 
 
@@ -77,6 +86,20 @@ def described(group: str, name: str) -> str:
     entry = _found(group).get(name)
     package = entry.dist.name if entry is not None and entry.dist is not None else "?"
     return f"The plug-in {one_line(name)!r} of the package {one_line(str(package))!r}"
+
+
+def title_of(offered: object, who: str) -> str:
+    """Return the title of what a plug-in offers, in one line.
+
+    Raises
+    ------
+    PluginError
+        It has none.
+    """
+    try:
+        return one_line(str(getattr(offered, "title", "")))
+    except FAULTS as error:
+        raise PluginError(f"{who} has no title: {reason(error)}") from None
 
 
 def reason(error: BaseException) -> str:

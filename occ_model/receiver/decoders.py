@@ -1,20 +1,21 @@
 """The decoders by name: the built-in ones and those of plug-ins, and the default."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError, PluginError, shown
+from occ_model.errors import ParameterError, one_line, shown
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.equalizer.decoder import DECODER as EQUALIZER
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
+from occ_model.receiver.plugin_result import problem_of
 from occ_model.receiver.sequence.decoder import DECODER as SEQUENCE
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.line_codes.registry import is_bits
 
 PAPER_DECODER = THRESHOLD.name
 """The name of the paper's decoder, which is the default."""
@@ -63,31 +64,14 @@ def _plugin(name: str) -> Decoder:
         own = np.array(signal)
         try:
             result = offered.read(own, scene)
-            problem = _problem(result)
+            problem = problem_of(result, len(own))
         except plugins.FAULTS as error:
             return DecodeResult(
                 name, signal=signal, failure=f"{who} fails: {plugins.reason(error)}"
             )
         if problem:
             return DecodeResult(name, signal=signal, failure=f"{who} gives {problem}.")
-        return result
+        failure = None if result.failure is None else one_line(result.failure)
+        return replace(result, decoder=name, failure=failure, location=None)
 
-    try:
-        title = str(offered.title)
-    except plugins.FAULTS as error:
-        raise PluginError(f"{who} has no title: {plugins.reason(error)}") from None
-    return Decoder(name, title, read)
-
-
-def _problem(result: object) -> str | None:
-    """Say what is wrong with the result of a plug-in, None if nothing is."""
-    if not isinstance(result, DecodeResult):
-        return f"no DecodeResult but a {type(result).__name__}"
-    if not is_bits(result.bits):
-        return "bits that are not an array of zeros and ones"
-    if result.failure is None and (result.code is None or not result.bits.size):
-        return "neither a code with its bits nor a failure"
-    failure: object = result.failure
-    if failure is not None and not isinstance(failure, str):
-        return "a failure that is no sentence"
-    return None
+    return Decoder(name, plugins.title_of(offered, who), read)

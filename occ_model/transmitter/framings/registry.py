@@ -6,22 +6,32 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import OccError, PluginError
+from occ_model.errors import ParameterError, PluginError, one_line, shown
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.line_codes.registry import checked_chips, is_bits
+from occ_model.transmitter.line_codes.registry import (
+    are_places,
+    checked_chips,
+    is_bits,
+    is_reason,
+    plain_bits,
+)
 from occ_model.transmitter.registry import Registry
 
 
 def _guarded(offered: Framing) -> Framing:
     """Return a plug-in's framing whose faults become sentences."""
     who = plugins.described(plugins.FRAMINGS, offered.name)
+    if not isinstance(offered.checks, bool):
+        raise PluginError(
+            f"{who} declares checks = {shown(offered.checks)}; allowed: True or False."
+        )
 
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
         try:
             chips = np.asarray(offered.encode(bits, form))
-        except OccError:  # the line code's own sentence
-            raise
         except plugins.FAULTS as error:
+            if isinstance(error, PluginError | ParameterError) and str(error).isprintable():
+                raise  # the line code's own sentence
             raise PluginError(f"{who} cannot encode: {plugins.reason(error)}") from None
         return checked_chips(chips, who)
 
@@ -32,11 +42,15 @@ def _guarded(offered: Framing) -> Framing:
             return Framed.nothing(f"{who} cannot decode: {plugins.reason(error)}")
         if not isinstance(read, Framed) or not is_bits(read.bits):
             return Framed.nothing(f"{who} gives no bits, but a {type(read).__name__}.")
-        if read.failure is None and not read.bits.size:
+        if not is_reason(read.failure) or (read.failure is None and not read.bits.size):
             return Framed.nothing(f"{who} gives neither bits nor a reason.")
-        return read
+        if not are_places(read.headers, len(chips)):
+            return Framed.nothing(f"{who} gives headers that are no places among the chips.")
+        failure = None if read.failure is None else one_line(read.failure)
+        return Framed(read.headers, plain_bits(read.bits), failure)
 
-    return replace(offered, encode=encode, decode=decode)
+    title = plugins.title_of(offered, who)
+    return replace(offered, title=title, encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(

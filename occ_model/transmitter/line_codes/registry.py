@@ -6,26 +6,40 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError, shown
+from occ_model.errors import PluginError, one_line, shown
+from occ_model.scene.parameter_kinds import MAX_PATTERN_CHIPS
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
 from occ_model.transmitter.registry import Registry
+
+
+def _check_declared(offered: LineCode, who: str) -> None:
+    """Refuse a plug-in's line code whose properties are not of their kind."""
+    counts = {
+        "block_bits": (offered.block_bits, 1),
+        "block_chips": (offered.block_chips, 1),
+        "longest_run": (1 if offered.longest_run is None else offered.longest_run, 1),
+        "disparity": (0 if offered.disparity is None else offered.disparity, 0),
+    }
+    for label, (count, low) in counts.items():
+        if type(count) is not int or not low <= count <= MAX_PATTERN_CHIPS:
+            raise PluginError(
+                f"{who} declares {label} = {shown(count)}; allowed: {low} to {MAX_PATTERN_CHIPS}."
+            )
+    preamble: object = offered.preamble
+    is_preamble = isinstance(preamble, str) and len(preamble) <= MAX_PATTERN_CHIPS
+    if not is_preamble or set(offered.preamble) - {"0", "1"}:
+        raise PluginError(f"{who} declares preamble = {shown(preamble)}; allowed: zeros and ones.")
+    if not isinstance(offered.finds_wrong_chip, bool):
+        raise PluginError(
+            f"{who} declares finds_wrong_chip = {shown(offered.finds_wrong_chip)}; allowed: True "
+            "or False."
+        )
 
 
 def _guarded(offered: LineCode) -> LineCode:
     """Return a plug-in's line code whose faults become sentences."""
     who = plugins.described(plugins.LINE_CODES, offered.name)
-    longest = 1 if offered.longest_run is None else offered.longest_run
-    for label, count in (
-        ("block_bits", offered.block_bits),
-        ("block_chips", offered.block_chips),
-        ("longest_run", longest),
-    ):
-        if not isinstance(count, int) or count < 1:
-            raise PluginError(f"{who} declares {label} = {shown(count)}; allowed: from 1.")
-    if not isinstance(offered.preamble, str) or set(offered.preamble) - {"0", "1"}:
-        raise PluginError(
-            f"{who} declares preamble = {shown(offered.preamble)}; allowed: zeros and ones."
-        )
+    _check_declared(offered, who)
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
         try:
@@ -41,9 +55,13 @@ def _guarded(offered: LineCode) -> LineCode:
             return Decoded(failure=f"{who} cannot decode: {plugins.reason(error)}")
         if not isinstance(read, Decoded) or not is_bits(read.bits):
             return Decoded(failure=f"{who} gives no bits, but a {type(read).__name__}.")
-        return read
+        if not are_places(read.violations, len(read.bits)) or not is_reason(read.failure):
+            return Decoded(failure=f"{who} gives bits, but not where they break the code, or why.")
+        failure = None if read.failure is None else one_line(read.failure)
+        return Decoded(plain_bits(read.bits), read.violations, failure)
 
-    return replace(offered, encode=encode, decode=decode)
+    title = plugins.title_of(offered, who)
+    return replace(offered, title=title, encode=encode, decode=decode)
 
 
 def is_bits(values: object) -> bool:
@@ -54,6 +72,23 @@ def is_bits(values: object) -> bool:
         and values.dtype.kind in "biu"
         and bool(np.isin(values, (0, 1)).all())
     )
+
+
+def plain_bits(bits: ByteArray) -> ByteArray:
+    """Return a plug-in's bits as an array of bytes, of no other class and not changed later."""
+    return np.array(bits, dtype=np.uint8, subok=False)
+
+
+def are_places(places: object, count: int) -> bool:
+    """Whether places are a tuple of whole numbers from 0 to before a number."""
+    return isinstance(places, tuple) and all(
+        type(place) is int and 0 <= place < count for place in places
+    )
+
+
+def is_reason(failure: object) -> bool:
+    """Whether a plug-in's failure is None or a sentence."""
+    return failure is None or (isinstance(failure, str) and bool(failure))
 
 
 def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArray:
@@ -68,7 +103,7 @@ def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArra
         raise PluginError(f"{who} gives no chips, which are zeros and ones.")
     if count is not None and len(chips) != count:
         raise PluginError(f"{who} gives {len(chips)} chips in place of {count}.")
-    return chips.astype(np.uint8)
+    return plain_bits(chips)
 
 
 LINE_CODES = Registry(

@@ -3,6 +3,25 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from occ_model import plugins
+from occ_model.receiver import decoders
+from occ_model.transmitter import packet, scheme
+from occ_model.transmitter.registry import Registry
+
+_CACHES = (
+    plugins._found,
+    decoders._plugin,
+    Registry.named,
+    scheme.scheme_named,
+    packet._payload_chips,
+)
+
+
+def forget_plugins() -> None:
+    """Let the program look for plug-ins anew."""
+    for cache in _CACHES:
+        cache.cache_clear()
+
 
 def install(
     folder: Path, package: str, entry_points: Mapping[str, Mapping[str, str]], module: str

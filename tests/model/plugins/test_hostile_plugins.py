@@ -1,25 +1,16 @@
 """Plug-ins that raise or give rubbish: each is named in a sentence, and the program lives."""
 
 from collections.abc import Iterator
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import numpy as np
 import pytest
-from model.plugins.installed_package import install
+from model.plugins.installed_package import forget_plugins, install
 
 import occ_model as occ
 from occ_model import plugins
 from occ_model.receiver import decoders
-from occ_model.transmitter import packet, scheme
-from occ_model.transmitter.registry import Registry
-
-CACHES = (
-    plugins._found,
-    decoders._plugin,
-    Registry.named,
-    scheme.scheme_named,
-    packet._payload_chips,
-)
 
 MODULE = """
 from dataclasses import replace
@@ -66,6 +57,23 @@ floats = decoder("floats", lambda *_: occ.DecodeResult("floats", code=1, bits=np
 lists = decoder("lists", lambda *_: occ.DecodeResult("lists", code=1, bits=[1]))
 no_sentence = decoder("no_sentence", lambda *_: occ.DecodeResult("no_sentence", failure=5))
 overwrites = decoder("overwrites", overwrite)
+
+
+def spoiled(name, **parts):
+    read = occ.DecodeResult(name, code=1, bits=np.array([1]), chips=np.array([1, 0]))
+    return decoder(name, lambda *_: replace(read, **parts))
+
+
+beyond = spoiled("beyond", confidence=float("nan"))
+worded = spoiled("worded", correlation="high")
+coded = spoiled("coded", code="7")
+placed = spoiled("placed", headers=(2,))
+paired = spoiled("paired", chip_starts=np.array([1.0]))
+masked = spoiled("masked", model=np.ma.masked_array([1.0, 2.0]))
+run = spoiled("run", runs=([1], [2]))
+counted = spoiled("counted", histograms=(None, None))
+wordy = decoder("wordy", lambda *_: occ.DecodeResult("wordy", failure="Two\\nlines."))
+listed = replace(decoder("listed", fail), name=np.array(["listed", "listed"]))
 misnamed = decoder("another", fail)
 threshold = decoder("threshold", fail)
 
@@ -75,23 +83,41 @@ code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.full(
 code_blocks = replace(LINE_CODE, name="code_blocks", block_chips=0)
 code_run = replace(LINE_CODE, name="code_run", longest_run="two")
 code_preamble = replace(LINE_CODE, name="code_preamble", preamble="012")
+code_array = replace(LINE_CODE, name="code_array", disparity=np.array([[1], [2]]))
+code_maybe = replace(LINE_CODE, name="code_maybe", finds_wrong_chip=None)
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
 frame_raises = replace(FRAMING, name="frame_raises", encode=fail)
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
 frame_mute = replace(FRAMING, name="frame_mute", decode=lambda chips, form: "nothing")
 frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
+frame_checks = replace(FRAMING, name="frame_checks", checks=np.array([]))
+
+
+def two_lines(*_):
+    raise occ.ParameterError("Two\\nlines.")
+
+
+frame_lines = replace(FRAMING, name="frame_lines", encode=two_lines)
 """
 
 DECODERS = [
     "raises", "leaves", "mute", "nothing", "empty", "floats", "lists", "no_sentence", "overwrites",
-    "misnamed", "threshold", "gone",
+    "misnamed", "threshold", "gone", "beyond", "worded", "coded", "placed", "paired", "masked",
+    "run", "counted", "wordy", "listed",
 ]  # fmt: skip
 CODES = [
     "code_raises", "code_short", "code_grey", "code_blocks", "code_run", "code_preamble",
-    "code_mute",
+    "code_mute", "code_array", "code_maybe",
 ]  # fmt: skip
-FRAMINGS = ["frame_raises", "frame_empty", "frame_mute", "frame_fails"]
+FRAMINGS = [
+    "frame_raises",
+    "frame_empty",
+    "frame_mute",
+    "frame_fails",
+    "frame_checks",
+    "frame_lines",
+]
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
 
@@ -110,11 +136,9 @@ def _hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     install(tmp_path, "hostile", groups, MODULE)
     (tmp_path / "broken_import.py").write_text("raise SystemExit('no licence')\n")
     monkeypatch.syspath_prepend(tmp_path)
-    for cache in CACHES:
-        cache.cache_clear()
+    forget_plugins()
     yield
-    for cache in CACHES:
-        cache.cache_clear()
+    forget_plugins()
 
 
 def decode(decoder: str) -> occ.DecodeResult:
@@ -132,6 +156,14 @@ def decode(decoder: str) -> occ.DecodeResult:
         ("floats", "gives bits that are not an array of zeros and ones."),
         ("lists", "gives bits that are not an array of zeros and ones."),
         ("no_sentence", "gives a failure that is no sentence."),
+        ("beyond", "gives confidence = nan; allowed: a number from 0 to 1, or None."),
+        ("worded", "gives correlation = 'high'; allowed: a number from -1 to 1, or None."),
+        ("coded", "gives the code '7', which is no whole number from 0."),
+        ("placed", "gives the headers (2,), which are no places among its chips."),
+        ("paired", "gives chip_starts that is no array of as many finite numbers as it should."),
+        ("masked", "gives model that is no array of as many finite numbers as it should."),
+        ("run", "gives runs that are no Runs of zeros and ones with their lengths."),
+        ("counted", "gives histograms that are not two RunHistograms."),
     ],
 )
 def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -> None:
@@ -147,6 +179,7 @@ def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -
         ("broken", "cannot be imported: SystemExit: no licence."),
         ("gone", "cannot be imported: AttributeError: "),
         ("misnamed", "calls itself 'another'."),
+        ("listed", "calls itself array(['listed', 'listed'], dtype='<U6')."),
     ],
 )
 def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> None:
@@ -154,6 +187,20 @@ def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> N
         decode(decoder)
     expected = f"The plug-in '{decoder}' of the package 'hostile' {said}"
     assert str(caught.value).startswith(expected)
+
+
+def test_the_failure_of_a_plug_in_is_one_line() -> None:
+    assert decode("wordy").failure == r"Two\nlines."
+
+
+@pytest.mark.parametrize("name", ["a\x1b[31m", "", "x" * 61, "a\u202e"])
+def test_a_plug_in_that_cannot_be_listed_is_left_out(
+    monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    entries = [EntryPoint(each, "hostile:raises", plugins.DECODERS) for each in (name, "fine")]
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: entries)
+    forget_plugins()
+    assert plugins.plugin_names(plugins.DECODERS) == ("fine",)
 
 
 def test_a_decoder_cannot_change_the_signal_of_others() -> None:
@@ -175,8 +222,10 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
         ("code_raises", "cannot encode: ValueError: not today."),
         ("code_short", "gives 10 chips in place of 20."),
         ("code_grey", "gives no chips, which are zeros and ones."),
-        ("code_blocks", "declares block_chips = 0; allowed: from 1."),
-        ("code_run", "declares longest_run = 'two'; allowed: from 1."),
+        ("code_blocks", "declares block_chips = 0; allowed: 1 to 4096."),
+        ("code_run", "declares longest_run = 'two'; allowed: 1 to 4096."),
+        ("code_array", "declares disparity = array([[1], [2]]); allowed: 0 to 4096."),
+        ("code_maybe", "declares finds_wrong_chip = None; allowed: True or False."),
         ("code_preamble", "declares preamble = '012'; allowed: zeros and ones."),
     ],
 )
@@ -192,6 +241,8 @@ def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:
     [
         ("frame_raises", "cannot encode: ValueError: not today."),
         ("frame_empty", "gives no chips, which are zeros and ones."),
+        ("frame_checks", "declares checks = array([], dtype=float64); allowed: True or False."),
+        ("frame_lines", "cannot encode: ParameterError: Two\\nlines.."),
     ],
 )
 def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:

@@ -102,7 +102,8 @@ def _lesson(name: str, text: str) -> Lesson:
     place: int | None = None
     try:
         _check_keys(content, _LESSON_KEYS, "lesson")
-        title, summary = _text(content, "title"), _text(content, "summary", "")
+        title = one_line(_paragraph(content, "title"))
+        summary = _paragraph(content, "summary", "")
         listed = content.get("step")
         if not isinstance(listed, list) or not listed:
             raise _MistakeError("it has no steps; begin each with [[step]].", "step")
@@ -211,6 +212,8 @@ def _text(content: Mapping[str, Any], key: str, default: str | None = None) -> s
         raise _MistakeError(f"{key} is missing.")
     if not isinstance(value, str):
         raise _MistakeError(f"{key} is {shown(value)} in place of a text.", key)
+    if default is None and not value.strip():
+        raise _MistakeError(f"{key} is empty; allowed: a text.", key)
     return value
 
 

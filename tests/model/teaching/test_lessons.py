@@ -103,6 +103,7 @@ LINES = f"""{HEAD}
         ("= 3", 8, "line 8"),
         ('[[step]]\npreset = "none"', 9, "no preset 'none'"),
         ("[[step]]", 8, "preset is missing"),
+        ('[[step]]\npreset = "phone-68us"\ntext = " "', 10, "text is empty; allowed: a text."),
     ],
 )
 def test_a_mistake_in_a_lesson_is_named_with_its_line(
@@ -114,6 +115,16 @@ def test_a_mistake_in_a_lesson_is_named_with_its_line(
         read_lesson(path)
     assert f"line {line}" in str(refused.value)
     assert words in str(refused.value)
+
+
+def test_the_title_of_a_lesson_is_one_line(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    title = next(line for line in LINES.splitlines() if line.startswith("title"))
+    path.write_text(LINES.replace(title, r'title = "Two\n lines\u001b"'), encoding="utf-8")
+    assert read_lesson(path).title == r"Two lines\x1b"
+    path.write_text(LINES.replace(title, 'title = ""'), encoding="utf-8")
+    with pytest.raises(SceneFileError, match="line 1: title is empty; allowed: a text"):
+        read_lesson(path)
 
 
 def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_told(

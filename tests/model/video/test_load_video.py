@@ -19,7 +19,6 @@ from films import (
     lasting,
     stripes,
     turned_right,
-    what_damaged_films_say,
     with_steps,
     write_film,
 )
@@ -386,10 +385,6 @@ def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) 
     next(frames)
     del frames
     assert [process.poll() for process in processes].count(None) == 1
-
-
-def test_damaged_films_give_what_they_hold_or_a_sentence(tmp_path: Path) -> None:
-    what_damaged_films_say(range(20), tmp_path)
 
 
 @pytest.mark.whole

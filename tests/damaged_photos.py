@@ -1,0 +1,175 @@
+"""Photos of every format that is read: damaged ones, and whole ones that are odd."""
+
+import io
+import struct
+import warnings
+import zlib
+from collections.abc import Callable
+from functools import cache
+
+import cv2
+import damage
+import numpy as np
+from numpy.random import Generator
+from PIL import Image
+from pillow_heif import from_pillow
+
+STRIPES = np.tile(np.repeat([30, 220, 90, 160], 16).astype(np.uint8), (48, 1))
+COLOURS = np.dstack([STRIPES, STRIPES // 2, 255 - STRIPES])
+
+
+def saved(pixels: np.ndarray | Image.Image, file_format: str, **how: object) -> bytes:
+    picture = Image.fromarray(pixels) if isinstance(pixels, np.ndarray) else pixels
+    buffer = io.BytesIO()
+    picture.save(buffer, file_format, **how)
+    return buffer.getvalue()
+
+
+def with_opencv(pixels: np.ndarray, ending: str) -> bytes:
+    _, encoded = cv2.imencode(ending, pixels)
+    return encoded.tobytes()
+
+
+@cache
+def whole_files() -> dict[str, bytes]:
+    """One small file of each kind."""
+    exif = Image.Exif()
+    exif[0x0112], exif[0x010F] = 6, "Maker"
+    exif.get_ifd(0x8769).update({0x829A: 1 / 8000, 0x829D: 1.8, 0x8827: 100})
+    noted = {"exif": exif.tobytes()}
+    deep = COLOURS.astype(np.uint16) * 257 + 3
+    palette = Image.fromarray(COLOURS).quantize(16)
+    heic = io.BytesIO()
+    from_pillow(Image.fromarray(COLOURS)).save(heic, exif=exif.tobytes())
+    tiled = saved(COLOURS, "TIFF", compression="tiff_adobe_deflate")
+    return {
+        "png": saved(STRIPES, "PNG", **noted),
+        "png-palette": saved(palette, "PNG", transparency=3),
+        "png-16": saved(deep[..., 0], "PNG"),
+        "png-16-colours": with_opencv(deep, ".png"),
+        "png-alpha": saved(Image.fromarray(COLOURS).convert("RGBA"), "PNG"),
+        "jpeg": saved(COLOURS, "JPEG", **noted),
+        "jpeg-progressive": saved(STRIPES, "JPEG", progressive=True),
+        "jpeg-cmyk": saved(Image.fromarray(COLOURS).convert("CMYK"), "JPEG"),
+        "mpo": saved(
+            COLOURS, "MPO", save_all=True, append_images=[Image.fromarray(STRIPES).convert("RGB")]
+        ),
+        "tiff": saved(STRIPES, "TIFF", exif=exif),
+        "tiff-deflate": tiled,
+        "tiff-lzw": saved(COLOURS, "TIFF", compression="tiff_lzw"),
+        "tiff-jpeg": saved(COLOURS, "TIFF", compression="jpeg"),
+        "tiff-fax": saved(Image.fromarray(STRIPES > 99), "TIFF", compression="group4"),
+        "tiff-float": saved(STRIPES.astype(np.float32), "TIFF"),
+        "tiff-16": saved(deep[..., 0], "TIFF"),
+        "tiff-16-colours": with_opencv(deep, ".tiff"),
+        "webp": saved(COLOURS, "WEBP", **noted),
+        "webp-lossless": saved(COLOURS, "WEBP", lossless=True),
+        "bmp": saved(COLOURS, "BMP"),
+        "bmp-palette": saved(palette, "BMP"),
+        "gif": saved(palette, "GIF", save_all=True, append_images=[Image.fromarray(STRIPES)]),
+        "ppm": saved(COLOURS, "PPM"),
+        "jp2": saved(COLOURS, "JPEG2000"),
+        "avif": saved(COLOURS, "AVIF", **noted),
+        "heic": heic.getvalue(),
+    }
+
+
+def swap_headers(rng: Generator, content: bytearray) -> bytearray:
+    other = list(whole_files().values())[rng.integers(len(whole_files()))]
+    length = rng.integers(4, 64)
+    return bytearray(other[:length] + content[length:])
+
+
+def wrong_size(rng: Generator, content: bytearray) -> bytearray:
+    """Write another size into a PNG's header, and the check sum that fits it."""
+    sizes = [0, 1, 63, 65, 5000, 9000, 40_000, 2**31 - 1, 2**32 - 1, int(rng.integers(2**20))]
+    if content.startswith(b"\x89PNG"):
+        struct.pack_into(">II", content, 16, *(int(size) for size in rng.choice(sizes, 2)))
+        struct.pack_into(">I", content, 29, zlib.crc32(content[12:29]))
+        return content
+    for size in (64, 48):  # in the others wherever their size stands
+        for order in "<>":
+            written = struct.pack(f"{order}H", size)
+            place = content.find(written)
+            if place >= 0:
+                struct.pack_into(f"{order}H", content, place, int(rng.choice(sizes)) & 0xFFFF)
+    return content
+
+
+WAYS: tuple[Callable[[Generator, bytearray], bytearray], ...] = (
+    *damage.WAYS, swap_headers, wrong_size,
+)  # fmt: skip
+
+
+def damaged(seed: int) -> tuple[str, bytes]:
+    """Make the damaged photo of a number, and say what it is."""
+    rng = np.random.default_rng(seed)
+    kinds = list(whole_files())
+    kind, way = kinds[rng.integers(len(kinds))], WAYS[rng.integers(len(WAYS))]
+    return f"{kind} {way.__name__}", bytes(way(rng, bytearray(whole_files()[kind])))
+
+
+SIZES = ((1, 1), (1, 2), (3, 1), (1, 900), (900, 1), (2, 2), (7, 5), (48, 256), (300, 300))
+"""Rows and columns of odd photos."""
+
+MODES = ("1", "L", "LA", "P", "RGB", "RGBA", "CMYK", "I;16", "F", "I", "HSV", "LAB", "YCbCr")
+
+_EXPOSURE, _APERTURE, _SENSITIVITY = 0x829A, 0x829D, 0x8827
+_ORIENTATION, _MAKER, _MODEL, _NOTES = 0x0112, 0x010F, 0x0110, 0x8769
+
+
+def odd(seed: int) -> tuple[str, bytes]:
+    """Make a whole photo of an odd size, kind of pixels, or with odd notes; say what it is."""
+    rng = np.random.default_rng(seed)
+    mode = MODES[rng.integers(len(MODES))]
+    picture = _picture(rng, mode)
+    buffer = io.BytesIO()
+    for name in rng.permutation(["PNG", "JPEG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "JPEG2000"]):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of what is to be odd
+                picture.save(buffer, str(name), exif=_odd_notes(rng))
+        except (OSError, ValueError, KeyError, TypeError):  # no such pixels, or notes, in this one
+            buffer = io.BytesIO()
+            continue
+        return f"{mode} {name}", buffer.getvalue()
+    return f"{mode} as numbers", picture.tobytes()
+
+
+def _picture(rng: Generator, mode: str) -> Image.Image:
+    rows, columns = SIZES[rng.integers(len(SIZES))]
+    waves = np.sin(np.arange(columns) / rng.uniform(1, 60)) * rng.choice([0, 1, 40, 127]) + 128
+    levels = np.broadcast_to(waves, (rows, columns)) + rng.normal(0, rng.choice([0, 5]), (rows, 1))
+    if mode == "I;16":
+        return Image.fromarray((levels * 257).clip(0, 65535).astype(np.uint16))
+    if mode in ("F", "I"):
+        scale = rng.choice([1e-3, 1.0, 1e6]) if mode == "F" else 1.0
+        numbers = (levels * scale).astype(np.float32 if mode == "F" else np.int32)
+        if mode == "F" and rng.integers(2):
+            numbers.flat[rng.integers(numbers.size)] = rng.choice([np.nan, np.inf, -np.inf, 1e38])
+        return Image.fromarray(numbers)
+    grey = Image.fromarray(levels.clip(0, 255).astype(np.uint8))
+    if mode in ("HSV", "LAB", "YCbCr", "CMYK"):
+        grey = grey.convert("RGB")
+    return grey if mode == "LAB" else grey.convert(mode)
+
+
+def _odd_notes(rng: Generator) -> bytes:
+    """Notes of a camera whose values are out of all range, or of another kind."""
+    exif = Image.Exif()
+    texts = ["", "Maker", "\x1b[31m", "a" * 5000, "\n\n", "é", "\0\0"]
+    exif[_ORIENTATION] = int(rng.choice([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 255, 65535]))
+    exif[_MAKER], exif[_MODEL] = str(rng.choice(texts)), str(rng.choice(texts))
+    numbers = [0.0, 1e-9, 1 / 8000, 1.0, 1e9, float("nan")]
+    exif.get_ifd(_NOTES).update(
+        {
+            _EXPOSURE: float(rng.choice(numbers[:5])),
+            _APERTURE: float(rng.choice(numbers[:5])),
+            _SENSITIVITY: int(rng.choice([0, 1, 100, 65535])),
+        }
+    )
+    content = exif.tobytes()
+    if rng.integers(3) == 0:
+        place = int(rng.integers(len(content)))
+        content = content[:place] + rng.bytes(4) + content[place + 4 :]
+    return content

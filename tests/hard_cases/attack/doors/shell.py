@@ -1,0 +1,277 @@
+"""The command lines of both programs, run to their end or to an interrupt."""
+
+import io
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from random import Random
+from types import FrameType
+from typing import NoReturn
+
+import damaged_photos
+import numpy as np
+from PIL import Image
+
+import occ_model as occ
+from hard_cases.attack import chance as made
+from hard_cases.attack.promise import Door
+from occ_model.effects.registry import NAMES
+from occ_model.program import (
+    EXIT_FAILURE,
+    EXIT_INTERRUPTED,
+    EXIT_MISUSE,
+    INTERRUPTED,
+)
+from occ_model.scene.parameters import PARAMETERS
+
+_INTERRUPT_S = 0.4
+"""Processor time after which a command is interrupted, as by Ctrl-C: most begin minutes of work."""
+
+_AGAIN_S = 0.01
+
+_LONGEST_LINE = 4200
+"""Characters of a line on standard error: a sentence, after the program's name."""
+
+COMMANDS: dict[str, tuple[str, ...]] = {
+    "render": ("-o", "{out}.png"),
+    "animate": ("--vary", "distance=0.5:1:x3", "-o", "{out}.gif"),
+    "film": ("--frames", "3", "-o", "{out}.mkv"),
+    "film-study": ("--frequencies", "4kHz", "--gaps", "10", "--bits", "8", "--frames", "4"),
+    "plan": (),
+    "accuracy": (),
+    "sweep": ("--vary", "distance=0.5,1", "--images", "1", "--out", "{out}.csv"),
+    "limits": ("--images", "1", "--jobs", "1"),
+    "bench": ("--bits", "10", "--decoder", "threshold"),
+    "most-bits": ("--pictures", "1", "--decoder", "threshold"),
+    "decode": ("{in}.png",),
+    "match": ("{in}.png", "--jobs", "1"),
+    "figures": ("--out", "{out}", "--images", "1"),
+    "transmit": ("-o", "{out}"),
+    "codes": (),
+    "presets": (),
+    "parameters": (),
+}
+"""Words with which each command is in order, after those of a small scene."""
+
+_SCENELESS = ("bench", "figures", "codes", "presets", "parameters")
+
+_SMALL = ("--scene", "{in}.toml")
+
+OPTIONS = (
+    "--preset", "--scene", "--set", "--tolerance", "--observable", "--on", "--off", "--noise",
+    "--seed", "-o", "--out", "--vary", "--decoder", "--rate", "--back", "--frames", "--frame-rate",
+    "--frame-jitter", "--camera-drift", "--transmitter-drift", "--exposures", "--waypoint",
+    "--frequencies", "--gaps", "--bits", "--example", "--images", "--fps", "--jobs", "--plot",
+    "--show", "--path", "--scheme", "--exposure", "--snr", "--at-exposure", "--at-snr", "--rows",
+    "--payload-bits", "--data", "--pictures", "--scan-axis", "--channel", "--follow",
+    "--readout-tolerance", "--led-frequency", "--sent", "--estimate", "--fit-gamma", "--region",
+    "--lamps", "--chips", "--photo-68us", "--photo-136us", "--board", "--markdown", "--picture",
+    "--rows-step", "--save-scene", "--help", "-h", "--version", "--pre", "--s", "--o", "--no-such",
+    "-x", "--", "-", "---", "--set=", "-oo", "--out=", "--photo", "--match", "--overlay", "--size",
+    "--screenshot", "--mode", "--dock", "--theme", "--fresh",
+)  # fmt: skip
+
+_KEPT = ("--jobs", "--images", "--cluster")
+"""Options whose valid values may start processes, networks or hours of work."""
+
+
+def _value(chance: Random, folder: Path) -> str:
+    """A value of an option: a path, a setting, a word that some option knows, or anything."""
+    kind = chance.randrange(7)
+    if kind == 0:
+        return str(folder / chance.choice(_FILES))
+    if kind == 1:
+        return f"{chance.choice((*PARAMETERS,))}={made.quantity(chance)}"
+    if kind == 2:
+        return chance.choice((
+            *NAMES, "threshold", "matched", "sequence", "equalizer", "both", "all", "exact",
+            "camera", "receiver", "profile", "lines", "columns", "red", "readout_time", "read",
+            "scene", "pico",
+            "0:9,0:9", "1s:offset_x=2cm,roll=5deg", "manchester/preamble", "phone-68us", "10,20",
+            "1kHz,2kHz", "1280x800", "dark", "split", "explore", "map",
+        ))  # fmt: skip
+    if kind in (3, 4):
+        return made.quantity(chance)
+    if kind == 5:
+        return f"{chance.choice((*PARAMETERS,))}={':'.join(made.number(chance) for _ in range(3))}"
+    return made.word(chance)
+
+
+_FILES = (
+    "in.png", "in.toml", "in.csv", "damaged.png", "folder", "nowhere/out.png", "missing.toml",
+    "out.png", "out.csv", "out.toml", "out.pdf", "out.svg", "out.gif", "out.mkv", "out.mp4", "out",
+    "link", "in.png/x", "folder/../in.png", "a" * 300, ".", "..", "é\n.png", "out.PNG", "empty",
+)  # fmt: skip
+
+
+@cache
+def _picture() -> bytes:
+    scene = occ.load_preset("phone-68us").replace(rows=20)
+    buffer = io.BytesIO()
+    Image.fromarray(np.ascontiguousarray(occ.render(scene).image)).save(buffer, "PNG")
+    return buffer.getvalue()
+
+
+def _fill(folder: Path, chance: Random) -> None:
+    """Write the files that the command lines name."""
+    scene = occ.Scene().replace(rows=8, columns=120, readout_time=20e-6, distance=0.6)
+    (folder / "in.toml").write_text(scene.to_toml(), "utf-8")
+    (folder / "in.png").write_bytes(_picture())
+    (folder / "in.csv").write_text("a,b\n1,2\n", "utf-8")
+    (folder / "damaged.png").write_bytes(damaged_photos.damaged(chance.getrandbits(32))[1])
+    (folder / "empty").touch()
+    (folder / "folder").mkdir()
+    (folder / "link").symlink_to("in.png")
+
+
+def _words(chance: Random, folder: Path, command: str, usual: Sequence[str]) -> list[str]:
+    """A command line that is in order but for a few words."""
+    paths = {"in": str(folder / "in"), "out": str(folder / "out")}
+    words = [word.format(**paths) for word in usual]
+    for _ in range(chance.choice((0, 1, 1, 1, 2, 3))):
+        place, kind = chance.randint(0, len(words)), chance.randrange(6)
+        if kind < 3:
+            option = chance.choice(OPTIONS)
+            value = _value(chance, folder)
+            if option in _KEPT and chance.random() < 0.8:
+                value = chance.choice(("0", "1", "-1", "x", "1e9", "99999999999"))
+            words[place:place] = [f"{option}={value}"] if chance.random() < 0.2 else [option, value]
+        elif kind == 3 and words:
+            words[place % len(words)] = _value(chance, folder)
+        elif kind == 4 and words:
+            del words[place % len(words)]
+        elif words:
+            words.insert(place, words[place % len(words)])
+    return [command, *words] if command else words
+
+
+class _Long:
+    """Interrupts a command that goes on for long, as Ctrl-C does."""
+
+    def __enter__(self) -> None:
+        self._hook = sys.unraisablehook
+        sys.unraisablehook = self._hear_unraisable
+        self._late = signal.getsignal(signal.SIGPROF)
+        self._left = signal.getitimer(signal.ITIMER_PROF)
+        signal.signal(signal.SIGPROF, self._interrupt)
+        signal.setitimer(signal.ITIMER_PROF, _INTERRUPT_S)
+
+    @staticmethod
+    def _interrupt(_signal: int, _frame: FrameType | None) -> NoReturn:
+        raise KeyboardInterrupt
+
+    def _hear_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
+        """Interrupt a little later what could not be interrupted, as a second Ctrl-C does."""
+        if issubclass(what.exc_type, KeyboardInterrupt):
+            signal.setitimer(signal.ITIMER_PROF, _AGAIN_S)
+        else:
+            self._hook(what)
+
+    def __exit__(self, *_fault: object) -> None:
+        sys.unraisablehook = self._hook
+        signal.signal(signal.SIGPROF, self._late)
+        signal.setitimer(signal.ITIMER_PROF, *self._left)
+
+
+@contextmanager
+def _streams() -> Iterator[tuple[io.StringIO, io.StringIO]]:
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+        yield out, err
+
+
+def ended(main: Callable[[Sequence[str]], int], words: Sequence[str]) -> tuple[int, str, str]:
+    """Run a program's main function; give its exit code, its output and its messages."""
+    with _streams() as (out, err):
+        try:
+            with _Long():
+                code = main(words)
+        except SystemExit as left:
+            code = left.code if isinstance(left.code, int) else EXIT_FAILURE
+        except KeyboardInterrupt:  # when the command had just ended
+            code = EXIT_INTERRUPTED
+            err.write(f": {INTERRUPTED}\n")
+    return code, out.getvalue(), err.getvalue()
+
+
+def messages(code: int, out: str, err: str) -> list[str]:
+    """See that a program ended as it should, and give its sentences."""
+    for line in out.split("\n"):
+        assert line.isprintable(), f"not one printable line of output: {line!r}"
+    assert "Traceback" not in err, err
+    assert "mistake in this program" not in err, err
+    lines = [line.split("\r")[-1] for line in err.split("\n")]
+    lines = [line for line in lines if line.strip()]
+    for line in lines:
+        assert line.isprintable(), f"not one printable line: {line!r}"
+        assert len(line) <= _LONGEST_LINE, f"{len(line)} characters"
+    if code == 0:
+        return []
+    assert code in (EXIT_FAILURE, EXIT_MISUSE, EXIT_INTERRUPTED), code
+    if code == EXIT_MISUSE:
+        # After the usage of a wrong option there is one line too.
+        said = [line for line in lines if line.startswith("occ-")]
+        assert len(said) == 1, err
+        assert lines[-1] == said[0], err
+    return ["It said so."]
+
+
+def _run(chance: Random, folder: Path) -> list[str]:
+    from occ_model.cli import main
+
+    _import_all()
+    _fill(folder, chance)
+    command = chance.choice((*COMMANDS,))
+    usual = COMMANDS[command] if command in _SCENELESS else (*_SMALL, *COMMANDS[command])
+    words = _words(chance, folder, command, usual)
+    before = _inputs(folder)
+    code, out, err = ended(main, words)
+    try:
+        assert _inputs(folder) == before, "an input was overwritten"
+        return messages(code, out, err)
+    except AssertionError as fault:
+        raise AssertionError(f"{words} -> {code}: {fault}") from None
+
+
+def _inputs(folder: Path) -> tuple[bytes, ...]:
+    return tuple((folder / name).read_bytes() for name in ("in.toml", "in.png"))
+
+
+@cache
+def _import_all() -> None:
+    """Import what commands import late: an import that is interrupted may not be repeated."""
+    import_module("occ_model.commands.command_line")
+    for name in ("accuracy", "animation", "bench", "films", "paper", "sweep", "transmitter_files"):
+        import_module(f"occ_model.figures.{name}")
+
+
+SHELL = Door("command lines", "words of 17 commands", _run, (), share=60, patience=10.0)
+
+
+def _open(chance: Random, folder: Path) -> list[str]:
+    import pytest
+
+    from occ_gui.app import command_line
+
+    def start(*_arguments: object) -> NoReturn:
+        raise occ.OccError("The window opens.")
+
+    _fill(folder, chance)
+    words = _words(chance, folder, "", chance.choice((_SMALL, (), ("{in}.png",))))
+    before = _inputs(folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("OCC_STATE", str(folder / "state"))
+        patch.setattr(command_line, "start", start)
+        code, out, err = ended(command_line.main, words)
+    try:
+        assert _inputs(folder) == before, "an input was overwritten"
+        said = messages(code, out, err)
+    except AssertionError as fault:
+        raise AssertionError(f"{words} -> {code}: {fault}") from None
+    return [] if "The window opens." in err else said
+
+
+WINDOW_SHELL = Door("window's command lines", "words of occ-gui", _open, (), share=60)

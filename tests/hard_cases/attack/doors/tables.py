@@ -1,0 +1,109 @@
+"""Tables: a sweep's results that are gone on with, data sets, and the table of many photos."""
+
+import csv
+from functools import cache
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+
+import damage
+import damaged_photos
+import numpy as np
+
+import occ_model as occ
+from hard_cases.attack import chance as made
+from hard_cases.attack.promise import Door
+from occ_model.photo.many.other_programs import lines_to_paste
+from occ_model.results import RateSettings, SweepRequest
+from occ_model.results.photo_table_csv import csv_text
+from occ_model.study.bench.data_set import COLUMNS, load_samples, read_samples
+from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.sweep import run_sweep
+
+
+@cache
+def _sweep() -> tuple[SweepRequest, bytes]:
+    """A small sweep and its complete table; at its first points the model refuses the scene."""
+    scene = occ.load_preset("phone-136us").replace(yaw=1.3, rows=20, panel_height=0.01)
+    axes = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
+    request = checked_request(scene, axes, RateSettings(1, ("threshold", "matched"), 3))
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "results.csv")
+        run_sweep(request, results=path)
+        return request, path.read_bytes()
+
+
+def _resumed(chance: Random, folder: Path) -> list[str]:
+    request, whole = _sweep()
+    path = folder / "results.csv"
+    kind = chance.random()
+    if kind < 0.5:
+        content = made.encoded(chance, made.damaged(chance, whole.decode()))
+    elif kind < 0.7:
+        content = whole[: chance.randrange(len(whole))]
+    else:
+        content = damage.damaged(np.random.default_rng(chance.getrandbits(32)), whole)
+    path.write_bytes(content)
+    try:
+        run_sweep(request, results=path)
+    except occ.OutputError:
+        assert path.read_bytes() == content, "a refused file was changed"
+        raise
+    assert path.read_bytes() == whole
+    return []
+
+
+@cache
+def _data_set() -> tuple[str, bytes]:
+    """The table of a small data set, and its picture."""
+    row = "photo.png,1e-6,20,100,400"
+    return "\n".join((",".join((*COLUMNS, "note")), *[f"{row},a"] * 3, "")), _striped_png()
+
+
+@cache
+def _striped_png() -> bytes:
+    return damaged_photos.whole_files()["png"]
+
+
+def _samples(chance: Random, folder: Path) -> list[str]:
+    table, picture = _data_set()
+    (folder / "photo.png").write_bytes(picture)
+    (folder / "table.csv").write_bytes(made.encoded(chance, made.damaged(chance, table)))
+    samples = load_samples(folder / "table.csv")
+    failures = []
+    for reading in read_samples(samples[:2], ("threshold",)):
+        assert 0.0 < reading.sample.symbol < np.inf
+        failures += [reading.failure] if reading.failure else []
+    return failures
+
+
+_PHOTO_NAMES = ("photo", "a,b", "a;b", "=1+1", "a\nb", "é", "#")
+
+
+def _many_photos(chance: Random, folder: Path) -> list[str]:
+    scene = occ.load_preset("phone-68us").replace(pattern="10", switching_frequency=5e3)
+    paths = []
+    for number in range(chance.choice((1, 2, 4))):
+        make = chance.choice((damaged_photos.damaged, damaged_photos.odd))
+        path = folder / f"{chance.choice(_PHOTO_NAMES)}-{number}"
+        path.write_bytes(make(chance.getrandbits(32))[1])
+        paths.append(path)
+    table = occ.match_photos(paths, scene, estimate=chance.choice(("readout_time",)), jobs=1)
+    assert [row.path for row in table.rows] == paths
+    text = csv_text(table, list(lines_to_paste(table).values()))
+    data = text[text.index("\nfile,") + 1 :]
+    rows = list(csv.DictReader(data.splitlines(keepends=True), strict=True))
+    assert [row["file"] for row in rows] == [str(path) for path in paths]
+    assert [row["verdict"] for row in rows] == [row.verdict for row in table.rows]
+    return [*table.notes, *(row.note for row in table.rows if row.note)]
+
+
+def _table(chance: Random, folder: Path) -> list[str]:
+    return chance.choice((_resumed, _resumed, _samples, _many_photos))(chance, folder)
+
+
+TABLES = Door(
+    "tables", "results that are gone on with, data sets, many photos", _table,
+    (occ.OutputError, occ.PhotoError, occ.SceneFileError, occ.ParameterError), share=40,
+    patience=20.0,
+)  # fmt: skip

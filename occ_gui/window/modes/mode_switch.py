@@ -76,6 +76,7 @@ class ModeSwitch(QObject):
 
     def _enter(self) -> None:
         window = self._window
+        size = window.size()
         window.setUpdatesEnabled(False)
         try:
             self._show_page(MODES[self.mode].centre)
@@ -84,6 +85,9 @@ class ModeSwitch(QObject):
             arrange(window, self._docks, MODES[self.mode])
             if self.mode in self.layouts:
                 window.restoreState(self.layouts[self.mode], self.version)
+            # A layout of a wider window would widen it.
+            if window.size() != size and not window.isMaximized():
+                window.resize(size)
         finally:
             window.setUpdatesEnabled(True)
 

@@ -154,6 +154,20 @@ def test_the_pane_of_a_mode_has_most_of_the_window(
         assert window.size() == size
 
 
+def test_a_mode_that_was_left_in_a_wider_window_does_not_widen_it(
+    application: Application,
+) -> None:
+    window = application.window
+    window.resize(1920, 1000)
+    QApplication.processEvents()
+    window.modes.switch("effects")
+    window.resize(1000, 700)
+    QApplication.processEvents()
+    window.modes.switch("explore")
+    QApplication.processEvents()
+    assert window.size() == QSize(1000, 700)
+
+
 def test_a_photo_is_opened_in_the_mode_for_it(
     application: Application, user: User, photo_file: Path
 ) -> None:

@@ -221,6 +221,7 @@ class Application(QObject):
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
         self.decode.decoder_chosen.connect(self.simulation.read_with)
+        self.detection_map.most_bits.went.connect(self.decode.choose_decoder)
 
     @property
     def is_idle(self) -> bool:

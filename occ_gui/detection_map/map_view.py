@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.decoder_maps import MapPlots
 from occ_gui.detection_map.map_legend import MapLegend
+from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -94,6 +95,7 @@ class MapView(QWidget):
         self.left_out.hide()
         self.advice = AdviceView(decoders)
         self.cards = self.advice.cards
+        self.most_bits = MostBitsCard()
         self._lay_out()
         self._show_status()
         self._connect()
@@ -143,6 +145,7 @@ class MapView(QWidget):
         column.setContentsMargins(4, 2, 4, 2)
         column.setSpacing(2)
         column.addWidget(self.cards)
+        column.addWidget(self.most_bits)
         column.addLayout(head)
         column.addWidget(self.plots, 1)
         column.addLayout(foot)
@@ -158,7 +161,8 @@ class MapView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Show the limits above the map where there is space for both."""
         super().resizeEvent(event)
-        self.cards.setVisible(self.height() >= _LEAST_WITH_CARDS)
+        for card in (self.cards, self.most_bits):
+            card.setVisible(self.height() >= _LEAST_WITH_CARDS)
 
     def _connect(self) -> None:
         self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))

@@ -6,6 +6,7 @@ from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map.advice_controller import AdvisorController
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.most_bits_controller import MostBitsController
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.worker import PRELOAD
@@ -56,14 +57,17 @@ class DetectionMapWiring(QObject):
     ) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
-        self.queue = WorkQueue(4, lambda: new_workers())
-        for_map, for_strips, for_advice, self.for_bench = self.queue.channels
+        self.queue = WorkQueue(5, lambda: new_workers())
+        for_map, for_strips, for_advice, self.for_bench, for_most = self.queue.channels
         self.frame_rate = frame_rate or FrameRate()
         self.map = DetectionMapController(scenes, settings, for_map, pane, self.frame_rate)
         self.slider_strips = SliderStripController(
             scenes, settings, for_strips, strips, strips.strips
         )
         self.advisor = AdvisorController(scenes, settings, self.queue, for_advice, pane.advice)
+        self.most_bits = MostBitsController(
+            scenes, self.frame_rate, self.queue, for_most, pane.most_bits
+        )
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
         self._start.timeout.connect(self._begin_strips)
@@ -81,11 +85,14 @@ class DetectionMapWiring(QObject):
         pane.advice.cards.asked.connect(self.advisor.search_in_turn)
         pane.advice.cancelled.connect(self.advisor.cancel)
         pane.advice.destination_chosen.connect(self.advisor.take_there)
+        pane.most_bits.asked.connect(self.most_bits.start)
+        pane.most_bits.cancelled.connect(self.most_bits.cancel)
+        pane.most_bits.chosen.connect(self.most_bits.go)
 
     @property
     def is_idle(self) -> bool:
         """Whether all that is seen is measured, and nothing is about to be measured."""
-        parts = (self.map, self.slider_strips, self.advisor)
+        parts = (self.map, self.slider_strips, self.advisor, self.most_bits)
         return not self._start.isActive() and all(part.is_idle for part in parts)
 
     def _begin_strips(self) -> None:
@@ -101,5 +108,6 @@ class DetectionMapWiring(QObject):
     def stop(self) -> None:
         """Stop measuring and end the processes."""
         self._start.stop()
-        self.advisor.cancel()  # it would look for progress in a pane that is gone
+        for searcher in (self.advisor, self.most_bits):
+            searcher.cancel()  # it would look for progress in a pane that is gone
         self.queue.stop()

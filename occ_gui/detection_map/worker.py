@@ -11,7 +11,7 @@ from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import RateSettings, SignalPath, SweepPoint
+from occ_model.results import MostBits, RateSettings, SignalPath, SweepPoint
 from occ_model.results.advice import Advice
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
@@ -20,6 +20,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import theory
 from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits
+from occ_model.study.most_bits import most_bits
 from occ_model.study.observation import panel_span
 from occ_model.study.sweep.points import measure_points
 
@@ -149,3 +150,19 @@ def advise(
         tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
     )  # fmt: skip
     return advice_of(found)
+
+
+def carry_most(
+    scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
+) -> MostBits:
+    """Find which code, frequency and number of bits carry most with a decoder.
+
+    Raises
+    ------
+    OccError
+        The scene has no picture.
+    """
+    most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
+    frames = min(frames_a_second, most)
+    (found,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)
+    return found

@@ -17,12 +17,9 @@ from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory
-from occ_model.study.most_bits import most_bits
+from occ_model.study.most_bits import DECODERS, most_bits
 
 _BAR = "{desc}: {n_fmt} of {total_fmt} combinations tried, {elapsed}"
-
-_DEFAULT = ("threshold", "equalizer", "sequence")
-"""The decoders that read payloads of any length."""
 
 
 def add_to(commands: Commands) -> None:
@@ -33,7 +30,7 @@ def add_to(commands: Commands) -> None:
     add_scene_options(parser)
     parser.add_argument(
         "--decoder", action="append", type=decoder_name,
-        help=f"may be repeated; default: {', '.join(_DEFAULT)}",
+        help=f"may be repeated; default: {', '.join(DECODERS)}",
     )  # fmt: skip
     parser.add_argument(
         "--fps", type=number, default=FRAMES_A_SECOND,
@@ -49,7 +46,7 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
-    names = tuple(dict.fromkeys(options.decoder or _DEFAULT))
+    names = tuple(dict.fromkeys(options.decoder or DECODERS))
     with progress_bar(total=1, bar_format=_BAR, leave=False, delay=0.5) as bar:
 
         def show(decoder: str, done: int, of: int) -> None:

@@ -29,6 +29,15 @@ from occ_model.transmitter.scheme import scheme_of
 _TRIED = ("manchester", "4b6b", "8b10b")
 """The line codes that are tried: of those as short, only the better known."""
 
+DECODERS = ("threshold", "equalizer", "sequence")
+"""The decoders that read payloads of any length, the quickest search first."""
+
+VARIED = (
+    "pattern", "line_code", "framing", "preamble", "error_correction", "payload",
+    "switching_frequency",
+)  # fmt: skip
+"""The parameters that the search chooses; its result depends on all others."""
+
 _FRAMING = "preamble"
 
 _STEP = 1.15
@@ -103,6 +112,29 @@ def most_bits(
             MostBits(name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure)
         )
     return tuple(found)
+
+
+def unvaried(scene: Scene) -> Scene:
+    """Return a scene without what the search chooses: equal ones have the same result."""
+    frequency = quantity("switching_frequency").default
+    return _sending(scene, _TRIED[0], 1, frequency).replace(code=0, start_time=0.0)
+
+
+def example_of(found: MostBits, seed: int = 1) -> Scene | None:
+    """Return the scene that carries most with a payload like those it was tried with.
+
+    Parameters
+    ----------
+    found
+        The result of the search.
+    seed
+        Seed of the search.
+    """
+    if found.scene is None:
+        return None
+    length = found.scene.transmitter.payload_length
+    bits = np.random.default_rng(seed).integers(0, 2, length)
+    return with_payload(found.scene, bits.tolist())
 
 
 def _why(candidates: Sequence[_Candidate]) -> str:

@@ -5,7 +5,7 @@ import pytest
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import ParameterError
-from occ_model.study.most_bits import _candidates
+from occ_model.study.most_bits import VARIED, _candidates, example_of, unvaried
 
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
 
@@ -23,6 +23,14 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     assert found.bits_a_second == 20.0 * length
     assert found.scene.camera == FAR.camera
     assert occ.bit_error_rate(found.scene, "threshold", 3 * length).rate < 0.5
+    chosen = {name: found.scene.value(name) for name in VARIED}
+    assert FAR.replace(**chosen) == found.scene
+    assert unvaried(found.scene) == unvaried(FAR)
+    example = example_of(found)
+    assert example is not None
+    assert example.transmitter.payload_length == length
+    read = occ.decode(occ.render(example).image, example, decoder="threshold")
+    assert f"bits:{''.join(map(str, read.bits))}" == example.transmitter.payload
 
 
 def test_more_bits_are_not_read() -> None:

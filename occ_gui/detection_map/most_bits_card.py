@@ -1,0 +1,128 @@
+"""Card of the search for the code, frequency and number of bits that carry most."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QWidget
+
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_model.results import MostBits
+from occ_model.scene.units import HERTZ
+
+_DIGITS = 3
+
+
+class MostBitsCard(QFrame):
+    """One line: the best that was found, a button to search or cancel, and one to go there.
+
+    Parameters
+    ----------
+    parent
+        The parent widget.
+    """
+
+    asked = Signal()
+    """The user asks for the search."""
+
+    cancelled = Signal()
+    """The user cancels it."""
+
+    chosen = Signal(object)
+    """The user goes to what was found, a :class:`~occ_model.results.MostBits`."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("card")
+        self._best: MostBits | None = None
+        self._failures: list[str] = []
+        self._is_running = self._is_outdated = False
+        self._state = ""
+        self.text = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.text.setAccessibleName(self.tr("What carries most bits a second"))
+        self.search = self._button(
+            self.tr("Search"),
+            self.tr(
+                "Try line codes, frequencies and numbers of bits at the scene's exposure and "
+                "distance, with each decoder: some seconds, a minute for the last decoder."
+            ),
+        )
+        self.cancel = self._button(self.tr("Cancel"), self.tr("Stop the search."))
+        self.go = self._button(
+            self.tr("Go"), self.tr("Send this code, frequency and number of bits, and read it.")
+        )
+        self.go.setAccessibleName(self.tr("Go to what carries most"))
+        self.search.clicked.connect(self.asked)
+        self.cancel.clicked.connect(self.cancelled)
+        self.go.clicked.connect(lambda: self.chosen.emit(self._best))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(12, 4, 8, 4)
+        row.setSpacing(8)
+        row.addWidget(self.text, 1)
+        for button in (self.search, self.cancel, self.go):
+            row.addWidget(button)
+        self._show()
+
+    def _button(self, text: str, meaning: str) -> QPushButton:
+        button = QPushButton(text)
+        button.setToolTip(meaning)
+        button.setAccessibleName(text)
+        return button
+
+    def show_begun(self) -> None:
+        """Show that a search has begun."""
+        self._best, self._failures, self._state = None, [], ""
+        self._is_running, self._is_outdated = True, False
+        self._show()
+
+    def show_tried(self, decoder: str, pictures: int) -> None:
+        """Show with which decoder the search is busy, and how many pictures it has tried."""
+        self._state = self.tr("searching with {decoder}, {count} pictures tried").format(
+            decoder=decoder, count=pictures
+        )
+        self._show()
+
+    def show_found(self, found: MostBits) -> None:
+        """Show what was found with one decoder, if it is better than with those before."""
+        if found.scene is None:
+            self._failures.append(f"{found.decoder}: {found.failure}")
+        elif self._best is None or found.bits_a_second > self._best.bits_a_second:
+            self._best = found
+        self._show()
+
+    def show_ended(self, sentence: str) -> None:
+        """Show that the search has ended; a sentence says why if it is incomplete."""
+        self._is_running, self._state = False, sentence
+        self._show()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether what was found is of an earlier scene."""
+        self._is_outdated = outdated
+        self._show()
+
+    def _show(self) -> None:
+        best = self._best
+        self.search.setVisible(not self._is_running and (best is None or self._is_outdated))
+        self.cancel.setVisible(self._is_running)
+        self.go.setVisible(best is not None)
+        self.go.setEnabled(not self._is_outdated)
+        self.text.setEnabled(not self._is_outdated)
+        self.text.set_full_text(self._with_state(self._sentence(best)))
+
+    def _with_state(self, sentence: str) -> str:
+        """Add to a sentence how far the search is, or why it has no result."""
+        parts = (sentence, self._state, *(self._failures if self._best is None else ()))
+        return "; ".join(part for part in parts if part)
+
+    def _sentence(self, best: MostBits | None) -> str:
+        if best is None or best.scene is None:
+            return self.tr("Which code, frequency and bits carry most?")
+        sent = best.scene.transmitter
+        text = self.tr(
+            "{rate:,.0f} bits a second, {bits} a picture in {code} at {frequency}, read by {decoder}"
+        ).format(
+            rate=best.bits_a_second, bits=sent.payload_length, code=sent.line_code,
+            frequency=HERTZ.format(sent.switching_frequency, _DIGITS), decoder=best.decoder,
+        )  # fmt: skip
+        if self._is_outdated:
+            return self.tr("Earlier scene: {text}").format(text=text)
+        return (self.tr("So far: {text}") if self._state else self.tr("Most: {text}")).format(
+            text=text
+        )

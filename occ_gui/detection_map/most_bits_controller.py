@@ -1,0 +1,159 @@
+"""Controller of the search for what carries most: in the background, when the user asks for it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from occ_gui.background.signals import JobChannel, WorkQueue
+from occ_gui.detection_map.worker import carry_most
+from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.scene.gesture import NO_GESTURE
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.parallel.job import Job, Stage
+from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.results import MostBits
+from occ_model.scene.scene import Scene
+from occ_model.study.most_bits import DECODERS, VARIED, example_of, unvaried
+
+_COUNTER = len(QUICK_DECODERS) + 1
+"""The counter of the pictures tried: those before are the advice's."""
+
+_RANK = -1
+"""Below all others: somebody waits for it, and it leaves them a process."""
+
+_LOOK_MS = 200
+
+
+@dataclass(frozen=True, slots=True)
+class MostBitsRequest:
+    """What the search depends on.
+
+    Parameters
+    ----------
+    scene
+        The scene without what the search chooses.
+    frames_a_second
+        Pictures a second.
+    """
+
+    scene: Scene
+    frames_a_second: float
+
+    def stages(self) -> Iterator[Stage]:
+        """Give one job for each decoder, one after the other: other work keeps its process."""
+        for decoder in DECODERS:
+            job = Job(carry_most, (self.scene, decoder, self.frames_a_second), _COUNTER)
+            yield Stage(_RANK, (job,))
+
+
+class MostBitsPane(Protocol):
+    """A pane that shows the search."""
+
+    def show_begun(self) -> None:
+        """Show that a search has begun."""
+
+    def show_tried(self, decoder: str, pictures: int) -> None:
+        """Show with which decoder it is busy, and how many pictures it has tried."""
+
+    def show_found(self, found: MostBits) -> None:
+        """Show what was found with one decoder."""
+
+    def show_ended(self, sentence: str) -> None:
+        """Show that it has ended, and why where it is not complete."""
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether what was found is of an earlier scene."""
+
+
+class MostBitsController(QObject):
+    """Connects the scene, the job channel and the pane.
+
+    Parameters
+    ----------
+    scenes, frame_rate
+        What is searched for.
+    queue, channel
+        Do the work.
+    pane
+        Shows it.
+    """
+
+    went = Signal(str)
+    """The scene has become what carries most; the decoder that reads it."""
+
+    def __init__(
+        self,
+        scenes: SceneStore,
+        frame_rate: FrameRate,
+        queue: WorkQueue,
+        channel: JobChannel,
+        pane: MostBitsPane,
+    ) -> None:
+        super().__init__()
+        self._scenes, self._frame_rate = scenes, frame_rate
+        self._queue, self._channel, self._pane = queue, channel, pane
+        self._asked: MostBitsRequest | None = None
+        self._done = self._counted = 0
+        self._look = QTimer(self)
+        self._look.setInterval(_LOOK_MS)
+        self._look.timeout.connect(self._show_tried)
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(lambda _request: self._end(""))
+        channel.failed.connect(self._end)
+        scenes.changed.connect(self._move_on)
+        frame_rate.changed.connect(self._move_on)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being searched."""
+        return self._channel.is_idle
+
+    def _request(self) -> MostBitsRequest:
+        return MostBitsRequest(unvaried(self._scenes.scene), self._frame_rate.value)
+
+    def start(self) -> None:
+        """Search at the exposure and the distance of the current scene."""
+        request = self._asked = self._request()
+        self._done, self._counted = 0, self._queue.counted(_COUNTER)
+        self._pane.show_begun()
+        self._channel.put(request, request.stages)
+        self._show_tried()
+        self._look.start()
+
+    def cancel(self) -> None:
+        """Stop the search; what was found so far stays."""
+        if not self._channel.is_idle:
+            self._channel.cancel()
+            self._end(self.tr("cancelled"))
+
+    def go(self, found: MostBits) -> None:
+        """Let the scene be what was found, in one step."""
+        scene = example_of(found)
+        if scene is not None:
+            self._scenes.change(NO_GESTURE, **{name: scene.value(name) for name in VARIED})
+            self.went.emit(found.decoder)
+
+    def _show_tried(self) -> None:
+        if self._done < len(DECODERS):
+            tried = self._queue.counted(_COUNTER) - self._counted
+            self._pane.show_tried(DECODERS[self._done], tried)
+
+    def _take(self, _request: MostBitsRequest, results: list[MostBits]) -> None:
+        self._done += len(results)
+        for found in results:
+            self._pane.show_found(found)
+
+    def _move_on(self) -> None:
+        if self._asked is None:
+            return
+        outdated = self._request() != self._asked
+        if outdated and not self._channel.is_idle:
+            self._channel.cancel()
+            self._end(self.tr("the scene has changed"))
+        self._pane.show_outdated(outdated)
+
+    def _end(self, sentence: str) -> None:
+        self._look.stop()
+        self._pane.show_ended(sentence)

@@ -1,0 +1,187 @@
+"""The card of what carries most states the model's own result, and leads to what is read."""
+
+from collections.abc import Iterator
+from types import SimpleNamespace
+
+import pytest
+from gui.conftest import InlineWorkers, LazyWorkers
+from pytestqt.qtbot import QtBot
+
+from occ_gui.background.signals import WorkQueue
+from occ_gui.detection_map import worker
+from occ_gui.detection_map.most_bits_card import MostBitsCard
+from occ_gui.detection_map.most_bits_controller import MostBitsController
+from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_model.results import MostBits
+from occ_model.scene.scene import Scene
+from occ_model.study.most_bits import DECODERS, VARIED, unvaried
+
+LENGTHS = dict(zip(DECODERS, (112, 185, 40), strict=True))
+"""Bits a picture that the decoders pretend to read."""
+
+
+def found_by(decoder: str, scene: Scene, frames: float = 30.0) -> MostBits:
+    sent = unvaried(scene).replace(
+        payload="bits:" + "0" * LENGTHS[decoder], switching_frequency=28.8e3
+    )
+    return MostBits(decoder, sent, 10, frames * LENGTHS[decoder], frames, 66)
+
+
+def none_by(decoder: str) -> MostBits:
+    return MostBits(decoder, None, 10, 0.0, 30.0, 0, "None of 9 combinations was read.")
+
+
+@pytest.fixture
+def card(qtbot: QtBot) -> MostBitsCard:
+    made = MostBitsCard()
+    qtbot.addWidget(made)
+    made.show()
+    return made
+
+
+def buttons(card: MostBitsCard) -> set[str]:
+    return {b.text() for b in (card.search, card.cancel, card.go) if b.isVisible()}
+
+
+def test_the_card_asks_searches_and_leads_there(card: MostBitsCard, small_scene: Scene) -> None:
+    assert card.text.toolTip() == "Which code, frequency and bits carry most?"
+    assert buttons(card) == {"Search"}
+    card.show_begun()
+    card.show_tried("threshold", 12)
+    assert "searching with threshold, 12 pictures tried" in card.text.toolTip()
+    assert buttons(card) == {"Cancel"}
+    for decoder in DECODERS:
+        card.show_found(found_by(decoder, small_scene))
+    assert card.text.toolTip().startswith("So far: 5,550 bits a second")
+    card.show_ended("")
+    assert card.text.toolTip() == (
+        "Most: 5,550 bits a second, 185 a picture in manchester at 28.8 kHz, read by equalizer"
+    )
+    assert buttons(card) == {"Go"}
+
+
+def test_what_is_of_an_earlier_scene_is_marked_and_leads_nowhere(
+    card: MostBitsCard, small_scene: Scene
+) -> None:
+    card.show_begun()
+    card.show_found(found_by("threshold", small_scene))
+    card.show_ended("")
+    card.show_outdated(True)
+    assert card.text.toolTip().startswith("Earlier scene: ")
+    assert buttons(card) == {"Search", "Go"}
+    assert not card.go.isEnabled()
+
+
+def test_where_no_decoder_reads_anything_the_card_says_why(card: MostBitsCard) -> None:
+    card.show_begun()
+    card.show_found(none_by("threshold"))
+    card.show_ended("")
+    assert "threshold: None of 9 combinations was read." in card.text.toolTip()
+    assert buttons(card) == {"Search"}
+
+
+def test_a_cancelled_search_keeps_what_it_found_and_says_that_it_is_not_all(
+    card: MostBitsCard, small_scene: Scene
+) -> None:
+    card.show_begun()
+    card.show_found(found_by("threshold", small_scene))
+    card.show_ended("cancelled")
+    assert card.text.toolTip().startswith("So far: 3,360 bits a second")
+    assert card.text.toolTip().endswith("; cancelled")
+    assert card.go.isEnabled()
+
+
+class Bench:
+    """The controller with a scene and a card."""
+
+    def __init__(self, scene: Scene, card: MostBitsCard, workers: InlineWorkers) -> None:
+        self.scenes, self.frame_rate = SceneStore(scene, SettingsStore()), FrameRate()
+        self.card, self.workers = card, workers
+        self.queue = WorkQueue(1, lambda: workers)
+        (channel,) = self.queue.channels
+        self.controller = MostBitsController(
+            self.scenes, self.frame_rate, self.queue, channel, card
+        )
+        card.asked.connect(self.controller.start)
+        card.cancelled.connect(self.controller.cancel)
+        card.chosen.connect(self.controller.go)
+
+
+@pytest.fixture
+def bench(
+    small_scene: Scene,
+    card: MostBitsCard,
+    inline_workers: InlineWorkers,
+    monkeypatch: pytest.MonkeyPatch,
+) -> Iterator[Bench]:
+    def most_bits(
+        scene: Scene, decoders: tuple[str], *, frames_a_second: float, **_: object
+    ) -> tuple[MostBits]:
+        return (found_by(decoders[0], scene, frames_a_second),)
+
+    monkeypatch.setattr(worker, "most_bits", most_bits)
+    made = Bench(small_scene, card, inline_workers)
+    yield made
+    made.controller.cancel()
+    made.queue.stop()
+
+
+def test_go_makes_the_scene_what_was_found_in_one_step(bench: Bench, qtbot: QtBot) -> None:
+    told: list[str] = []
+    bench.controller.went.connect(told.append)
+    before = bench.scenes.scene
+    bench.card.search.click()
+    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    assert len(bench.workers.jobs) == len(DECODERS)
+    bench.card.go.click()
+    scene = bench.scenes.scene
+    assert told == ["equalizer"]
+    assert scene.transmitter.payload_length == LENGTHS["equalizer"]
+    assert "1" in scene.transmitter.payload, "zeros alone are no payload like those it was tried on"
+    kept = {name: before.value(name) for name in VARIED}
+    assert scene.replace(**kept) == before
+    assert bench.card.go.isEnabled(), "what was found does not depend on what it chose"
+    bench.scenes.undo_stack.undo()
+    assert bench.scenes.scene == before
+
+
+@pytest.mark.parametrize("changed", ["distance", "frames a second"])
+def test_another_exposure_distance_or_frame_rate_makes_it_outdated(
+    bench: Bench, qtbot: QtBot, changed: str
+) -> None:
+    bench.card.search.click()
+    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    if changed == "distance":
+        bench.scenes.change(distance=1.7)
+    else:
+        bench.frame_rate.change(24.0)
+    assert not bench.card.go.isEnabled()
+
+
+def test_more_pictures_than_can_be_read_out_are_not_counted(small_scene: Scene) -> None:
+    seen = SimpleNamespace(value=0.0)
+
+    def most_bits(*_: object, frames_a_second: float, **__: object) -> tuple[int]:
+        seen.value = frames_a_second
+        return (0,)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(worker, "most_bits", most_bits)
+        worker.carry_most(small_scene, "threshold", 1e4, lambda: None)
+    camera = small_scene.camera
+    assert seen.value == pytest.approx(1.0 / (camera.columns * camera.readout_time))
+
+
+def test_a_search_is_cancelled_by_the_user_or_by_another_scene(
+    small_scene: Scene, card: MostBitsCard
+) -> None:
+    bench = Bench(small_scene, card, LazyWorkers())
+    for end in (card.cancel.click, lambda: bench.scenes.change(distance=1.7)):
+        card.search.click()
+        assert not bench.controller.is_idle
+        end()
+        assert bench.controller.is_idle
+        assert "Search" in buttons(card)
+    bench.queue.stop()

@@ -138,7 +138,13 @@ class Desktop(QObject):
             parts.image.picture_chosen.connect(taker)
         parts.image.picture_chosen.connect(self.figures.choose_picture)
         parts.photo_wiring.photos.opened.connect(self._on_photo)
-        for source in (self.export, self.animation, self.brightness, self.autosave, self.help):
+        for source in (
+            self.export,
+            self.animation.writer,
+            self.brightness,
+            self.autosave,
+            self.help,
+        ):
             source.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
         self.pointer.moved.connect(window.pointed.set_full_text)
@@ -193,7 +199,7 @@ class Desktop(QObject):
         """Whether all requested figures have been written."""
         return (
             self.export.is_idle
-            and self.animation.is_idle
+            and self.animation.writer.is_idle
             and (self.transmitter is None or self.transmitter.is_idle)
         )
 
@@ -271,7 +277,7 @@ class Desktop(QObject):
     def stop(self) -> None:
         """Stop all work in the background."""
         self.export.stop()
-        self.animation.stop()
+        self.animation.writer.stop()
         if self.transmitter is not None:
             self.transmitter.stop()
         self.error_reports.remove()

@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from typing import Any, Generic, TypeAlias, TypeVar
 
-from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
+from PySide6.QtCore import QObject, Qt, Signal, Slot
 
 from occ_gui.background.failure import sentence_of
+from occ_gui.background.worker_thread import WorkerThread
 
 Request = TypeVar("Request")
 Result = TypeVar("Result")
@@ -50,14 +51,11 @@ class Cancellable(QObject, Generic[Request, Result]):
         super().__init__()
         self._started = _NO_RUN
         self._worker = _Worker(work, name)
-        self._thread = QThread()
-        self._thread.setObjectName(name)
-        self._worker.moveToThread(self._thread)
+        self._thread = WorkerThread(self._worker, name)
         queued = Qt.ConnectionType.QueuedConnection
         self._ask.connect(self._worker.run, queued)
         self._worker.reported.connect(self._on_report, queued)
         self._worker.ended.connect(self._on_end, queued)
-        self._thread.start()
 
     @property
     def is_running(self) -> bool:
@@ -68,6 +66,7 @@ class Cancellable(QObject, Generic[Request, Result]):
         """Begin a run; the one before is cancelled."""
         self._started += 1
         self._worker.wanted = self._started
+        self._thread.begin()
         self._ask.emit(self._started, request)
 
     def cancel(self) -> None:
@@ -77,8 +76,7 @@ class Cancellable(QObject, Generic[Request, Result]):
     def stop(self) -> None:
         """Cancel, and stop the thread once the run has ended."""
         self.cancel()
-        self._thread.quit()
-        self._thread.wait()
+        self._thread.end()
 
     @Slot(int, object)
     def _on_report(self, run: int, report: Any) -> None:

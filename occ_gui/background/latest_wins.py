@@ -4,9 +4,10 @@ from collections.abc import Callable
 from threading import Event
 from typing import Any, Generic, TypeVar
 
-from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
+from PySide6.QtCore import QObject, Qt, Signal, Slot
 
 from occ_gui.background.failure import sentence_of
+from occ_gui.background.worker_thread import WorkerThread
 from occ_model.errors import OccError
 
 Request = TypeVar("Request")
@@ -53,12 +54,9 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._waiting: tuple[Request] | None = None
         self._newer = Event()
         self._worker = _Worker(work, name)
-        self._thread = QThread()
-        self._thread.setObjectName(name)
-        self._worker.moveToThread(self._thread)
+        self._thread = WorkerThread(self._worker, name)
         self._ask.connect(self._worker.run, Qt.ConnectionType.QueuedConnection)
         self._worker.done.connect(self._on_done, Qt.ConnectionType.QueuedConnection)
-        self._thread.start()
 
     @property
     def is_idle(self) -> bool:
@@ -78,6 +76,7 @@ class LatestWins(QObject, Generic[Request, Result]):
             return
         self._busy = True
         self._newer.clear()
+        self._thread.begin()
         self._ask.emit(request)
 
     def give_way(self, seconds: float = 0.0) -> None:
@@ -98,8 +97,7 @@ class LatestWins(QObject, Generic[Request, Result]):
         self._waiting = None
         self._stopped = True
         self._newer.set()
-        self._thread.quit()
-        self._thread.wait()
+        self._thread.end()
 
     @Slot(object, str, object)
     def _on_done(self, result: Any, failure: str, parameters: tuple[str, ...]) -> None:

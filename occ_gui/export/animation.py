@@ -3,15 +3,15 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.cancellable import Report
+from occ_gui.background.file_writer import FileWriter
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.widgets.work_bar import WorkBar
-from occ_model.errors import one_line
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -44,9 +44,6 @@ class AnimationExport(QObject):
         Shows the progress.
     """
 
-    status_message = Signal(str)
-    """The outcome."""
-
     def __init__(
         self,
         window: QWidget | None,
@@ -57,17 +54,11 @@ class AnimationExport(QObject):
     ) -> None:
         super().__init__(window)
         self._window, self._scenes, self._settings = window, scenes, settings
-        self._preferences, self._bar = preferences, bar
-        self.runner: Cancellable[_Film, Path] = Cancellable(_write, "animation")
-        self.runner.reported.connect(bar.show_progress)
-        self.runner.finished.connect(self._report)
-        self.runner.failed.connect(self._fail)
-        bar.cancelled.connect(self.cancel)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether no animation is being written."""
-        return not self.runner.is_running
+        self._preferences = preferences
+        self.writer: FileWriter[_Film] = FileWriter(
+            _write, "animation", bar, self.tr("The animation was given up.")
+        )
+        self.writer.written.connect(preferences.visit)
 
     def ask(self, name: str) -> None:
         """Let the user choose a file, and write the run of a parameter's slider into it."""
@@ -91,28 +82,7 @@ class AnimationExport(QObject):
         if not isinstance(declared, Quantity):
             return
         values = tuple(declared.at(place / (FRAMES - 1)) for place in range(FRAMES))
-        self._bar.begin()
-        self.runner.start(_Film(path, self._scenes.scene, self._settings.settings, name, values))
-
-    def cancel(self) -> None:
-        """Give up; nothing is written."""
-        if self.runner.is_running:
-            self.runner.cancel()
-            self._bar.end()
-            self.status_message.emit(self.tr("The animation was given up."))
-
-    def stop(self) -> None:
-        """Give up and stop the thread."""
-        self.runner.stop()
-
-    def _report(self, path: Path) -> None:
-        self._bar.end()
-        self._preferences.visit(path)
-        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
-
-    def _fail(self, sentence: str) -> None:
-        self._bar.end()
-        self.status_message.emit(sentence)
+        self.writer.start(_Film(path, self._scenes.scene, self._settings.settings, name, values))
 
 
 def _write(film: _Film, report: Report) -> Path:

@@ -5,13 +5,14 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from occ_gui.background.file_writer import FileWriter
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.video.export_controller import FilmExport
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
 from occ_gui.video.marks import Marks, MarkState, frame_marks
 from occ_gui.video.reading_controller import ReadingController
+from occ_gui.video.save_film import FilmToSave, save_film
 from occ_gui.video.video_view import VideoView
 from occ_model.errors import OccError, one_line
 from occ_model.results.video import Video
@@ -50,7 +51,10 @@ class VideoWiring(QObject):
         self.films = FilmController(scenes, self.view.form)
         self.readings = ReadingController()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
-        self.saving = FilmExport(self.view.form.saving)
+        self.saving: FileWriter[FilmToSave] = FileWriter(
+            save_film, "writing of the film", self.view.form.saving,
+            self.tr("The film was given up."),
+        )  # fmt: skip
         self.saving.status_message.connect(self.status_message)
         self.view.form.save_asked.connect(self.save_asked)
         self._connect_film()
@@ -139,7 +143,7 @@ class VideoWiring(QObject):
     def save(self, path: Path) -> None:
         """Write the simulated film of the present scene to a file."""
         try:
-            self.saving.write(path, self.films.simulated())
+            self.saving.start(FilmToSave(path, self.films.simulated()))
         except OccError as error:
             self.status_message.emit(str(error))
 

@@ -29,12 +29,12 @@ def test_an_animation_is_given_up_at_once_and_leaves_nothing(
 ) -> None:
     animation = application.desktop.animation
     animation.write(tmp_path / "a.gif", "iso")
-    with qtbot.waitSignal(animation.runner.reported):
+    with qtbot.waitSignal(animation.writer.runner.reported):
         pass
     application.window.filming.cancelled.emit()
-    assert animation.is_idle
+    assert animation.writer.is_idle
     assert user.message == "The animation was given up."
-    animation.stop()
+    animation.writer.stop()
     assert list(tmp_path.iterdir()) == []
 
 

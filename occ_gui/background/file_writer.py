@@ -1,0 +1,74 @@
+"""Writing of a file that takes its time: off the window's thread, with a bar that cancels it."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Generic
+
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.background.cancellable import Cancellable, Report, Request
+from occ_gui.widgets.work_bar import WorkBar
+from occ_model.errors import one_line
+
+
+class FileWriter(QObject, Generic[Request]):
+    """Writes one file at a time; one that is still being written is given up.
+
+    Parameters
+    ----------
+    write
+        Writes what a request asks for and returns the file; what is given up leaves nothing.
+    name
+        What it does, for the thread's name and the log.
+    bar
+        Shows the progress.
+    given_up
+        The sentence when the user cancels.
+    """
+
+    status_message = Signal(str)
+    """The outcome."""
+
+    written = Signal(Path)
+    """The file is there."""
+
+    def __init__(
+        self, write: Callable[[Request, Report], Path], name: str, bar: WorkBar, given_up: str
+    ) -> None:
+        super().__init__()
+        self._bar, self._given_up = bar, given_up
+        self.runner: Cancellable[Request, Path] = Cancellable(write, name)
+        self.runner.reported.connect(bar.show_progress)
+        self.runner.finished.connect(self._finish)
+        self.runner.failed.connect(self._fail)
+        bar.cancelled.connect(self.cancel)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being written."""
+        return not self.runner.is_running
+
+    def start(self, request: Request) -> None:
+        """Begin to write."""
+        self._bar.begin()
+        self.runner.start(request)
+
+    def cancel(self) -> None:
+        """Give up; nothing is written."""
+        if self.runner.is_running:
+            self.runner.cancel()
+            self._bar.end()
+            self.status_message.emit(self._given_up)
+
+    def stop(self) -> None:
+        """Give up and stop the thread."""
+        self.runner.stop()
+
+    def _finish(self, path: Path) -> None:
+        self._bar.end()
+        self.written.emit(path)
+        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+
+    def _fail(self, sentence: str) -> None:
+        self._bar.end()
+        self.status_message.emit(sentence)

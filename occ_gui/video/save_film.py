@@ -1,0 +1,23 @@
+"""Writing of a film to a file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import occ_model as occ
+from occ_gui.background.cancellable import Report
+from occ_model.results.video import Video
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FilmToSave:
+    """A film, and the file to write it to."""
+
+    path: Path
+    film: Video
+
+
+def save_film(request: FilmToSave, report: Report) -> Path:
+    """Write a film, report the written share of it, and return its file."""
+    count = request.film.frame_count or 1
+    occ.write_video(request.film, request.path, lambda frames: report(frames / count))
+    return request.path

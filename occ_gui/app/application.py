@@ -111,6 +111,7 @@ class Application(QObject):
         self.detection_map = DetectionMapWiring(
             self.store, self.settings, self.detection, self.slider_strips, self.frame_rate
         )
+        self.simulation.let_first(lambda: self.detection_map.map.is_first_answer_awaited)
         self.bench = BenchDock(
             self.window, self.store, self.frame_rate, self.detection_map.for_bench
         )

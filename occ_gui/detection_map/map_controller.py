@@ -1,6 +1,6 @@
 """Controller of the detection map: it measures success rates while the map is seen."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
@@ -92,8 +92,10 @@ class MapRequest:
     settings: SimulationSettings
     with_image_effects: bool
 
-    def stages(self, images: Any, with_theory: bool) -> Iterator[Stage]:
-        """Give the stages of the work that is left."""
+    def stages(
+        self, images: Any, with_theory: bool, found_slow: Callable[[], object] = lambda: None
+    ) -> Iterator[Stage]:
+        """Give the stages of the work that is left; say if even the first points take long."""
         requests = tuple(
             map_request(
                 self.scene, self.x, self.y, self.settings, QUICK_DECODERS,
@@ -102,6 +104,8 @@ class MapRequest:
             for number in IMAGES
         )  # fmt: skip
         slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
+        if slow:
+            found_slow()
         return map_stages(requests, images, with_theory, slow)
 
 
@@ -139,6 +143,7 @@ class DetectionMapController(QObject):
         self._seen = False
         self._asked: MapRequest | None = None
         self._shown: MapRequest | None = None
+        self._awaited: MapRequest | None = None
         self.map: RateMap | None = None
         self._ages = ResultAges(self._request())
         channel.results_ready.connect(self._take)
@@ -152,6 +157,14 @@ class DetectionMapController(QObject):
     def is_idle(self) -> bool:
         """Whether all that is measured is shown."""
         return self._channel.is_idle
+
+    @property
+    def is_first_answer_awaited(self) -> bool:
+        """Whether the first points of a map are being measured, and do not take long.
+
+        It may be asked for on any thread.
+        """
+        return self._awaited is not None
 
     @property
     def is_current(self) -> bool:
@@ -212,7 +225,9 @@ class DetectionMapController(QObject):
         self._pane.show_failure("")
         held = self.map if request == self._shown else None
         known = self._empty(request) if held is None else held
-        stages = partial(request.stages, known.images.copy(), known.theory is None)
+        self._awaited = request if held is None else None
+        found_slow = partial(self._wait_no_more, request)
+        stages = partial(request.stages, known.images.copy(), known.theory is None, found_slow)
         self._channel.put(request, stages)
 
     def _empty(self, request: MapRequest) -> RateMap:
@@ -231,7 +246,12 @@ class DetectionMapController(QObject):
         scene, settings = self._scenes.scene, self._settings.settings
         self._pane.show_left_out(() if self._with_image_effects else left_out(scene, settings))
 
+    def _wait_no_more(self, request: MapRequest) -> None:
+        if self._awaited is request:
+            self._awaited = None
+
     def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
+        self._wait_no_more(request)
         if request != self._shown or self.map is None:
             self.map, self._shown = self._empty(request), request
         for result in results:
@@ -259,11 +279,12 @@ class DetectionMapController(QObject):
             self._show_progress()
 
     def _fail(self, sentence: str) -> None:
+        self._awaited = None
         self._pane.show_failure(sentence)
 
     def _stop(self) -> None:
         self._channel.cancel()
-        self._asked = None
+        self._asked = self._awaited = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:
         """Show the facts of a point, given by its places along both axes."""

@@ -56,6 +56,10 @@ _LONGEST_PAINT = 0.1
 """Seconds for which work waits at most until the window has painted what it has been given."""
 
 
+_LOOK, _MOST_LOOKS = 0.005, 20
+"""Seconds between two looks whether the exact picture may begin, and the most looks."""
+
+
 def _go_on() -> None:
     """Give way to nothing."""
 
@@ -139,6 +143,7 @@ class SimulationController(QObject):
         self._whose = PICTURES[0]
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._more: tuple[str, ...] = ()
+        self._others_first: Callable[[], bool] = lambda: False
         self._is_painted = Event()
         # Emitted on the simulation's thread, received on the window's.
         self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
@@ -187,6 +192,16 @@ class SimulationController(QObject):
         """
         self._rows_per_pixel = rows_per_pixel
 
+    def let_first(self, others_first: Callable[[], bool]) -> None:
+        """Begin exact pictures from now on after short work that the user waits for sooner.
+
+        Parameters
+        ----------
+        others_first
+            Returns whether there is such work; called on the simulation's thread.
+        """
+        self._others_first = others_first
+
     def read_with(self, decoder: str) -> None:
         """Read the present scene, and those after it, with this decoder too."""
         self._more = () if decoder in QUICK_DECODERS else (decoder,)
@@ -219,6 +234,7 @@ class SimulationController(QObject):
             self._wait_for_paint()
             reading, heartbeat = None, self.runner.give_way
             self.runner.give_way(self.ages.rest(_REST))
+            self._wait_for_others()
         elif reading is not None and not is_soon(request):
             self._read_early.emit(reading)
             reading = None
@@ -230,6 +246,13 @@ class SimulationController(QObject):
         if reading is not None:
             self.runner.give_way()  # the scene's verdict is there: a later scene comes first
         return snapshot_of(request, frame)
+
+    def _wait_for_others(self) -> None:
+        """Leave both cores to short work for a while, unless a newer request comes."""
+        for _ in range(_MOST_LOOKS):
+            if not self._others_first():
+                return
+            self.runner.give_way(_LOOK)
 
     def _wait_for_paint(self) -> None:
         """Go on when the window has painted what it was given.

@@ -304,3 +304,33 @@ def test_a_map_of_an_earlier_scene_ages_until_the_next_is_there(
     assert bench.pane.ages[-1] > 0.0
     bench.wait_until_idle()
     assert bench.pane.ages[-1] == 0.0
+
+
+def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
+    bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = bench_of()
+    controller = bench.controller
+    awaited: list[tuple[int, bool]] = []
+    monkeypatch.setattr(
+        bench.pane, "show_map", lambda rates: awaited.append((rates.known, waits()))
+    )
+
+    def waits() -> bool:
+        return controller.is_first_answer_awaited
+
+    assert not waits()
+    controller.set_seen(True)
+    assert waits()
+    bench.wait_until_idle()
+    assert awaited
+    assert not any(waiting for _, waiting in awaited)
+    bench.scenes.change(iso=200.0)
+    assert waits()
+    controller.set_seen(False)
+    assert not waits()
+    monkeypatch.setattr(module, "left_out", lambda *_: ("a lens",))
+    request = controller._request()
+    found: list[bool] = []
+    list(request.stages(np.zeros(SHAPE, dtype=np.int64), True, lambda: found.append(True)))
+    assert found == [True]

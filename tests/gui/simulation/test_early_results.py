@@ -181,3 +181,23 @@ def test_a_picture_under_way_gives_way_to_a_newer_scene(
     assert [scene.camera.iso for scene in begun] == [200.0, 300.0]
     shown = [(picture.frame.scene.camera.iso, picture.is_draft) for picture in pictures]
     assert shown == [(200.0, True), (300.0, True), (300.0, False)]
+
+
+def test_an_exact_picture_begins_after_what_the_user_waits_for_sooner(
+    bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(controller, "_LOOK", 0.001)
+    looks: list[int] = []
+
+    def others_first() -> bool:
+        looks.append(len(pictures))
+        return len(looks) < 4
+
+    bench.controller.let_first(others_first)
+    bench.store.change(iso=200.0)
+    bench.wait_until_idle()
+    assert looks == [1] * 4  # the draft is there, the exact picture is not
+    bench.controller.let_first(lambda: True)  # for ever, which is not waited for
+    bench.store.change(iso=210.0)
+    bench.wait_until_idle()
+    assert [picture.is_draft for picture in pictures] == [True, False] * 2

@@ -6,6 +6,7 @@ its distribution, and is averaged over the rows. Where rows differ, a sample of 
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -28,8 +29,13 @@ def panel_span(scene: Scene) -> Region | None:
 
     The rectangle is empty where the panel is not in the image.
     """
-    rows, columns = scene.camera.rows, scene.camera.columns
-    first, last = row_spans(panel_corners(scene), rows, columns)
+    return _span_of(panel_corners(scene).tobytes(), scene.camera.rows, scene.camera.columns)
+
+
+@lru_cache(maxsize=32)
+def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
+    """Give the rectangle; the lines of a map have the same poses."""
+    first, last = row_spans(np.frombuffer(corners).reshape(-1, 2), rows, columns)
     lit = np.flatnonzero(last > first)
     if lit.size == 0:
         return Region(0, 0, 0, 0)

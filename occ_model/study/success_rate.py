@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -142,11 +143,10 @@ def right_bits_of_images(
     transmitter = scene.transmitter
     sent = np.array(transmitter.payload_bits)
     duration = len(sent_chips(transmitter)) * transmitter.switching_period
-    root = np.random.default_rng(settings.seed)
     span = panel_span(scene) if settings.path in ("auto", "profile") else None
-    for _ in range(settings.images):
+    for image in range(settings.images):
         heartbeat()
-        (stream,) = root.spawn(1)
+        stream = np.random.default_rng(_seed_of(settings.seed, image))
         changes = {"start_time": float(stream.uniform(0.0, duration))}
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
             changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
@@ -155,6 +155,12 @@ def right_bits_of_images(
             int(np.count_nonzero(seen.bits == sent)) if seen.bits.size == sent.size else 0
             for seen in read
         )
+
+
+@lru_cache(maxsize=256)
+def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
+    """Return the seed of an image: that of the generator of ``seed``'s child, at every point."""
+    return np.random.SeedSequence(seed, spawn_key=(image,))
 
 
 def _read(

@@ -21,6 +21,10 @@ class Phases:
     chip: IndexArray
     fraction: FloatArray
 
+    def first(self, count: int) -> "Phases":
+        """Return the first of them."""
+        return Phases(self.chip[:count], self.fraction[:count])
+
 
 @dataclass(frozen=True, slots=True)
 class Duration:

@@ -1,7 +1,7 @@
 """Make the scene whose picture is the photo's, with uncertainties in SI units, from a fit."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -80,8 +80,9 @@ def described(
     fit = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
     scene = _with_timing(scene, fit, explanation, estimate, region)
     scene = with_levels(at_the_photo(scene, photo, region), fit)
-    camera = scene.camera
     uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
+    scene = _rounded(scene, uncertainties)
+    camera = scene.camera
     return Match(
         scene=scene,
         stripes=replace(stripes, low=fit.low, high=fit.low + fit.swing),
@@ -180,6 +181,18 @@ def _uncertainties(
         slopes["gamma"] = np.array([0.0, 0.0, 0.0, 1.0])
     variances = {name: float(slope @ fit.covariance @ slope) for name, slope in slopes.items()}
     return {name: math.sqrt(max(variance, 0.0)) for name, variance in variances.items()}
+
+
+def _rounded(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
+    """Round what was estimated to the digits that its uncertainty leaves."""
+    found = {name: PARAMETERS[name] for name in uncertainties}
+    return scene.replace(
+        **{
+            name: declared.unit.rounded_estimate(float(scene.value(name)), uncertainties[name])
+            for name, declared in found.items()
+            if isinstance(declared, Quantity)
+        }
+    )
 
 
 def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:

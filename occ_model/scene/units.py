@@ -138,10 +138,19 @@ class Unit:
         if deviation is None or not 0.0 < deviation < math.inf:
             return self.format(value)
         symbol, factor = self.display(value)
-        # Two digits of the deviation, and the value to the same decimal place.
-        decimals = min(max(0, 1 - math.floor(math.log10(deviation / factor))), _MOST_DECIMALS)
+        decimals = _decimals(deviation / factor)
         number = f"{value / factor:.{decimals}f} ± {deviation / factor:.{decimals}f}"
         return f"{number} {symbol}".rstrip()
+
+    def rounded_estimate(self, value: float, deviation: float | None) -> float:
+        """Round a value to the digits that :meth:`format_estimate` writes.
+
+        The step is at most a tenth of the deviation: no more is known.
+        """
+        if deviation is None or not 0.0 < deviation < math.inf:
+            return value
+        _, factor = self.display(value)
+        return _scaled(round(value / factor, _decimals(deviation / factor)), factor)
 
     def format(self, value: float, digits: int = 6) -> str:
         """Write ``value`` with ``digits`` significant digits and its unit."""
@@ -150,6 +159,11 @@ class Unit:
         if not symbol:
             return number
         return f"{number}{symbol}" if symbol == "°" else f"{number} {symbol}"
+
+
+def _decimals(deviation: float) -> int:
+    """Return the decimals that show two digits of a standard deviation."""
+    return min(max(0, 1 - math.floor(math.log10(deviation))), _MOST_DECIMALS)
 
 
 def _scaled(value: float, factor: float) -> float:

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from occ_model.scene.units import SECOND, Unit
+from occ_model.scene.units import HERTZ, SECOND, Unit
 
 PLAIN = Unit("")
 
@@ -29,3 +29,13 @@ def test_two_digits_of_the_deviation_are_shown(
 
 def test_a_pure_number_has_no_unit() -> None:
     assert PLAIN.format_estimate(2.2191, 0.03) == "2.219 ± 0.030"
+
+
+def test_a_rounded_estimate_is_what_is_written_of_it_and_moves_by_less_than_a_tenth() -> None:
+    for value, deviation in ((8.00123e-6, 2.1e-9), (136.4567e-6, 4.4e-7), (6012.3, 99.0)):
+        unit = SECOND if value < 1.0 else HERTZ
+        rounded = unit.rounded_estimate(value, deviation)
+        written = unit.format_estimate(value, deviation).split(" ± ", maxsplit=1)[0]
+        assert float(unit.format(rounded).split(" ")[0]) == float(written)
+        assert abs(rounded - value) <= 0.05 * deviation
+    assert SECOND.rounded_estimate(1.23456789e-3, None) == 1.23456789e-3

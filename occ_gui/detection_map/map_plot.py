@@ -35,6 +35,9 @@ Point = tuple[float, float]
 
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
+_AT_END = 1e-6
+"""How near an end of an axis, whose length is 1, a line's end lies that is cut off there."""
+
 _TICK = 4
 _GAP = 3
 _STEPS = {
@@ -198,10 +201,34 @@ class MapPlot(QWidget):
         pen = QPen(_INK, 1.6, STYLES[key])
         casing = QPen(_CASING, 3.6)
         for line in lines:
-            path = QPolygonF([self.place_of(point) for point in line])
+            path = QPolygonF([self.place_of(point) for point in self._to_edges(line)])
             for each in (casing, pen):
                 painter.setPen(each)
                 painter.drawPolyline(path)
+
+    def _to_edges(self, line: FloatArray) -> list[Point]:
+        """Go on with a line that ends at the last points' centres: their cells reach further."""
+        points: list[Point] = [(float(x), float(y)) for x, y in line]
+        if len(points) < 2 or self._image.isNull():
+            return points
+        first, last = points[0], points[-1]
+        ahead = self._beyond(points[1], first)
+        behind = self._beyond(points[-2], last)
+        return [*([ahead] if ahead else []), *points, *([behind] if behind else [])]
+
+    def _beyond(self, before: Point, end: Point) -> Point | None:
+        """Return where a line leaves the map that ends at an axis's first or last value."""
+        steps = []
+        for from_, to, count in zip(before, end, self._shape, strict=True):
+            way, margin = to - from_, 0.5 / max(count - 1, 1)
+            is_at_end = min(abs(to), abs(1.0 - to)) < _AT_END
+            if is_at_end and way and (way > 0.0) == (to > 0.5):
+                steps.append(margin / abs(way))
+        if not steps:
+            return None
+        step = min(steps)
+        (x0, y0), (x1, y1) = before, end
+        return x1 + step * (x1 - x0), y1 + step * (y1 - y0)
 
     def _draw_marks(self, painter: QPainter, area: QRectF) -> None:
         if self._cursor is not None:

@@ -116,7 +116,8 @@ class MostBitsCard(QFrame):
             return self.tr("Which code, frequency and bits carry most?")
         sent = best.scene.transmitter
         text = self.tr(
-            "{rate:,.0f} bits a second, {bits} a picture in {code} at {frequency}, read by {decoder}"
+            "{rate:,.0f} bits a second, {bits} a picture in {code} at {frequency}, "
+            "read by {decoder}"
         ).format(
             rate=best.bits_a_second, bits=sent.payload_length, code=sent.line_code,
             frequency=HERTZ.format(sent.switching_frequency, _DIGITS), decoder=best.decoder,

@@ -7,6 +7,9 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
+_BAR = 16
+"""Pixels beside the words: their margins, and a bar where the list is long."""
+
 
 class KeyedComboBox(QComboBox):
     """A combo box that emits the key of the chosen word.
@@ -38,6 +41,12 @@ class KeyedComboBox(QComboBox):
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         keep_wheel_for_scrolling(self)
         self.activated.connect(lambda: self.chosen.emit(self.key()))
+
+    def showPopup(self) -> None:  # noqa: N802 - Qt's name
+        """Open the list as wide as its widest word, however narrow the box is."""
+        view = self.view()
+        view.setMinimumWidth(view.sizeHintForColumn(0) + 2 * view.frameWidth() + _BAR)
+        super().showPopup()
 
     def key(self) -> str:
         """Return the key of the word shown."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -166,6 +167,25 @@ def test_a_line_runs_where_the_number_is_nothing() -> None:
     assert abs(line[0][0] - line[-1][0]) == pytest.approx(0.9)
     sides[3] = np.nan
     assert len(TheoryFields(places, {"band": sides}).lines()["band"]) == 2
+
+
+def test_a_limits_line_reaches_the_edge_of_the_map(qtbot: QtBot) -> None:
+    plot = MapPlot()
+    qtbot.addWidget(plot)
+    plot.resize(300, 240)
+    plot.show_axes(quantity("switching_frequency"), quantity("distance"))
+    shape = (9, 5)
+    yellow = QImage(*shape, QImage.Format.Format_RGB32)
+    yellow.fill(QColor("yellow"))
+    plot.show_picture(yellow, shape, np.zeros(shape, dtype=np.intp))
+    inner = [np.array([[0.25, 0.0], [0.25, 1.0]]), np.array([[0.5, 0.3], [0.7, 0.6]])]
+    plot.lines = {"band": inner}
+    image, area = plot.grab().toImage(), plot.area()
+    column = round(plot.place_of((0.25, 0.0)).x())
+    for row in (area.top() + 2, area.center().y(), area.bottom() - 2):
+        assert image.pixelColor(column, round(row)).lightness() < 60
+    ended = round(plot.place_of((0.5, 0.3)).x())  # within the map a line ends where it ends
+    assert image.pixelColor(ended, round(area.bottom() - 2)) == QColor("yellow")
 
 
 def test_a_maximums_contour_is_closed_and_absent_without_numbers() -> None:

@@ -103,6 +103,7 @@ class ImageView(QWidget):
             {str(gain): f"× {gain}" for gain in _GAINS},  # noqa: RUF001 - the sign for times
         )
         self.gain.show_key(str(_FIRST_GAIN))
+        self.gain.setMinimumContentsLength(len(f"× {max(_GAINS)}"))  # noqa: RUF001
         self.overlay.difference.set_gain(_FIRST_GAIN)
         self.gain.chosen.connect(self._set_gain)
         self._row = QWidget()
@@ -139,8 +140,10 @@ class ImageView(QWidget):
             if frame.rows_step > 1:
                 text = self.tr("Draft, one row in {step}: {picture}")
                 picture = text.format(step=frame.rows_step, picture=picture)
-        if self._photo is None or mode == "beside":
+        if self._photo is None:
             return picture
+        if mode == "beside":  # both are pictures of a camera
+            return self.tr("Simulated: {picture}").format(picture=picture[:1].lower() + picture[1:])
         if mode == "blend":
             return self.tr("Photo over: {picture}").format(picture=picture)
         if mode == "split":

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
-_BAR = 16
-"""Pixels beside the words: their margins, and a bar where the list is long."""
+_BESIDE = 36
+"""Pixels beside a list's words: their margins, and a bar where it is long."""
 
 
 class KeyedComboBox(QComboBox):
@@ -44,8 +44,9 @@ class KeyedComboBox(QComboBox):
 
     def showPopup(self) -> None:  # noqa: N802 - Qt's name
         """Open the list as wide as its widest word, however narrow the box is."""
-        view = self.view()
-        view.setMinimumWidth(view.sizeHintForColumn(0) + 2 * view.frameWidth() + _BAR)
+        words = (self.itemText(place) for place in range(self.count()))
+        widest = max(map(self.fontMetrics().horizontalAdvance, words), default=0)
+        self.view().setMinimumWidth(widest + _BESIDE)
         super().showPopup()
 
     def key(self) -> str:

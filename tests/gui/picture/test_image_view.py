@@ -269,6 +269,23 @@ def test_choosing_a_mode_tells_it_and_shows_nothing_by_itself(
     assert view.photo.isVisible()
 
 
+def test_beside_a_photo_the_other_picture_is_called_simulated(
+    view: ImageView, photo: Photo, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    view.show_snapshot(snapshot_of())
+    assert view.simulation.caption.toolTip() == "Camera's picture"
+    view.show_photo(photo)
+    assert view.simulation.caption.toolTip() == "Simulated: camera's picture"
+    view.show_photo(None)
+    assert view.simulation.caption.toolTip() == "Camera's picture"
+
+
+def test_the_factor_of_the_difference_is_whole_in_its_box(view: ImageView) -> None:
+    words = [view.gain.itemText(place) for place in range(view.gain.count())]
+    widest = max(map(view.gain.fontMetrics().horizontalAdvance, words))
+    assert view.gain.minimumSizeHint().width() >= widest + 16  # with the arrow
+
+
 def test_the_caption_says_how_many_times_the_difference_is_drawn(
     view: ImageView, photo: Photo, qtbot: QtBot
 ) -> None:

@@ -141,3 +141,21 @@ def test_what_only_the_signal_calls_for_is_named() -> None:
     off = dict.fromkeys(["sensor-noise", "fixed-pattern"], False)
     assert called_for_by_signal(occ.plan(scene, observable="profile", force=off), scene) == ()
     assert called_for_by_signal(occ.plan(scene, math.inf), scene) == ()
+
+
+def test_before_a_file_only_noise_of_half_a_grey_level_is_kept_whatever_the_tolerance() -> None:
+    """It spreads pixels over the steps of rounding; less of it is left out as all else is."""
+    kept = []
+    for variation in (1e-3, 5e-3, 0.02, 0.04):
+        plain = occ.load_preset("phone-136us").replace(gain_variation=variation)
+        plain = plain.replace(rows=200, columns=200)
+        (own,) = (
+            d for d in occ.plan(plain, 20.0, "image").decisions if d.effect == "fixed-pattern"
+        )
+        levels = own.bound / occ.plan(plain, 20.0, "image").stretch
+        filed = occ.plan(plain.replace(jpeg_quality=90), 20.0, "image")
+        (through,) = (d for d in filed.decisions if d.effect == "fixed-pattern")
+        assert "jpeg" in filed
+        assert through.included == (levels >= 0.5 or through.bound > 20.0)
+        kept.append(through.included and through.bound <= 20.0)
+    assert set(kept) == {True, False}

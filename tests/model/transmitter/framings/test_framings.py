@@ -7,6 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
+from occ_model.transmitter.framings.c_ook import read_sub_packet
 from occ_model.transmitter.framings.framing import BARKER, own_preamble
 from occ_model.transmitter.line_codes import registry as line_codes
 from occ_model.transmitter.scheme import scheme_named
@@ -69,6 +70,17 @@ def test_c_ook_sends_a_long_payload_as_numbered_sub_packets() -> None:
     sent = text_of(one.encode(np.zeros(40, dtype=int)))
     assert sent.count("011100") == 3
     assert len(sent) == 3 * (6 + 2 * (14 + 2 * 2))
+
+
+def test_c_ook_reads_of_its_last_sub_packet_what_the_payload_fills() -> None:
+    payload = np.array([1, 0, 1, 1, 0] * 8)
+    one = scheme_named("manchester", "c-ook", "", "none", 40)
+    sent = one.encode(payload).reshape(3, -1)
+    parts = [read_sub_packet(chips, one.form) for chips in sent]
+    assert [number for number, _, _ in parts] == [0, 1, 2]
+    assert [problem for _, _, problem in parts] == [None] * 3
+    assert [len(bits) for _, bits, _ in parts] == [14, 14, 12]
+    np.testing.assert_array_equal(np.concatenate([bits for _, bits, _ in parts]), payload)
 
 
 def test_c_ook_joins_a_sub_packet_that_the_picture_cuts() -> None:

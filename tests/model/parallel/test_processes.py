@@ -1,0 +1,62 @@
+"""How worker processes are started and ended, and Ctrl-C meanwhile."""
+
+import signal
+import threading
+from types import FrameType
+
+import pytest
+from worker_calls import echo
+
+from occ_model.parallel.job import Job
+from occ_model.parallel.process_pool import ProcessPool
+from occ_model.parallel.processes import interrupts_held
+
+
+def test_ctrl_c_is_answered_at_the_end() -> None:
+    answered: list[int] = []
+
+    def answer(number: int, _frame: FrameType | None) -> None:
+        answered.append(number)
+
+    before = signal.signal(signal.SIGINT, answer)
+    try:
+        with interrupts_held():
+            signal.raise_signal(signal.SIGINT)
+            assert answered == []
+        assert answered == [signal.SIGINT]
+        assert signal.getsignal(signal.SIGINT) is answer
+        with interrupts_held():
+            pass
+        assert answered == [signal.SIGINT]
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_another_thread_holds_nothing() -> None:
+    """Only the main thread may set what answers a signal."""
+    before = signal.getsignal(signal.SIGINT)
+    seen: list[object] = []
+
+    def hold() -> None:
+        with interrupts_held():
+            seen.append(signal.getsignal(signal.SIGINT))
+
+    thread = threading.Thread(target=hold)
+    thread.start()
+    thread.join()
+    assert seen == [before]
+
+
+def test_idle_workers_end_by_themselves_and_are_not_killed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # As long as it takes on a machine that is busy.
+    monkeypatch.setattr("occ_model.parallel.process_pool._GRACE", 60.0)
+    pool = ProcessPool(2, "worker_calls")
+    try:
+        assert pool.submit(Job(echo, ("done",)), 0, 1).result(20.0).value == "done"
+        started = pool._started()
+    finally:
+        pool.close()
+    assert started
+    assert {process.exitcode for process in started} == {0}

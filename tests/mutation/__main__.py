@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
+from itertools import islice
 from pathlib import Path
 from queue import Queue
 
@@ -22,7 +23,7 @@ from mutation.copy_of_project import ROOT, Copy, copy_of_project
 from mutation.ledger import Equivalent, Ledger, equivalents
 from mutation.mutants import Mutant, draw, is_program, mutants
 from mutation.reach import Reach, files_of, measured
-from mutation.trial import KILLED, SURVIVED, UNREACHED, Outcome, passes_unchanged, tried
+from mutation.trial import KILLED, SURVIVED, UNCLEAR, UNREACHED, Outcome, passes_unchanged, tried
 
 _ALSO = {"occ_model": ("tests/physics", "tests/hard_cases"), "occ_gui": ()}
 
@@ -78,7 +79,8 @@ class Run:
         with ThreadPoolExecutor(len(copies)) as pool:
             try:
                 for mutant, outcome in zip(drawn, pool.map(self.tried, drawn), strict=True):
-                    self.ledger.note(mutant, outcome, seed)
+                    if outcome.result != UNCLEAR:
+                        self.ledger.note(mutant, outcome, seed)
                     print(described(mutant, outcome), flush=True)
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
@@ -136,8 +138,9 @@ def drawn_mutants(
         results = run.ledger.results()
         drawn = [one for one in every if results.get(one.key) in (SURVIVED, UNREACHED)]
     else:
-        drawn = draw(every, options.number, options.seed)
-    drawn = [one for one in drawn if is_program(one.apply(run.text_of(one.file)))]
+        drawn = draw(every, 2 * options.number, options.seed)
+    programs = (one for one in drawn if is_program(one.apply(run.text_of(one.file))))
+    drawn = list(programs if options.again else islice(programs, options.number))
     equal = [one for one in drawn if any(entry.is_of(one) for entry in known)]
     for mutant in equal:
         run.ledger.note(mutant, Outcome("equivalent", "", 0, 0), options.seed)

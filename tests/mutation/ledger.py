@@ -1,5 +1,6 @@
 """What became of mutants: the results of trials, the list of equivalents, and their table."""
 
+import hashlib
 import json
 import tomllib
 from collections import Counter
@@ -14,7 +15,7 @@ from mutation.trial import KILLED, Outcome
 
 EQUIVALENT = "equivalent"
 LIST = Path(__file__).with_name("equivalent.toml")
-RESULTS = CACHE / "results.json"
+RESULTS = CACHE / "results"
 
 HEAD = """\
 | package | tried | killed | equivalent | survived | killed of those that change behaviour |
@@ -49,17 +50,22 @@ def package_of(file: str) -> str:
 
 
 class Ledger:
-    """The results of all trials so far, kept beside the project and out of git."""
+    """The results of all trials so far, kept beside the project and out of git.
 
-    def __init__(self, path: Path = RESULTS) -> None:
-        self.path = path
-        rows = json.loads(path.read_text(encoding="utf-8")) if path.exists() else []
-        self._rows: dict[tuple[Any, ...], dict[str, Any]] = {tuple(row["key"]): row for row in rows}
+    Each has a file of its own, so that several runs at a time lose none.
+    """
+
+    def __init__(self, folder: Path = RESULTS) -> None:
+        self.folder = folder
+        self._rows: dict[tuple[Any, ...], dict[str, Any]] = {}
+        for path in folder.glob("*.json"):
+            row = json.loads(path.read_text(encoding="utf-8"))
+            self._rows[tuple(row["key"])] = row
 
     def note(self, mutant: Mutant, outcome: Outcome, seed: int) -> None:
         """Store a result, and keep the first one of the same mutant beside it."""
         before = self._rows.get(mutant.key, {})
-        self._rows[mutant.key] = {
+        self._rows[mutant.key] = row = {
             "key": mutant.key,
             "kind": mutant.kind,
             "line": mutant.line,
@@ -70,8 +76,9 @@ class Ledger:
             "tried": outcome.tried,
             "left out": outcome.left_out,
         }
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        self.path.write_text(json.dumps([*self._rows.values()], indent=1), encoding="utf-8")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        name = hashlib.sha256(repr(mutant.key).encode()).hexdigest()[:16]
+        (self.folder / f"{name}.json").write_text(json.dumps(row, indent=1), encoding="utf-8")
 
     def results(self) -> Mapping[tuple[Any, ...], str]:
         """Return what became of each mutant at last."""

@@ -10,7 +10,7 @@ from mutation.copy_of_project import ROOT, Copy
 from mutation.ledger import Equivalent, Ledger, equivalents, package_of
 from mutation.mutants import Mutant, mutants
 from mutation.reach import MeasuredTest, lines_naming, moved_lines
-from mutation.trial import KILLED, SURVIVED, UNREACHED, Outcome, tried
+from mutation.trial import KILLED, SURVIVED, UNCLEAR, UNREACHED, Outcome, tried
 
 SOURCE = """\
 LIMIT = 3
@@ -68,10 +68,15 @@ def test_a_fault_that_a_test_sees_is_killed_and_another_survives(copy: Copy) -> 
     assert (copy.root / "sizes.py").read_text() == SOURCE
 
 
-def test_a_loop_without_end_counts_as_killed(copy: Copy, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mutation.trial._PATIENCE", 4.0)
+def test_a_loop_without_end_is_killed_unless_all_takes_as_long_without_it(
+    copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mutation.trial._PATIENCE", 3.0)
     outcome = tried(mutant("number += 1"), SOURCE, chosen(NAMES[1]), copy)
     assert (outcome.result, outcome.by) == (KILLED, "time")
+    (copy.root / "test_slow.py").write_text("import time\n\ndef test_it():\n    time.sleep(60.0)\n")
+    outcome = tried(mutant("number += 1"), SOURCE, chosen("test_slow.py::test_it"), copy)
+    assert (outcome.result, outcome.by) == (UNCLEAR, "time")
     assert (copy.root / "sizes.py").read_text() == SOURCE
 
 
@@ -131,12 +136,12 @@ def test_a_line_is_found_again_where_the_source_has_changed() -> None:
 
 
 def test_results_and_equivalents_make_the_table(tmp_path: Path) -> None:
-    ledger = Ledger(tmp_path / "results.json")
+    ledger = Ledger(tmp_path / "results")
     every = mutants("occ_model/sizes/sizes.py", SOURCE)
     for result, one in zip([SURVIVED, KILLED, KILLED, UNREACHED], every, strict=False):
         ledger.note(one, Outcome(result, "", 1, 0), seed=1)
     equal = Equivalent(*every[0].key[:4], reason="it is one")
-    read = Ledger(tmp_path / "results.json")
+    read = Ledger(tmp_path / "results")
     assert read.table([equal])[-1] == "| all | 4 | 2 | 1 | 1 | 67 % |"
     assert read.table([])[-1] == "| all | 4 | 2 | 0 | 2 | 50 % |"
 

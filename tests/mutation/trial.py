@@ -7,7 +7,7 @@ from mutation.choice import Choice
 from mutation.copy_of_project import Copy
 from mutation.mutants import Mutant
 
-KILLED, SURVIVED, UNREACHED = "killed", "survived", "unreached"
+KILLED, SURVIVED, UNREACHED, UNCLEAR = "killed", "survived", "unreached", "unclear"
 _PATIENCE = 60.0
 _SLOWER = 5.0
 
@@ -42,7 +42,10 @@ def tried(mutant: Mutant, source: str, choice: Choice, copy: Copy) -> Outcome:
     finally:
         copy.write(mutant.file, source)
     if code == _TIMED_OUT:
-        return Outcome(KILLED, "time", len(names), choice.left_out)
+        # On a machine that is busy the tests may take as long without a mutant.
+        code, _ = copy.run([*_PYTEST, *_named(names, copy)], timeout)
+        result = UNCLEAR if code == _TIMED_OUT else KILLED
+        return Outcome(result, "time", len(names), choice.left_out)
     if code in (_PASSED, _NO_TESTS):
         return Outcome(SURVIVED, "", len(names), choice.left_out)
     failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", printed, re.MULTILINE)

@@ -16,6 +16,9 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import SceneCosts
+from occ_gui.bench.bench_choice import PUBLISHED, BenchChoice
+from occ_gui.bench.bench_measurement import request_of
+from occ_gui.bench.bench_view import BenchView
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
@@ -26,12 +29,14 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import (
     AccuracyPoint,
     Alternative,
+    BitErrors,
     Forecast,
     Match,
     Region,
     Stripes,
     SweepPoint,
 )
+from occ_model.results.bench import BenchPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation
@@ -154,3 +159,26 @@ def test_a_doubtful_match_looks_as_stored(
     matches_its_picture(view, "match-doubtful")
     view.show_outdated("of another part of the photo: match again", usable=False)
     matches_its_picture(view, "match-outdated")
+
+
+def test_the_bench_looks_as_stored(
+    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
+) -> None:
+    decoders = ("threshold", "sequence")
+    view = BenchView(decoders, decoders)
+    show(qtbot, view, 640, 420)
+    view.show_begun(request_of(BenchChoice(PUBLISHED, decoders, 1000), small_scene))
+    view.show_points(
+        [
+            BenchPoint(
+                "manchester", "exposure", exposure, 30.0,
+                BitErrors(decoder, 1000, wrong, wrong / 1400, (wrong + 9) / 900, 10,
+                          10 - wrong // 100, 0.0, 1.0, 0.01, 0.02),
+                "",
+            )
+            for step, exposure in enumerate((0.5, 1.0, 2.0, 4.0))
+            for decoder, wrong in (("threshold", 250 * step + 20), ("sequence", 30 * step + 2))
+        ]
+    )  # fmt: skip
+    view.show_ended("")
+    matches_its_picture(view, "bench")

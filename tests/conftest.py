@@ -18,6 +18,7 @@ os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
 import pytest
+from amount import VARIABLE
 from hard_cases import laws
 from hypothesis import settings
 
@@ -54,6 +55,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--renew-snapshots", action="store_true",
         help="store the pictures of the panes anew in place of comparing them",
     )  # fmt: skip
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Tell the modules with tests, before they are imported, how much is tried."""
+    if config.getoption("--whole"):
+        os.environ[VARIABLE] = "1"
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -4,6 +4,7 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
+from errno import EACCES
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
@@ -81,11 +82,18 @@ def check_replaceable(path: Path) -> int | None:
     Raises
     ------
     OutputError
-        It is no regular file, is write-protected, or cannot be a path.
+        It is no regular file, is write-protected, cannot be a path, or its folder is not there or
+        takes no files.
     """
     try:
         mode = path.stat().st_mode
-    except FileNotFoundError:
+    except FileNotFoundError as error:
+        # Known before the work whose result is to be written, not after it.
+        folder = path.resolve().parent
+        if not folder.is_dir():
+            raise _unwritable(path, error) from None
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise _unwritable(path, PermissionError(EACCES, os.strerror(EACCES))) from None
         return None
     except (OSError, ValueError) as error:  # a ValueError where no path can be so
         raise _unwritable(path, error) from None

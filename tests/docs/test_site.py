@@ -86,6 +86,7 @@ def html_pages(site: Path) -> list[Path]:
 
 
 @pytest.mark.first
+@pytest.mark.whole
 def test_the_site_leads_everywhere(site: Path) -> None:
     """One test for all that is asked of the site, which is built once for it."""
     check_links(site)

@@ -10,6 +10,7 @@ from functools import cache, lru_cache
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.arrays import FloatArray, Pixels
@@ -23,7 +24,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable
 from occ_model.simulation.render import observe
 
-SCENES = 200
+SCENES = amount(60, 200)
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)
 
 CODING = frozenset({"line_code", "framing", "error_correction", "equalizer"})

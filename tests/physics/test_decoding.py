@@ -4,10 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import bits_of
+
+CODES = range(0, 1024, amount(7, 1))
 
 
 @pytest.fixture(scope="module")
@@ -18,9 +21,9 @@ def covered() -> Scene:
     return scene.replace(distance=0.1, rows=64, switching_frequency=10e3)
 
 
-def test_all_codes_are_read_from_their_own_picture(covered: Scene) -> None:
+def test_codes_are_read_from_their_own_picture(covered: Scene) -> None:
     wrong = []
-    for code in range(1024):
+    for code in CODES:
         scene = covered.replace(code=code)
         result = occ.decode(occ.render(scene).image, scene)
         if result.code != code or result.bits.tolist() != list(bits_of(code, 10)):
@@ -28,9 +31,9 @@ def test_all_codes_are_read_from_their_own_picture(covered: Scene) -> None:
     assert wrong == []
 
 
-def test_all_codes_are_read_with_an_exposure_beyond_the_period(covered: Scene) -> None:
+def test_codes_are_read_with_an_exposure_beyond_the_period(covered: Scene) -> None:
     wrong = []
-    for code in range(1024):
+    for code in CODES:
         scene = covered.replace(code=code, exposure_time=136e-6)
         result = occ.decode(occ.render(scene).image, scene)
         if result.code != code:

@@ -6,7 +6,7 @@ from round_trips import Found, round_trip, round_trips
 
 pytestmark = pytest.mark.first
 
-SAMPLE, WHOLE = 12, 120
+SAMPLE, WHOLE = 12, 80
 
 
 @pytest.fixture(scope="module")

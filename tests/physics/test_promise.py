@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
@@ -13,7 +14,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable
 from occ_model.simulation.render import observe
 
-SCENES = 240
+SCENES = amount(60, 240)
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)
 
 BEFORE_ENHANCEMENT: tuple[Observable, ...] = ("profile", "image")

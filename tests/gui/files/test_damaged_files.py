@@ -1,14 +1,16 @@
 """The window starts whatever the files contain that it reads at its start."""
 
+import itertools
 import json
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from _pytest.mark import ParameterSet
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
@@ -127,20 +129,26 @@ sys.exit(app.main([]))
 """
 
 
-@pytest.mark.parametrize("damage", NO_FILES.values(), ids=NO_FILES)
-@pytest.mark.parametrize(
-    "names",
-    [
-        ["session-1.json"],
-        ["session-1.lock"],
-        ["settings.ini"],
-        ["settings.ini.lock"],
-        ["settings.ini", "settings-new.ini"],
-    ],
-    ids=" ".join,
-)
+FILES_OF_WINDOW = (
+    ("session-1.json",), ("session-1.lock",), ("settings.ini",), ("settings.ini.lock",),
+    ("settings.ini", "settings-new.ini"),
+)  # fmt: skip
+
+
+def every_file_and_damage() -> Iterator[ParameterSet]:
+    """Pair each file with each damage; every day each of both once."""
+    for place, (files, kind) in enumerate(itertools.product(FILES_OF_WINDOW, NO_FILES)):
+        number, damage = divmod(place, len(NO_FILES))
+        everyday = damage % len(FILES_OF_WINDOW) == number
+        yield pytest.param(
+            files, NO_FILES[kind], id=f"{' '.join(files)}-{kind}",
+            marks=() if everyday else pytest.mark.whole,
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize(("names", "damage"), list(every_file_and_damage()))
 def test_what_is_no_file_does_not_keep_the_window_from_starting(
-    tmp_path: Path, names: list[str], damage: Damage
+    tmp_path: Path, names: tuple[str, ...], damage: Damage
 ) -> None:
     for name in names:
         damage(tmp_path / name)

@@ -4,6 +4,7 @@ import sys
 
 import pyqtgraph as pg
 import pytest
+from amount import amount
 from gui.wheel import turn_wheel, views_of
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,7 +17,7 @@ from occ_gui.files.file_controller import sample_photos
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.plot import new_plot
 
-NOTCHES = 200
+NOTCHES = amount(100, 200)
 
 _MOST_TICKS = 300
 """Of an axis: what is drawn at every painting."""

@@ -62,8 +62,10 @@ def test_what_cannot_be_animated_is_refused(
 ) -> None:
     wanted = {"name": "switching_frequency", "values": VALUES, "path": tmp_path / "a.gif"} | changes
     name, values, path = wanted.pop("name"), wanted.pop("values"), wanted.pop("path")
+    done: list[int] = []
     with pytest.raises(occ.OccError, match=words):
-        write_animation(path, scene, name, values, **wanted)  # type: ignore[arg-type]
+        write_animation(path, scene, name, values, progress=done.append, **wanted)  # type: ignore[arg-type]
+    assert done == []  # told before the work, not after it
     assert list(tmp_path.iterdir()) == []
 
 

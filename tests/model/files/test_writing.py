@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from occ_model.errors import OutputError
-from occ_model.files.writing import make_folder, write_image, write_whole
+from occ_model.files.writing import check_replaceable, make_folder, write_image, write_whole
 
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
 
@@ -175,6 +175,18 @@ def test_a_missing_folder_is_not_made(tmp_path: Path) -> None:
         write_image(path, IMAGE)
     assert str(refused.value) == f"{path} cannot be written: No such file or directory."
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_takes_no_files_is_known_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "file.png"
+    assert check_replaceable(path) is None
+    # The administrator, as whom tests may run, may write to any folder.
+    monkeypatch.setattr(os, "access", lambda where, _mode: Path(where) != tmp_path)
+    with pytest.raises(OutputError) as refused:
+        check_replaceable(path)
+    assert str(refused.value) == f"{path} cannot be written: {os.strerror(errno.EACCES)}."
 
 
 @pytest.mark.parametrize("mask", [0o022, 0o077, 0o002])

@@ -7,6 +7,7 @@ Survivors are printed: faults that no test has found. What tests reach is measur
 """
 
 import argparse
+import signal
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -176,6 +177,8 @@ def read_command_line(words: Sequence[str] | None) -> argparse.Namespace:
 def main(words: Sequence[str] | None = None) -> None:
     """Do what is asked for."""
     options = read_command_line(words)
+    # However it is ended, the copies go, and what runs in them.
+    signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))
     known = equivalents()
     if options.table:
         print("\n".join(Ledger().table(known)))

@@ -11,15 +11,15 @@ from typing import Any
 
 from mutation.mutants import Mutant
 from mutation.reach import CACHE
-from mutation.trial import KILLED, Outcome
+from mutation.trial import KILLED, SURVIVED, UNREACHED, Outcome
 
 EQUIVALENT = "equivalent"
 LIST = Path(__file__).with_name("equivalent.toml")
 RESULTS = CACHE / "results"
 
 HEAD = """\
-| package | tried | killed | equivalent | survived | killed of those that change behaviour |
-|---|---|---|---|---|---|"""
+| package | drawn | killed | equivalent | survived | not reached | killed of all but equivalents |
+|---|---|---|---|---|---|---|"""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,8 @@ class Ledger:
 
 
 def _row(name: str, count: Counter[str]) -> str:
-    tried, killed, equal = count.total(), count[KILLED], count[EQUIVALENT]
-    changing = tried - equal
+    drawn, killed, equal = count.total(), count[KILLED], count[EQUIVALENT]
+    survived, unreached = count[SURVIVED], count[UNREACHED]
+    changing = drawn - equal
     share = f"{100.0 * killed / changing:.0f} %" if changing else ""
-    return f"| {name} | {tried} | {killed} | {equal} | {changing - killed} | {share} |"
+    return f"| {name} | {drawn} | {killed} | {equal} | {survived} | {unreached} | {share} |"

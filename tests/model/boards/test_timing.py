@@ -177,3 +177,13 @@ def test_below_the_lowest_frequency_the_spectrum_is_empty(pattern: str) -> None:
     # It is the frequency of which all are multiples.
     multiples = found / float(sent.lowest_frequency)
     np.testing.assert_allclose(multiples, np.round(multiples), atol=1e-9)
+
+
+@every_board
+def test_both_ends_of_a_board_s_range_are_allowed(board: Board) -> None:
+    exact = [
+        f for f in (board.lowest_frequency, board.highest_frequency) if Fraction(float(f)) == f
+    ]
+    assert exact
+    for frequency in exact:
+        assert best_timing(board, float(frequency)).asked == frequency

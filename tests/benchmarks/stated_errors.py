@@ -17,27 +17,37 @@ from photo_world.trials import SATURATION_THIRDS, Trial, trials
 
 HEAD = (
     "| saturated | photos | sure | what | within 1 | within 2 | largest | median error | stated "
-    "| bound |\n|---|---|---|---|---|---|---|---|---|---|"
+    "| bound | by light |\n|---|---|---|---|---|---|---|---|---|---|---|"
 )
 
 
 def row(name: str, found: list[Trial], what: str) -> str:
-    """Write a line of the table."""
+    """Write a line of the table, each share with its own standard deviation."""
     sure = [one for one in found if one.is_sure]
     if not sure:
-        return f"| {name} | {len(found)} | 0 | {what} | | | | | | |"
+        return f"| {name} | {len(found)} | 0 | {what} | | | | | | | |"
     error = np.abs([getattr(one, what) for one in sure])
     stated = np.array([getattr(one, f"{what}_deviation") for one in sure])
-    # The median of an error is 0.674 of its standard deviation.
-    bound = 0.674 * np.median([getattr(one, f"{what}_bound") for one in sure])
+    number = ("readout", "exposure").index(what)
+    bounds = np.array([(one.picture_bounds[number], one.light_bounds[number]) for one in sure])
     off = error / stated
-    percent = (np.median(error), np.median(stated), bound)
+    # The median of an error is 0.674 of its standard deviation.
+    percent = (np.median(error), np.median(stated), *(0.674 * np.median(bounds, axis=0)))
     return (
-        f"| {name} | {len(found)} | {len(sure)} | {what} | {100.0 * np.mean(off < 1.0):.0f} % | "
-        f"{100.0 * np.mean(off < 2.0):.0f} % | {off.max():.1f} | "
+        f"| {name} | {len(found)} | {len(sure)} | {what} | {within(off, 1.0)} | "
+        f"{within(off, 2.0)} | {off.max():.1f} | "
         + " | ".join(f"{100.0 * value:.2g} %" for value in percent)
         + " |"
     )
+
+
+def within(off: np.ndarray, most: float) -> str:
+    """Give the share of errors below some deviations, and by how much chance changes it."""
+    share = float(np.mean(off < most))
+    # By Agresti and Coull's estimate, which is not 0 where all are (Am. Stat. 52:119, 1998).
+    likely = (share * len(off) + 2.0) / (len(off) + 4.0)
+    chance = np.sqrt(likely * (1.0 - likely) / (len(off) + 4.0))
+    return f"{100.0 * share:.0f} ± {100.0 * chance:.0f} %"
 
 
 def table(found: list[Trial]) -> list[str]:

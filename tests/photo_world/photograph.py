@@ -197,14 +197,15 @@ def photograph(world: World) -> np.ndarray:
     electrons += world.read_noise * random.standard_normal(electrons.shape)
     light = np.clip(electrons / world.full_well, 0.0, 1.0)
     if not world.blur_of_values:
-        light = _blurred(light, world.blur, world.blur_shape)
+        light = blurred(light, world.blur, world.blur_shape)
     values = 255.0 * world.curve.apply(light)
     if world.blur_of_values:
-        values = _blurred(values, world.blur, world.blur_shape)
+        values = blurred(values, world.blur, world.blur_shape)
     return compressed(np.rint(values).astype(np.uint8), world.quality)
 
 
-def _blurred(values: np.ndarray, deviation: float, shape: str) -> np.ndarray:
+def blurred(values: np.ndarray, deviation: float, shape: str) -> np.ndarray:
+    """Blur a picture by a standard deviation in columns, and a shape as a world's."""
     if deviation <= 0.1:  # no shape has weight beyond its own pixel
         return values
     if shape == "normal":

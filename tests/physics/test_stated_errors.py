@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from photo_world.bounds import bound_of_light, bound_of_picture
 from photo_world.photograph import World, photograph, random_world
 from photo_world.tone_curves import power, srgb
-from photo_world.trials import Trial, bound, told, trial
+from photo_world.trials import Trial, told, trial
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.fit.blurred_light import BlurredLight, blur_kernel
+from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import Cells
@@ -57,15 +58,32 @@ def test_what_is_sure_lies_within_four_stated_deviations(sample: list[Trial]) ->
 def test_no_stated_deviation_is_below_the_bound(sample: list[Trial]) -> None:
     for one in sample:
         if not one.failure:
-            assert one.exposure_deviation > one.exposure_bound
+            assert one.exposure_deviation > one.picture_bounds[1] > one.light_bounds[1]
+            assert one.readout_deviation > one.light_bounds[0]
 
 
 def test_the_bound_shrinks_with_the_root_of_the_light() -> None:
     """Shot noise alone: four times the electrons, half the deviation."""
     world = small_world(1, read_noise=0.0, full_well=500.0)
-    few, many = bound(world), bound(replace(world, full_well=2000.0))
+    few, many = bound_of_light(world), bound_of_light(replace(world, full_well=2000.0))
     assert few[0] == pytest.approx(2.0 * many[0], rel=1e-6)
     assert few[1] == pytest.approx(2.0 * many[1], rel=1e-6)
+
+
+def test_a_picture_tells_as_much_as_its_light_where_the_camera_adds_nothing() -> None:
+    """Little light of few electrons: beside shot noise, rounding and JPEG do not count."""
+    world = small_world(1, full_well=30.0, read_noise=0.0, blur=0.0, quality=100, peak=0.9)
+    world = replace(world, ambient=0.1, lamp=replace(world.lamp, halo=0.0), curve=power(1.0))
+    by_picture = bound_of_picture(world, camera_known=True)
+    np.testing.assert_allclose(by_picture, bound_of_light(world), rtol=0.05)
+
+
+def test_what_is_not_known_of_the_camera_can_only_widen_the_bound() -> None:
+    world = small_world(2, blur=0.8)
+    known, unknown = bound_of_picture(world, camera_known=True), bound_of_picture(world)
+    coarse = bound_of_picture(replace(world, quality=50))
+    assert all(wide > narrow for wide, narrow in zip(unknown, known, strict=True))
+    assert all(wide > narrow for wide, narrow in zip(coarse, unknown, strict=True))
 
 
 def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
@@ -131,6 +149,16 @@ def test_blur_keeps_the_light_and_has_the_width_that_it_states() -> None:
         kernel = blur_kernel(blur)
         assert kernel.sum() == pytest.approx(1.0)
         assert kernel @ place**2 == pytest.approx(blur**2, rel=0.02)
+
+
+@pytest.mark.parametrize(("shape", "tails"), [("box", -1.2), ("exponential", 3.0)])
+def test_other_blurs_have_their_width_and_tails(shape: BlurShape, tails: float) -> None:
+    """Sampled by columns: a box gains a column's own width, 1/12, and exponential tails are cut."""
+    place = np.arange(-8, 9)
+    kernel = blur_kernel(1.2, shape=shape)
+    assert kernel.sum() == pytest.approx(1.0)
+    assert kernel @ place**2 == pytest.approx(1.2**2, rel=0.12)
+    assert kernel @ place**4 / (kernel @ place**2) ** 2 - 3.0 == pytest.approx(tails, rel=0.25)
 
 
 @pytest.mark.parametrize("tails", [-1.2, -0.5, 0.5, 1.0])

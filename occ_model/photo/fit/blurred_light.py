@@ -4,6 +4,9 @@ What a camera and an LED add to the exposure integral: image processing blurs co
 that turns on faster than off (or a driver that does) is on a little longer than its chips say.
 """
 
+import math
+from typing import Literal
+
 import cv2
 import numpy as np
 
@@ -15,6 +18,9 @@ _REACH = 8
 
 _LONGEST = 0.4
 """Largest change, in chips, of the time that the LED is on."""
+
+BlurShape = Literal["normal", "box", "exponential"]
+"""Blur's distribution: of processing; a box, as resizing blurs; or one with long tails."""
 
 
 class BlurredLight:
@@ -39,7 +45,12 @@ class BlurredLight:
         self._level_before = float(chips[int(turns[0] - 1) % self._period])
 
     def lit_fraction(
-        self, timing: Timing, blur: float, longer: float, tails: float = 0.0
+        self,
+        timing: Timing,
+        blur: float,
+        longer: float,
+        tails: float = 0.0,
+        shape: BlurShape = "normal",
     ) -> FloatArray:
         """Give the share of each column's exposure in which the LED is on, shape (columns,).
 
@@ -52,7 +63,9 @@ class BlurredLight:
         longer
             Chips by which each time on is longer than the chips say.
         tails
-            Excess kurtosis of the blur.
+            Excess kurtosis of a blur that is about normal.
+        shape
+            The blur's distribution.
         """
         longer = float(np.clip(longer, -_LONGEST, _LONGEST))
         edges = self._edges - 0.5 * longer * self._changes
@@ -70,17 +83,28 @@ class BlurredLight:
             return np.asarray(turns * a_period + within)
 
         lit = (until(place + timing.exposure) - until(place)) / timing.exposure
-        kernel = blur_kernel(blur, tails)[None]
+        kernel = blur_kernel(blur, tails, shape)[None]
         return np.asarray(cv2.filter2D(lit[None], -1, kernel)[0, _REACH:-_REACH])
 
 
-def blur_kernel(blur: float, tails: float = 0.0) -> FloatArray:
-    """Give the weights of blur around a column.
+def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") -> FloatArray:
+    """Give the weights of blur of the standard deviation ``blur``, in columns, around a column.
 
-    A normal distribution of the standard deviation ``blur``, in columns, times 1 + k/24 He4, which
-    gives it the excess kurtosis k = ``tails`` (Gram and Charlier's series; Kendall and Stuart, The
-    Advanced Theory of Statistics, 6.17). A box has k = -1.2; sharpening makes weights negative.
+    A normal distribution is multiplied by 1 + k/24 He4, which gives it the excess kurtosis
+    k = ``tails`` (Gram and Charlier's series; Kendall and Stuart, The Advanced Theory of
+    Statistics, 6.17); sharpening makes weights negative. A box of the half width sqrt(3) blur gives
+    each column the share of it that the column covers; exponential tails decay by the same ratio
+    from column to column.
     """
-    square = (np.arange(-_REACH, _REACH + 1) / max(blur, 0.05)) ** 2
-    kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
+    off = np.abs(np.arange(-_REACH, _REACH + 1)).astype(np.float64)
+    if shape == "box":
+        half = math.sqrt(3.0) * blur
+        kernel = np.clip(np.minimum(off + 0.5, half) - np.maximum(off - 0.5, -half), 0.0, None)
+    elif shape == "exponential":
+        # Of weights r^|i| the variance is 2 r / (1 - r)^2.
+        middle = 1.0 + 1.0 / max(blur, 0.05) ** 2
+        kernel = (middle - math.sqrt(middle**2 - 1.0)) ** off
+    else:
+        square = (off / max(blur, 0.05)) ** 2
+        kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
     return np.asarray(kernel / kernel.sum())

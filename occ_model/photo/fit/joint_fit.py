@@ -15,8 +15,9 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.blurred_light import BlurredLight, blur_kernel
+from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel
 from occ_model.photo.fit.damped_least_squares import minimized
+from occ_model.photo.fit.joint_covariance import TRUSTED, covariance_of
 from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -56,6 +57,12 @@ _LEAST_BLOCK = 16
 
 _CHIPS_A_FREEDOM = 6
 _MOST_FREEDOM = 8
+_CHIPS_A_SLOW_SHAPE = 4
+_MOST_SLOW_SHAPES = 32
+"""What varies as slowly in a residual says nothing of the timing: a lamp's brightness along the
+columns is no combination of a few shapes. What is left would count as noise of many columns, and
+let what is usual of a camera outweigh what is seen of it."""
+
 _EDGE = 0.05
 """Share of the swing from which a column is on an edge."""
 
@@ -132,12 +139,14 @@ class JointModel:
         self._values_blurred = values_blurred
         freedom = int(np.clip(step * columns / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
         light = BlurredLight(chips, columns)
-        self._parts = [LitProfile(profile, freedom) for profile in profiles]
+        slow = int(np.clip(step * columns / _CHIPS_A_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
+        self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
         width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK / step))
         self._block = np.concatenate(
             [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
         )
         self._noise = [np.ones(part.data.size + part.clipped.size) for part in self._parts]
+        self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
         usual = np.array(list(USUAL.values()))
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
         self._deviation[5] = math.hypot(self._deviation[5], _SHIFTED * step)
@@ -181,10 +190,28 @@ class JointModel:
 
     def take_noise(self, other: "JointModel") -> None:
         """Take the noise that another model of the same profiles found."""
-        self._noise = other._noise
+        self._noise, self._slow = other._noise, other._slow
 
-    def fit(self, first: FloatArray, fixed: Sequence[int] = (), rounds: int = 12) -> JointFit:
-        """Fit from a first guess, some parameters held fixed."""
+    def fit(
+        self,
+        first: FloatArray,
+        fixed: Sequence[int] = (),
+        rounds: int = 12,
+        shape: BlurShape | None = None,
+    ) -> JointFit:
+        """Fit from a first guess.
+
+        Parameters
+        ----------
+        first : ndarray of float64, shape (9,)
+            The guess, as the values of a fit.
+        fixed
+            Indices of parameters that are held fixed.
+        rounds
+            Largest number of steps.
+        shape
+            The blur's distribution; None: a normal one with tails that are not known.
+        """
         free = self._free.copy()
         free[list(fixed)] = False
         index = np.flatnonzero(free)
@@ -206,54 +233,39 @@ class JointModel:
             return np.clip(values, *bounds)
 
         found, residual, slopes = minimized(
-            lambda scaled: self._residual(values_of(scaled)), np.zeros(len(index)), rounds
+            lambda scaled: self._residual(values_of(scaled), 0.0, shape or "normal"),
+            np.zeros(len(index)),
+            rounds,
         )
         values = values_of(found)
         scale = np.where(index == 1, scale * values[1], scale)
         covariance = np.zeros((9, 9))
-        tails = (self._residual(values, _KURTOSIS) - residual) * (_TAILS / _KURTOSIS)
-        covariance[np.ix_(index, index)] = self._covariance(slopes, residual, tails) * np.outer(
-            scale, scale
-        )
+        moved = np.zeros_like(residual)
+        if shape is None:
+            moved = (self._residual(values, _KURTOSIS) - residual) * (_TAILS / _KURTOSIS)
+        covariance[np.ix_(index, index)] = covariance_of(
+            slopes, residual, moved, self._block
+        ) * np.outer(scale, scale)
         return JointFit(values, covariance, float(residual @ residual))
 
-    def _covariance(
-        self, slopes: FloatArray, residual: FloatArray, tails: FloatArray
-    ) -> FloatArray:
-        """Give the parameters' covariance, the residual being correlated and no mere noise.
-
-        Of two estimates the larger one is taken: the inverse of the information, and the sandwich
-        with the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and
-        West, Econometrica 55:703, 1987). All profiles show the same stripes, compressed alike: a
-        block holds the columns of all of them. Added to it is what one standard deviation of the
-        blur's tails, which change the residual by ``tails``, changes the estimates (a parameter
-        that is considered, and not estimated: Jazwinski, Stochastic Processes and Filtering Theory,
-        8.4).
-        """
-        information = slopes.T @ slopes
-        information[np.diag_indices_from(information)] += 1e-9
-        inverse = np.linalg.inv(information)
-        data = len(self._block)
-        blocks = int(self._block.max()) + 1
-        products = slopes[:data] * residual[:data, None]
-        scores = np.stack([np.bincount(self._block, part, blocks) for part in products.T], axis=1)
-        prior = slopes[data:].T @ slopes[data:]
-        sandwich = inverse @ (scores.T @ scores + prior) @ inverse
-        ratio = np.sqrt(np.maximum(np.diag(sandwich) / np.diag(inverse), 1.0))
-        moved = inverse @ (slopes.T @ tails)
-        return np.asarray(inverse * np.outer(ratio, ratio) + np.outer(moved, moved))
+    def unusual(self, values: FloatArray) -> float:
+        """Give by how many standard deviations the unknowns of a fit are off what is usual."""
+        return float(np.linalg.norm((values[3:] - self._mean) / self._deviation))
 
     def estimate_noise(self, values: FloatArray) -> None:
         """Take a fit's residual as the noise of each profile, neighbours being correlated."""
         seen = self._seen(values)
         for number, part in enumerate(self._parts):
             residual = part.residual(seen)[: part.data.size]
-            deviation = deviation_of(residual, part.slope, part.freedom)
+            slow = part.slow(np.ones(part.data.size))
+            residual -= slow @ (slow.T @ residual)
+            deviation = deviation_of(residual, part.slope, part.freedom + slow.shape[1] / 2.0)
             whole = np.zeros(self._columns)
             whole[part.kept] = residual / deviation
-            deviation *= math.sqrt(correlated_columns(whole))
+            deviation *= math.sqrt(TRUSTED * correlated_columns(whole))
             white = np.full(part.clipped.size, float(np.median(deviation)))
             self._noise[number] = np.concatenate([deviation, white])
+            self._slow[number] = part.slow(deviation)
 
     def edges_seen(self, values: FloatArray) -> float:
         """Give the largest share of the edges' columns that a profile shows without clipping."""
@@ -263,7 +275,7 @@ class JointModel:
         count = max(1, int(edges.sum()))
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
-    def _seen(self, values: FloatArray, tails: float = 0.0) -> Seen:
+    def _seen(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:
         step, exposure, middle, *bends, blur, longer = values.tolist()
         gamma, offset, shoulder, contrast = bends
         timing = Timing(step, exposure, middle, self._gamma)
@@ -271,18 +283,22 @@ class JointModel:
         if self._values_blurred:
             sharp = self._lit(timing, 0.0, longer, 0.0)
         return Seen(
-            self._lit(timing, blur, longer, tails),
+            self._lit(timing, blur, longer, tails, shape),
             self._table(self._gamma * math.exp(gamma), offset, shoulder, contrast),
             sharp,
-            blur_kernel(blur, tails),
+            blur_kernel(blur, tails, shape),
         )
 
-    def _residual(self, values: FloatArray, tails: float = 0.0) -> FloatArray:
+    def _residual(
+        self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
+    ) -> FloatArray:
         self._check()
-        seen = self._seen(values, tails)
-        parts = [
-            part.residual(seen) / noise
-            for part, noise in zip(self._parts, self._noise, strict=True)
-        ]
+        seen = self._seen(values, tails, shape)
+        parts = []
+        for part, noise, slow in zip(self._parts, self._noise, self._slow, strict=True):
+            residual = part.residual(seen) / noise
+            own = residual[: part.data.size]
+            own -= slow @ (slow.T @ own)
+            parts.append(residual)
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*parts, unusual])

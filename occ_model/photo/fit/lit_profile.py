@@ -20,6 +20,9 @@ from occ_model.photo.stripes.evenly_lit import EvenProfile
 _PRECISE = 0.02
 """Smallest standard deviation of a column mean, in grey levels."""
 
+_COLUMNS_A_SLOW_SHAPE = 8
+"""Least number of columns for each slow shape that is left out of account."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Seen:
@@ -40,14 +43,17 @@ class LitProfile:
         The profile.
     freedom
         Number of Chebyshev polynomials of which either level is a combination.
+    slow
+        Number of those that say nothing: what lamps are shaped like is no matter of the stripes.
     """
 
-    def __init__(self, profile: EvenProfile, freedom: int) -> None:
+    def __init__(self, profile: EvenProfile, freedom: int, slow: int = 0) -> None:
         self.kept, self.clipped = np.flatnonzero(profile.kept), np.flatnonzero(profile.clipped)
         self.data = profile.values[self.kept]
         slope = np.abs(np.gradient(profile.values))
         self.slope = cv2.dilate(slope[None], np.ones((1, 3), np.uint8))[0][self.kept]
         self.freedom = freedom
+        self._slow = self._slow_shapes(len(profile.values), slow)
         shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
         self._kept_shapes = np.ascontiguousarray(shapes[self.kept].T)
@@ -73,6 +79,15 @@ class LitProfile:
         else:
             residual = self._blurred(seen, seen.sharp, levels)
         return np.concatenate([residual, short])
+
+    def _slow_shapes(self, columns: int, count: int) -> FloatArray:
+        """Give the slow shapes at the kept columns, shape (kept, count)."""
+        count = min(count, self.kept.size // _COLUMNS_A_SLOW_SHAPE)
+        return np.ascontiguousarray(smooth_shapes(columns, count)[self.kept])
+
+    def slow(self, noise: FloatArray) -> FloatArray:
+        """Give an orthonormal basis of what is slow in a residual that is divided by its noise."""
+        return np.asarray(np.linalg.qr(self._slow / noise[:, None])[0])
 
     def _weighted_by(
         self, table: ToneTable
@@ -155,9 +170,9 @@ def _solved(products: FloatArray, sums: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.solve(regular, sums))
 
 
-def deviation_of(residual: FloatArray, slope: FloatArray, freedom: int) -> FloatArray:
+def deviation_of(residual: FloatArray, slope: FloatArray, freedom: float) -> FloatArray:
     """Estimate each column's noise: compression and processing change edges more than plateaus."""
-    square = residual**2 * (residual.size / max(1, residual.size - 2 * freedom))
+    square = residual**2 * (residual.size / max(1.0, residual.size - 2.0 * freedom))
     steep = slope**2
     parts = np.stack([np.ones_like(steep), steep], axis=1)
     variance = np.full(residual.size, float(square.mean()))

@@ -1,0 +1,88 @@
+"""Fit an exposure that may be mistaken for blur: edges tell how wide both are together."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.fit.blurred_light import BlurShape
+from occ_model.photo.fit.joint_fit import JointFit, JointModel
+
+_BLURRED = 12.0
+"""Columns up to which an exposure may be mistaken for blur."""
+
+_BLURS = (0.2, 0.7, 1.1, 1.5)
+"""Standard deviations of blur, in columns, that are tried then."""
+
+_SHAPES: tuple[BlurShape, ...] = ("box", "exponential")
+"""Other shapes of blur that are tried then. A box and an exposure look alike: which of them an edge
+is, is not seen."""
+
+_OF_BOTH = (0.1, 0.5, 0.9)
+"""Shares of an edge's variance that are blur's, from which such fits start."""
+
+_FIXED_BLUR = (7,)
+_KNOWN_BLUR = 0.1
+"""Standard deviation of a fitted blur, in columns, below which no other is likely."""
+
+_LAST_ROUNDS = 10
+_SHORTEST = 0.2
+"""Shortest exposure in columns to start from."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Possible:
+    """A model's fit, and the number of its steps once the noise is known."""
+
+    model: JointModel
+    fit: JointFit
+    rounds: int = 1
+
+    def again(self) -> list[JointFit]:
+        """Fit again, the noise having been estimated, also with each blur where all are likely."""
+        free = self.model.fit(self.fit.values, rounds=self.rounds)
+        if free.values[1] >= _BLURRED * free.values[0]:
+            return [free]
+        found = [free, *(self._shaped(free.values, shape) for shape in _SHAPES)]
+        if free.covariance[7, 7] < _KNOWN_BLUR**2:
+            return found
+        others = [_with_blur(free.values, blur) for blur in _BLURS]
+        return [*found, *(self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others)]
+
+    def _shaped(self, values: FloatArray, shape: BlurShape) -> JointFit:
+        """Fit with another shape of the blur."""
+        columns = float(values[1] / values[0])
+        width = columns**2 / 12.0 + float(values[7]) ** 2
+        starts = [_with_blur(values, math.sqrt(share * width)) for share in _OF_BOTH]
+        fits = [self.model.fit(start, rounds=4, shape=shape) for start in starts]
+        return min(fits, key=lambda fit: fit.misfit)
+
+
+def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Possible]:
+    """Fit each model near an exposure; a short one with every blur, which it may be taken for."""
+    columns = float(values[1] / values[0])
+    if columns > _BLURRED:
+        return [Possible(one, one.fit(one.adapted(values))) for one in models]
+    found = []
+    for model in models:
+        here = model.adapted(values)
+        others = [_with_blur(here, blur) for blur in _BLURS]
+        if not model.is_wide:
+            # Each blur starts from what is usual of all else: tone and switching can make up for
+            # it. Where gamma is asked for, it must not start anew.
+            others = [model.with_usual(other) for other in others]
+        starts = [here, *others]
+        fits = [model.fit(start, rounds=5) for start in starts]
+        best = min(fits, key=lambda fit: fit.misfit)
+        found.append(Possible(model, best, _LAST_ROUNDS))
+    return found
+
+
+def _with_blur(values: FloatArray, blur: float) -> FloatArray:
+    """Set the blur, and the exposure that leaves the edges' width as it is."""
+    values = values.copy()
+    step = float(values[0])
+    width = (values[1] / step) ** 2 + 12.0 * (values[7] ** 2 - blur**2)
+    values[1] = step * math.sqrt(max(float(width), _SHORTEST**2))
+    values[7] = blur
+    return values

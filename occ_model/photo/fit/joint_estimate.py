@@ -34,6 +34,11 @@ _UNKNOWN_RAMP = 0.002
 """Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
 change a ramp's shape."""
 
+_UNMODELLED = 1.7
+"""Ratio of an exposure's errors to its fit's deviation: cameras do more than a model. With 1
+a phone's photo that notes 79.0 us gives 87.1 +- 2.3, and two deviations cover 90 % of the exposures
+of simulated photographs; with this 93 % of them, and one deviation covers more than it should."""
+
 _LEAST_EDGES = 0.1
 """Share of the edges' columns that must be seen without clipping."""
 
@@ -236,6 +241,8 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
     covariance[:3, :3] = mode.covariance[:3, :3]
     timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
     unknown = math.hypot(_UNKNOWN_RAMP, _rounding(model, timing)) * values[1]
+    covariance[1] *= _UNMODELLED
+    covariance[:, 1] *= _UNMODELLED
     covariance[1, 1] += unknown**2
     if with_gamma:
         gamma *= math.exp(float(values[3]))

@@ -10,6 +10,8 @@ from typing import NoReturn
 
 from PySide6.QtCore import QMessageLogContext, QObject, QtMsgType, Signal, qInstallMessageHandler
 
+from occ_model.errors import one_line
+
 _log = logging.getLogger(__name__)
 _qt_log = logging.getLogger("qt")
 
@@ -84,7 +86,7 @@ class ErrorReports(QObject):
             return
         self._known.add(key)
         _log.error("unhandled", exc_info=(kind, error, trace))
-        reason = f"{kind.__name__}: {error}".rstrip(": .")
+        reason = one_line(f"{kind.__name__}: {error}".rstrip(": ."))
         self.reported.emit(
             self.tr("Something went wrong: {reason}. Your work is still there.").format(
                 reason=reason

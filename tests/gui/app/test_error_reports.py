@@ -56,6 +56,15 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
     assert works(application, user)
 
 
+def test_the_report_of_an_exception_is_one_line(reports: ErrorReports) -> None:
+    messages: list[str] = []
+    reports.reported.connect(messages.append)
+    reports.report(ValueError, ValueError("two\nlines\x1b" + "x" * 5000), None)
+    (message,) = messages
+    assert message.isprintable()
+    assert len(message) < 400
+
+
 def test_a_repeated_exception_is_reported_once(reports: ErrorReports) -> None:
     messages: list[str] = []
     reports.reported.connect(messages.append)

@@ -50,9 +50,10 @@ def doors() -> dict[str, Door]:
     from hard_cases.attack.doors.plugins import PLUGINS
     from hard_cases.attack.doors.scenes import CARRIERS, LESSONS_FILES, SCENES
     from hard_cases.attack.doors.shell import SHELL, WINDOW_SHELL
-    from hard_cases.attack.doors.state import STATE, WINDOW
+    from hard_cases.attack.doors.state import STATE
     from hard_cases.attack.doors.tables import TABLES
     from hard_cases.attack.doors.typed import TYPED
+    from hard_cases.attack.doors.window import WINDOW
 
     all_of_them = (
         TYPED, SCENES, LESSONS_FILES, CARRIERS, TABLES, PHOTOS, RAW, FILMS, PLUGINS, SHELL,

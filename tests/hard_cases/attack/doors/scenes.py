@@ -29,10 +29,21 @@ _NAMES = ("scene", "photo 1", "a\x1b[31mb", "a\nb", "é", "a" * 200, "-", "phone
 
 
 @cache
-def _scene_texts() -> tuple[str, ...]:
+def scene_texts() -> tuple[str, ...]:
+    """The texts of some scene files."""
     own = occ.Scene().replace(payload='text:a "b" \\ é', line_code="manchester", framing="c-ook")
     scenes = (own, occ.Scene(), occ.load_preset("phone-136us-real"))
     return tuple(scene.to_toml() for scene in scenes)
+
+
+def preset_texts() -> tuple[str, ...]:
+    """The texts of the package's own presets."""
+    return _texts_of("presets")
+
+
+def lesson_texts() -> tuple[str, ...]:
+    """The texts of the package's own lessons."""
+    return _texts_of("lessons")
 
 
 @cache
@@ -42,7 +53,7 @@ def _texts_of(folder: str) -> tuple[str, ...]:
 
 
 def _scene(chance: Random, folder: Path) -> list[str]:
-    content = made.encoded(chance, made.damaged(chance, chance.choice(_scene_texts())))
+    content = made.encoded(chance, made.damaged(chance, chance.choice(scene_texts())))
     path = folder / f"{chance.choice(_NAMES)}.toml"
     path.write_bytes(content)
     check_scene(read_scene_file(path))
@@ -50,7 +61,7 @@ def _scene(chance: Random, folder: Path) -> list[str]:
 
 
 def _preset(chance: Random, folder: Path) -> list[str]:
-    text = made.damaged(chance, chance.choice((*_texts_of("presets"), *_scene_texts())))
+    text = made.damaged(chance, chance.choice((*preset_texts(), *scene_texts())))
     preset = preset_from("own", text)
     check_scene(preset.scene)
     assert preset.title
@@ -76,7 +87,7 @@ def _own_files(chance: Random, folder: Path) -> list[str]:
 
 
 def _lesson(chance: Random, folder: Path) -> list[str]:
-    text = made.damaged(chance, chance.choice(_texts_of("lessons")))
+    text = made.damaged(chance, chance.choice(lesson_texts()))
     path = folder / f"{chance.choice(_NAMES)}.toml"
     path.write_bytes(made.encoded(chance, text))
     lesson = read_lesson(path)
@@ -92,7 +103,7 @@ def _lesson(chance: Random, folder: Path) -> list[str]:
 def _film_note() -> str:
     path = (Waypoint(0.0), Waypoint(1.0, offset_x=0.2, roll=0.1))
     recording = Recording(frame_jitter=1e-5, path=path, exposure_times=(1e-4, 2e-4))
-    return "\n".join([*recording.lines(), *_scene_texts()[0].splitlines()])
+    return "\n".join([*recording.lines(), *scene_texts()[0].splitlines()])
 
 
 def _recording(chance: Random, _folder: Path) -> list[str]:
@@ -104,7 +115,7 @@ def _recording(chance: Random, _folder: Path) -> list[str]:
 
 
 @cache
-def _exported() -> dict[str, bytes]:
+def exported() -> dict[str, bytes]:
     """A small file of each kind that carries a scene."""
     from matplotlib.figure import Figure
 
@@ -120,7 +131,7 @@ def _exported() -> dict[str, bytes]:
 
 def _carrier(chance: Random, folder: Path) -> list[str]:
     kind = chance.choice(("svg", "pdf", "png", "csv"))
-    content = _exported()[kind]
+    content = exported()[kind]
     if kind == "png" and chance.random() < 0.5:
         content = _png_with(chance, made.damaged(chance, _provenance_text()))
     elif kind == "png" or chance.random() < 0.3:

@@ -3,6 +3,7 @@
 import io
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from functools import cache
@@ -243,6 +244,8 @@ def _inputs(folder: Path) -> tuple[bytes, ...]:
 @cache
 def _import_all() -> None:
     """Import what commands import late: an import that is interrupted may not be repeated."""
+    # What an interrupt leaves open, of fonts for example, is closed by the collector.
+    warnings.simplefilter("ignore", ResourceWarning)
     import_module("occ_model.commands.command_line")
     for name in ("accuracy", "animation", "bench", "films", "paper", "sweep", "transmitter_files"):
         import_module(f"occ_model.figures.{name}")

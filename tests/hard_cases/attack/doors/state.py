@@ -1,10 +1,7 @@
 """What the window has kept: sessions, and preferences with the layout of the panes."""
 
 import base64
-import os
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -23,16 +20,14 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:  # Qt is slow to import, and only the doors of the window need it
-    from PySide6.QtWidgets import QApplication
-
     from occ_gui.files.session import Session
 
-_SESSION, _SETTINGS = "session-1.json", "settings.ini"
+SESSION, SETTINGS = "session-1.json", "settings.ini"
 _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 
 
 @cache
-def _session_text() -> str:
+def session_text() -> str:
     """A whole session file."""
     from occ_gui.files.session import Session, SessionFile
 
@@ -42,7 +37,7 @@ def _session_text() -> str:
         paths = dict.fromkeys(("scene_file", "photo", "film"), Path(__file__))
         file.write(Session(Scene(), settings, **paths, region=Region(0, 9, 0, 9)), in_use=True)
         file.close()
-        return Path(folder, _SESSION).read_text("ascii")
+        return Path(folder, SESSION).read_text("ascii")
 
 
 def _check_session(session: "Session") -> None:
@@ -63,8 +58,8 @@ def _check_session(session: "Session") -> None:
 def _session(chance: Random, folder: Path) -> list[str]:
     from occ_gui.files.session import SessionFile
 
-    text = made.damaged(chance, _session_text())
-    (folder / _SESSION).write_bytes(made.encoded(chance, text))
+    text = made.damaged(chance, session_text())
+    (folder / SESSION).write_bytes(made.encoded(chance, text))
     file = SessionFile(folder, NAMES)
     _check_session(file.last)
     if file.crashed is not None:
@@ -99,7 +94,7 @@ _QT_VALUES = (
 )  # fmt: skip
 
 
-def _damaged_ini(chance: Random, text: str) -> str:
+def damaged_ini(chance: Random, text: str) -> str:
     """Change some values to what only Qt writes, and the layouts within their bytes."""
     lines = text.splitlines()
     rng = np.random.default_rng(chance.getrandbits(32))
@@ -122,8 +117,8 @@ def _preferences(chance: Random, folder: Path) -> list[str]:
     from occ_gui.files.preferences import Preferences
 
     text = _INI.format(here=__file__, folder=folder)
-    path = folder / _SETTINGS
-    path.write_bytes(made.encoded(chance, _damaged_ini(chance, text)))
+    path = folder / SETTINGS
+    path.write_bytes(made.encoded(chance, damaged_ini(chance, text)))
     kept = Preferences(QSettings(str(path), QSettings.Format.IniFormat))
     for stored in kept.files:
         assert stored.is_absolute()
@@ -141,80 +136,3 @@ def _state(chance: Random, folder: Path) -> list[str]:
 
 
 STATE = Door("settings", "sessions, preferences", _state, (), share=60)
-
-
-@cache
-def _qt() -> "QApplication":
-    """The one application of Qt that this process may have."""
-    os.environ["QT_QPA_PLATFORM"] = "offscreen"
-    from PySide6.QtWidgets import QApplication
-
-    return QApplication.instance() or QApplication(["attack"])  # type: ignore[return-value]
-
-
-@contextmanager
-def _window(folder: Path) -> Iterator[list[str]]:
-    """Open a window that keeps its state in a folder, as the command line does; then close it."""
-    import pytest
-    from PySide6.QtCore import QEvent
-    from PySide6.QtWidgets import QApplication
-
-    from occ_gui.app.application import Application
-    from occ_gui.app.command_line import _parser
-    from occ_gui.app.start import start_of
-    from occ_gui.detection_map import wiring
-    from occ_model.commands.options import scene_of, simulation_settings_of
-
-    _qt()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("OCC_STATE", str(folder))
-        patch.setattr(wiring, "new_workers", _no_workers)
-        options = _parser().parse_args(["--set", "rows=20"])
-        settings = simulation_settings_of(options)
-        begin = start_of(options, scene_of(options), settings, own=True)
-        application = Application(begin.scene, begin.settings, begin.preferences)
-        try:
-            said: list[str] = []
-            application.window.statusBar().messageChanged.connect(said.append)
-            begin.restore(application, with_photo=True)
-            application.window.show()
-            QApplication.processEvents()
-            yield said
-        finally:
-            application.window.close()
-            application.stop()
-            application.window.deleteLater()
-            with suppress(RuntimeError):
-                QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-            QApplication.processEvents()
-
-
-def _no_workers() -> object:
-    from gui.conftest import LazyWorkers
-
-    return LazyWorkers()
-
-
-@cache
-def _kept() -> dict[str, str]:
-    """What a window keeps that was opened and closed."""
-    with TemporaryDirectory() as folder:
-        with _window(Path(folder)):
-            pass
-        return {name: Path(folder, name).read_text("utf-8") for name in (_SESSION, _SETTINGS)}
-
-
-def _opened(chance: Random, folder: Path) -> list[str]:
-    session = _session_text() if chance.random() < 0.5 else _kept()[_SESSION]
-    (folder / _SESSION).write_bytes(made.encoded(chance, made.damaged(chance, session)))
-    ini = _damaged_ini(chance, _kept()[_SETTINGS])
-    (folder / _SETTINGS).write_bytes(made.encoded(chance, ini))
-    with _window(folder) as said:
-        pass
-    return [text for text in said if text]
-
-
-WINDOW = Door(
-    "window", "a whole window on damaged sessions and preferences", _opened, (), share=4,
-    patience=20.0,
-)  # fmt: skip

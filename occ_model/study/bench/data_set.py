@@ -80,33 +80,49 @@ def load_samples(table: Path) -> tuple[Sample, ...]:
         the line.
     """
     rows = csv.DictReader(read_text(table).splitlines())
-    missing = [name for name in COLUMNS if name not in (rows.fieldnames or ())]
-    if missing:
-        raise PhotoError(f"{table.name} has no column {missing[0]}; needed: {', '.join(COLUMNS)}.")
-    return tuple(_sample(row, table, line) for line, row in enumerate(rows, 2))
-
-
-def _sample(row: dict[str, str], table: Path, line: int) -> Sample:
-    values = [_positive(row, name, table, line) for name in COLUMNS[1:]]
-    tick, sampling, exposure, symbol = values
-    path = (table.parent / row[COLUMNS[0]]).resolve()
-    if not path.is_relative_to(table.parent.resolve()):
-        raise PhotoError(
-            f"{table.name}, line {line}: {one_line(shown(row[COLUMNS[0]]))} is outside the folder "
-            "of the data set."
-        )
-    return Sample(path, tick * sampling, tick * exposure, tick * symbol)
-
-
-def _positive(row: dict[str, str], name: str, table: Path, line: int) -> float:
+    name = one_line(table.name)
     try:
-        value = float(row[name])
-    except (TypeError, ValueError):
+        missing = [column for column in COLUMNS if column not in (rows.fieldnames or ())]
+        if missing:
+            raise PhotoError(f"{name} has no column {missing[0]}; needed: {', '.join(COLUMNS)}.")
+        return tuple(
+            _sample(row, table.parent, f"{name}, line {line}") for line, row in enumerate(rows, 2)
+        )
+    except csv.Error as error:  # such as a cell of more than 131,072 characters
+        raise PhotoError(f"{name} is no table: {one_line(str(error))}.") from None
+
+
+def _sample(row: dict[str, str | None], folder: Path, where: str) -> Sample:
+    path = _path(row[COLUMNS[0]], folder, where)
+    tick, *ticks = (_positive(row, name, where) for name in COLUMNS[1:])
+    times = [tick * count for count in ticks]
+    if not all(0.0 < time < np.inf and 1.0 / time < np.inf for time in times):
+        raise PhotoError(f"{where}: times of {times} s; allowed: such as a camera can have.")
+    return Sample(path, *times)
+
+
+def _path(text: str | None, folder: Path, where: str) -> Path:
+    """Give the file of a picture, which is in the folder of the data set."""
+    if not text:
+        raise PhotoError(f"{where}: {COLUMNS[0]} is missing.")
+    try:
+        path = (folder / text).resolve()
+        is_inside = path.is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):  # no file can have the name, or a link to itself
+        raise PhotoError(f"{where}: {shown(text)} cannot be the name of a file.") from None
+    if not is_inside:
+        raise PhotoError(f"{where}: {shown(text)} is outside the folder of the data set.")
+    return path
+
+
+def _positive(row: dict[str, str | None], name: str, where: str) -> float:
+    text = row[name]
+    try:
+        value = float(text or "")
+    except ValueError:
         value = 0.0
     if not 0.0 < value < np.inf:
-        raise PhotoError(
-            f"{table.name}, line {line}: {name} is {shown(row[name])}; allowed: numbers above 0."
-        )
+        raise PhotoError(f"{where}: {name} is {shown(text)}; allowed: numbers above 0.")
     return value
 
 

@@ -1,6 +1,5 @@
 """How a film is recorded: frame rate, jitter, drift of the clocks, motion, exposure times."""
 
-import tomllib
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
@@ -14,6 +13,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.pose_receiver_model import POSE
 from occ_model.scene.scene import Scene
+from occ_model.scene.toml_format import parse_toml
 from occ_model.scene.units import HERTZ, PPM, SECOND
 
 FrameTimes: TypeAlias = Literal["measured", "nominal"]
@@ -159,7 +159,7 @@ class Recording:
         if not own:
             return None
         try:
-            values = tomllib.loads("\n".join(own))["recording"]
+            values = parse_toml("\n".join(own))["recording"]
             path = tuple(Waypoint(**point) for point in values.pop("path", ()))
             return cls(**values, path=path)
         except (ValueError, TypeError, RecursionError):

@@ -132,6 +132,17 @@ def test_numerical_health_has_every_law_that_is_tried() -> None:
     assert [law for law in sorted(laws) if f"\n| {law} |" not in page] == []
 
 
+def test_numerical_health_has_every_door_that_is_attacked() -> None:
+    page = page_named("numerical-health")
+    doors = {
+        name
+        for call in calls("hard_cases/attack/doors", "Door")
+        if (name := constant(call.args[0]))
+    }
+    assert len(doors) > 10
+    assert [door for door in sorted(doors) if f"\n| {door} |" not in page] == []
+
+
 def test_costs_have_every_line_of_the_report() -> None:
     """``python tests/benchmarks/report.py --markdown`` prints the table anew."""
     page = page_named("costs")

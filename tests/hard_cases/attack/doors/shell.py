@@ -186,6 +186,7 @@ def _streams() -> Iterator[tuple[io.StringIO, io.StringIO]]:
 
 def ended(main: Callable[[Sequence[str]], int], words: Sequence[str]) -> tuple[int, str, str]:
     """Run a program's main function; give its exit code, its output and its messages."""
+    _import_all()
     with _streams() as (out, err):
         try:
             with _Long():
@@ -223,7 +224,6 @@ def messages(code: int, out: str, err: str) -> list[str]:
 def _run(chance: Random, folder: Path) -> list[str]:
     from occ_model.cli import main
 
-    _import_all()
     _fill(folder, chance)
     command = chance.choice((*COMMANDS,))
     usual = COMMANDS[command] if command in _SCENELESS else (*_SMALL, *COMMANDS[command])

@@ -53,23 +53,19 @@ def _resumed(chance: Random, folder: Path) -> list[str]:
     return []
 
 
-@cache
-def _data_set() -> tuple[str, bytes]:
-    """The table of a small data set, and its picture."""
-    row = "photo.png,1e-6,20,100,400"
-    return "\n".join((",".join((*COLUMNS, "note")), *[f"{row},a"] * 3, "")), _striped_png()
-
-
-@cache
-def _striped_png() -> bytes:
-    return damaged_photos.whole_files()["png"]
-
-
 def _samples(chance: Random, folder: Path) -> list[str]:
-    table, picture = _data_set()
-    (folder / "photo.png").write_bytes(picture)
-    (folder / "table.csv").write_bytes(made.encoded(chance, made.damaged(chance, table)))
-    samples = load_samples(folder / "table.csv")
+    (folder / "photo.png").write_bytes(damaged_photos.whole_files()["png"])
+    names = chance.sample(COLUMNS, len(COLUMNS))
+    cells = dict(zip(COLUMNS, ("photo.png", "1e-6", "20", "100", "400"), strict=True))
+    if chance.random() < 0.3:
+        cells[chance.choice(COLUMNS)] = chance.choice((made.number(chance), made.word(chance)))
+    row = ",".join(cells[name] for name in names)
+    table = "\n".join([",".join(names), row, row.rpartition(",")[0], ""])
+    if chance.random() < 0.6:
+        table = made.damaged(chance, table)
+    path = folder / chance.choice(("table.csv", "ta\x1bble\n", "é" * 80))
+    path.write_bytes(made.encoded(chance, table))
+    samples = load_samples(path)
     failures = []
     for reading in read_samples(samples[:2], ("threshold",)):
         assert 0.0 < reading.sample.symbol < np.inf

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_model.commands.options import (
+    Parser,
     add_scene_options,
     add_simulation_options,
     scene_of,
@@ -87,9 +88,7 @@ def _start_and_run(options: argparse.Namespace) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="occ-gui", description="Explore optical camera communication."
-    )
+    parser = Parser(prog="occ-gui", description="Explore optical camera communication.")
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
     add_simulation_options(parser)

@@ -44,6 +44,16 @@ def occ_gui(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     return run("-m", "occ_gui", *arguments)
 
 
+def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["--no-such=\x1b[31m" + "9" * 5000])
+    assert left.value.code == 2
+    *_usage, last = capsys.readouterr().err.removesuffix("\n").split("\n")
+    assert last.startswith("occ-gui: error: unrecognized arguments: --no-such=\\x1b[31m999")
+    assert last.isprintable()
+    assert len(last) < 1100
+
+
 def is_one_sentence(text: str) -> bool:
     return text.startswith("occ-gui: ") and text.endswith(".\n") and text.count("\n") == 1
 

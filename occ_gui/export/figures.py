@@ -12,6 +12,8 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.sweep_table import table_of
 from occ_gui.export.jobs import FigureRequest
+from occ_gui.picture.difference_image import difference_cells
+from occ_gui.picture.photo_overlay import rect_of
 from occ_gui.picture.placement import Placement
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.settings_store import SettingsStore
@@ -95,6 +97,10 @@ class Overlay(Protocol):
     @property
     def split_row(self) -> float:
         """The row from which downwards the photo is seen where the picture is split."""
+
+    @property
+    def times(self) -> int:
+        """The factor by which the difference is drawn."""
 
 
 Source = Callable[[Snapshot], FigureRequest]
@@ -222,15 +228,27 @@ class Figures(QObject):
         frame, region, whose = shown.frame, shown.decoded.region, self._whose
         over, place = self._overlay, self._overlay.placement
         opacities = {"blend": (over.opacity, None), "split": (1.0, over.split_row)}
-        laid = opacities.get(over.mode)
+        laid, times = opacities.get(over.mode), over.times
+        compared = photo if over.mode == "difference" else None
 
         def draw() -> "Drawing":
-            from occ_model.figures.overlay import PhotoLayer
-            from occ_model.figures.window_panes import picture_drawing
+            from occ_model.figures.overlay import Difference, PhotoLayer
+            from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
 
-            layer = None
+            layer: PhotoLayer | Difference | None = None
             if laid is not None:
                 layer = PhotoLayer(place.column, place.row, place.scale, *laid)
+            elif compared is not None:
+                image = frame.picture(whose)
+                layers = (image, rect_of(image, Placement())), (compared, rect_of(compared, place))
+                found = difference_cells(*layers, MOST_CELLS)
+                if found is None:
+                    raise NothingToDraw(
+                        self.tr("Photo and simulation do not overlap: there is no difference.")
+                    )
+                levels, grid = found
+                edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
+                layer = Difference(levels, edges, times)
             return picture_drawing(frame, region, photo, whose, layer)
 
         return self.request(frame.scene, draw)

@@ -39,6 +39,11 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         self._means.pop(layer, None)
         self.update()
 
+    @property
+    def gain(self) -> int:
+        """The factor by which the difference is multiplied."""
+        return self._gain
+
     def set_gain(self, gain: int) -> None:
         """Set the factor by which the difference is multiplied."""
         self._gain = gain
@@ -78,6 +83,30 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         means = cell_means(*self._layers[layer], grid, shape)
         self._means[layer] = (QRectF(grid), shape, means)
         return means
+
+
+def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArray, QRectF] | None:
+    """Compare two images where they overlap, averaged over at most so many cells a side.
+
+    Parameters
+    ----------
+    first, second
+        Each an image and its rectangle.
+    most
+        Most cells a side; none is smaller than a unit of the rectangles.
+
+    Returns
+    -------
+    tuple or None
+        The absolute difference in grey levels, shape (rows, columns), and its rectangle; None where
+        the images do not overlap.
+    """
+    grid = first[1].intersected(second[1])
+    if grid.isEmpty():
+        return None
+    side = max(1.0, max(grid.width(), grid.height()) / most)
+    shape = (max(1, round(grid.height() / side)), max(1, round(grid.width() / side)))
+    return np.abs(cell_means(*first, grid, shape) - cell_means(*second, grid, shape)), grid
 
 
 def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, int]) -> FloatArray:

@@ -86,6 +86,11 @@ class PhotoOverlay(QObject):
         self._placement = placement
         self._arrange()
 
+    @property
+    def times(self) -> int:
+        """The factor by which the difference is drawn."""
+        return self.difference.gain
+
     def set_mode(self, mode: str) -> None:
         """Set the way of showing the photo, one of MODES; nothing is drawn over for the first."""
         self._mode = mode

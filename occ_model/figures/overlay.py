@@ -1,7 +1,8 @@
-"""Draw a photo over a simulated picture: blended, or below a line."""
+"""Draw a photo over a simulated picture: blended, below a line, or as the difference of both."""
 
 from dataclasses import dataclass
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from occ_model import colours
@@ -49,6 +50,44 @@ class PhotoLayer:
         if self.from_row is None:
             return f"photo over it, opacity {100 * self.opacity:.0f} %"
         return f"photo from row {self.from_row:.0f} on"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Difference:
+    """The difference of a photo and a simulated picture where they overlap.
+
+    Parameters
+    ----------
+    levels : ndarray of float64, shape (cell rows, cell columns)
+        The absolute difference in grey levels, averaged over cells.
+    extent
+        The left, right, lower and upper edge of the cells in pixels of the simulated picture.
+    gain
+        The factor by which it is drawn; what exceeds 255 is white.
+    """
+
+    levels: FloatArray
+    extent: tuple[float, float, float, float]
+    gain: int
+
+    @property
+    def words(self) -> str:
+        """What is shown, for a title."""
+        return f"its difference from the photo × {self.gain}, black where equal"  # noqa: RUF001
+
+    def centres(self) -> tuple[FloatArray, FloatArray]:
+        """Return the rows and the columns of the cells' centres."""
+        left, right, bottom, top = self.extent
+        rows, columns = self.levels.shape
+        return (
+            top + (bottom - top) * (np.arange(float(rows)) + 0.5) / rows,
+            left + (right - left) * (np.arange(float(columns)) + 0.5) / columns,
+        )
+
+    def draw(self, ax: Axes) -> None:
+        """Draw it in axes of its own."""
+        drawn = np.minimum(self.gain * self.levels, 255.0)
+        ax.imshow(drawn, cmap="gray", vmin=0, vmax=255, extent=self.extent)
 
 
 def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:

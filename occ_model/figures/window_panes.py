@@ -1,6 +1,6 @@
 """Draw the window's picture and column profiles for print."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import cv2
@@ -12,13 +12,13 @@ from matplotlib.patches import Rectangle
 from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, Drawing
-from occ_model.figures.overlay import PhotoLayer, lay_over
+from occ_model.figures.overlay import Difference, PhotoLayer, lay_over
 from occ_model.results import Comparison, Frame, Region
 from occ_model.results.frame import PICTURES
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
-_MOST_CELLS = 900
+MOST_CELLS = 900
 """Cells on each side of a printed picture: more are no finer on paper."""
 
 _NAMED = ("exposure_time", "switching_frequency", "readout_time", "distance")
@@ -39,7 +39,7 @@ def picture_drawing(
     region: Region | None = None,
     photo: ByteArray | None = None,
     whose: str = PICTURES[0],
-    layer: PhotoLayer | None = None,
+    layer: PhotoLayer | Difference | None = None,
 ) -> Drawing:
     """Draw a simulated picture, with the decoder's region and a photo beside it or over it.
 
@@ -56,22 +56,27 @@ def picture_drawing(
     whose
         Whose picture is drawn, the ``"camera"``'s or the ``"receiver"``'s.
     layer
-        How the photo lies over the picture; None for a photo beside it.
+        How the photo lies over the picture, or their difference; None for a photo beside it.
     """
     image, name = frame.picture(whose), frame.picture_title(whose)
     cells, size = _cells(image)
     laid = "" if photo is None or layer is None else f"; {layer.words}"
     title_of_picture = f"{name}{laid}"
+    difference = layer if isinstance(layer, Difference) else None
 
     def draw() -> Figure:
         pictures = [image] if photo is None or layer is not None else [image, photo]
-        rows, columns = image.shape
+        rows, columns = image.shape if difference is None else difference.levels.shape
         figure = Figure(figsize=(3.6 * len(pictures), 0.9 + 3.1 * min(rows / columns, 1.6)))
         axes = figure.subplots(1, len(pictures), squeeze=False)[0]
         for ax, picture in zip(axes, pictures, strict=True):
-            _show(ax, picture)
+            if difference is None:
+                _show(ax, picture)
+            else:
+                difference.draw(ax)
+                _label(ax)
             ax.set_title("Photo" if picture is photo else title_of_picture, fontsize=9)
-        if photo is not None and layer is not None:
+        if photo is not None and isinstance(layer, PhotoLayer):
             seen = photo[layer.first_row(len(photo)) :]
             if len(seen):
                 lay_over(axes[0], _cells(seen)[0], layer, photo.shape)
@@ -82,18 +87,33 @@ def picture_drawing(
         figure.supxlabel(caption(frame.scene), fontsize=7)
         return figure
 
-    def rows() -> Iterable[tuple[object, ...]]:
-        for row, values in enumerate(cells.tolist()):
-            yield (size * (row + 0.5) - 0.5, *values)
+    if difference is not None:
+        title = f"{name}; its difference from the photo in levels: {caption(frame.scene)}"
+        return _of_cells(title, draw, difference.levels, *difference.centres())
+    down, across = (size * (np.arange(float(count)) + 0.5) - 0.5 for count in cells.shape)
+    return _of_cells(f"{name}: {caption(frame.scene)}", draw, cells, down, across)
 
-    columns = [f"column {size * (c + 0.5) - 0.5:g}" for c in range(cells.shape[1])]
-    title = f"{name}: {caption(frame.scene)}"
+
+def _of_cells(
+    title: str,
+    draw: Callable[[], Figure],
+    cells: FloatArray,
+    down: FloatArray,
+    across: FloatArray,
+) -> Drawing:
+    """Make the drawing of a picture whose table holds its cells, by the cells' centres."""
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        for row, values in zip(down.tolist(), cells.tolist(), strict=True):
+            yield (row, *values)
+
+    columns = [f"column {column:g}" for column in across.tolist()]
     return Drawing("picture", title, draw, ("row", *columns), rows)
 
 
 def _cells(image: ByteArray) -> tuple[FloatArray, int]:
     """Average a picture over square cells of as many pixels as print needs; give their side too."""
-    size = -(-max(image.shape) // _MOST_CELLS)
+    size = -(-max(image.shape) // MOST_CELLS)
     rows, columns = image.shape[0] // size, image.shape[1] // size
     whole = image[: rows * size, : columns * size]
     # The mean of each cell: taking one pixel of it would show stripes that are not there.
@@ -105,6 +125,10 @@ def _show(ax: Axes, picture: ByteArray) -> None:
     rows, columns = picture.shape
     extent = (-0.5, columns - 0.5, rows - 0.5, -0.5)
     ax.imshow(_cells(picture)[0], cmap="gray", vmin=0, vmax=255, extent=extent)
+    _label(ax)
+
+
+def _label(ax: Axes) -> None:
     ax.set_xlabel("column")
     ax.set_ylabel("row")
     ax.tick_params(labelsize=7)

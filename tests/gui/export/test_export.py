@@ -90,6 +90,23 @@ def test_the_photo_is_drawn_beside_the_simulation(
     assert ["photo" in header for header in headers] == [False, True]
 
 
+def test_the_difference_is_exported_as_it_is_seen(
+    application: Application, user: User, photo_file: Path, tmp_path: Path
+) -> None:
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    application.show_mode("difference")
+    path = tmp_path / "difference.csv"
+    assert export(application, user, "picture", path) == "Exported difference.csv"
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
+    photo = application.photo_wiring.matching.photo
+    assert photo is not None
+    rows, columns = photo.image.shape
+    assert len(lines) == 1 + rows
+    assert len(lines[0].split(",")) == 1 + columns
+    assert "difference from the photo" in path.read_text(encoding="utf-8")
+
+
 def test_all_figures_go_into_a_folder_in_all_formats(
     application: Application, user: User, tmp_path: Path
 ) -> None:

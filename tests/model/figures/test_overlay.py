@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.figures.drawing import Drawing
-from occ_model.figures.overlay import PhotoLayer
+from occ_model.figures.overlay import Difference, PhotoLayer
 from occ_model.figures.window_panes import picture_drawing
 
 SCENE = occ.load_preset("phone-68us").replace(rows=300, columns=400, panel_height=0.01)
@@ -58,3 +58,16 @@ def test_a_line_beside_the_photo_shows_all_of_it_or_nothing(line: float) -> None
 def test_a_photo_that_is_not_laid_over_the_picture_stands_beside_it() -> None:
     figure = picture_drawing(FRAME, None, PHOTO).draw()
     assert [ax.get_title() for ax in figure.axes][1] == "Photo"
+
+
+def test_a_difference_is_printed_times_its_gain_where_both_lie_and_listed_as_it_is() -> None:
+    levels = np.array([[0.0, 20.0], [40.0, 100.0]])
+    layer = Difference(levels, (19.5, 39.5, 29.5, 9.5), 4)
+    drawing = picture_drawing(FRAME, None, PHOTO, "camera", layer)
+    for (row, column), level in np.ndenumerate(levels):
+        at = printed(drawing, 24.5 + 10.0 * column, 14.5 + 10.0 * row)
+        assert at == pytest.approx(min(4.0 * level, 255.0), abs=ROUNDING)
+    (axes,) = drawing.draw().axes
+    assert "difference from the photo × 4" in axes.get_title()  # noqa: RUF001
+    assert drawing.header == ("row", "column 24.5", "column 34.5")
+    assert list(drawing.rows()) == [(14.5, 0.0, 20.0), (24.5, 40.0, 100.0)]

@@ -1,5 +1,6 @@
 """Plug-ins: what installed packages offer under an entry point, read when first asked for."""
 
+import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
@@ -12,10 +13,10 @@ LINE_CODES = "occ_explorer.line_codes"
 FRAMINGS = "occ_explorer.framings"
 DECODERS = "occ_explorer.decoders"
 
-_Kind = TypeVar("_Kind")
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
+"""What a plug-in can be called."""
 
-_LONGEST_NAME = 60
-"""Characters of a plug-in's name."""
+_Kind = TypeVar("_Kind")
 
 FAULTS = (Exception, SystemExit)
 """What a plug-in may raise that does not end the program."""
@@ -23,7 +24,10 @@ FAULTS = (Exception, SystemExit)
 
 @lru_cache(maxsize=8)
 def _found(group: str) -> "dict[str, EntryPoint]":
-    """Find the entry points of a group, the first of each name that can be shown."""
+    """Find the entry points of a group, the first of each name that can be one.
+
+    Names stand in scenes, tables and the names of files, so that none may leave a folder.
+    """
     from importlib.metadata import entry_points
 
     try:
@@ -38,8 +42,8 @@ def _found(group: str) -> "dict[str, EntryPoint]":
 
 
 def _is_name(name: object) -> bool:
-    """Whether lists, sentences and scene files can show a name; a package may have any."""
-    return isinstance(name, str) and 0 < len(name) <= _LONGEST_NAME and name.isprintable()
+    """Whether lists, scene files and names of files can hold a name; a package may have any."""
+    return isinstance(name, str) and _NAME.fullmatch(name) is not None
 
 
 def plugin_names(group: str) -> tuple[str, ...]:

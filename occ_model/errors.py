@@ -9,6 +9,9 @@ _LONGEST_VALUE = 80
 _LONGEST_NAME = 200
 """Characters of a name or title that a sentence or a label shows."""
 
+_LONGEST_TEXT = 1_000_000
+"""Characters of a text that is shown whole."""
+
 
 class OccError(Exception):
     """Base of every error that this package raises on purpose.
@@ -110,6 +113,11 @@ def shown(value: object) -> str:
     text = " ".join(line.strip() for line in _ShortRepr().repr(value).split("\n"))
     half = _LONGEST_VALUE // 2
     return one_line(text if len(text) <= _LONGEST_VALUE + 3 else f"{text[:half]}...{text[-half:]}")
+
+
+def printable(text: str) -> str:
+    """Write a text of any length, such as a lesson's, in one line, control characters escaped."""
+    return one_line(" ".join(text.split()), _LONGEST_TEXT)
 
 
 def one_line(text: str, longest: int = _LONGEST_NAME) -> str:

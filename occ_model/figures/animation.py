@@ -95,7 +95,9 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     check_scene(scene)
     ending = path.suffix.lower()
     if ending not in ENDINGS:
-        raise OutputError(f"{path.name} has no ending of an animation; use {', '.join(ENDINGS)}.")
+        raise OutputError(
+            f"{one_line(path.name)} has no ending of an animation; use {', '.join(ENDINGS)}."
+        )
     parameter = parameter_named(name)
     if not isinstance(parameter, Quantity):
         raise ParameterError(f"{name} cannot run through values; allowed: a parameter with a unit.")
@@ -141,7 +143,7 @@ class _Drawing:
             np.zeros((1, 1), np.uint8), cmap="gray", vmin=0, vmax=255, aspect="auto"
         )
         upper.set_yticks([])
-        self._title = upper.set_title("", loc="left", fontsize=11)
+        self._title = upper.set_title("", loc="left", fontsize=11, parse_math=False)
         self._lower: Axes = lower
         (self._simulation,) = lower.plot([], [], linewidth=1.4, label="simulation", **SIMULATION)
         (self._band,) = lower.plot([], [], linewidth=1.0, label="band model", **BAND)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from occ_model import colours
 from occ_model.arrays import FloatArray
-from occ_model.errors import one_line
+from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import Drawing
 from occ_model.figures.window_panes import caption
 from occ_model.results import DecodeResult
@@ -34,7 +34,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     result
         The decoder's result.
     """
-    message = result.failure or f"{_read(result)} read by the {result.decoder} decoder"
+    message = printable(result.failure or f"{_read(result)} read by the {result.decoder} decoder")
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))
@@ -44,7 +44,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
             _draw_folded(lower, result.folded, result.model)
         else:
             _draw_runs(lower, result)
-        upper.set_title(message, fontsize=8, loc="left")
+        upper.set_title(message, fontsize=8, loc="left", parse_math=False)
         figure.supxlabel(caption(scene), fontsize=7)
         return figure
 

@@ -11,7 +11,7 @@ from matplotlib import rc_context, rcParamsDefault
 from matplotlib.figure import Figure
 
 from occ_model import colours
-from occ_model.errors import OutputError
+from occ_model.errors import OutputError, one_line
 from occ_model.figures.table import write_table
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
@@ -69,7 +69,9 @@ def figure_format(path: Path) -> str:
     """
     ending = path.suffix.lower().removeprefix(".")
     if ending not in FORMATS:
-        raise OutputError(f"{path.name} has no ending of a figure; use .png, .svg or .pdf.")
+        raise OutputError(
+            f"{one_line(path.name)} has no ending of a figure; use .png, .svg or .pdf."
+        )
     return ending
 
 
@@ -135,7 +137,8 @@ class Drawing:
         ending = path.suffix.lower()
         if ending not in ENDINGS:
             raise OutputError(
-                f"{path.name} has no ending of a figure or table; use {', '.join(ENDINGS)}."
+                f"{one_line(path.name)} has no ending of a figure or table; "
+                f"use {', '.join(ENDINGS)}."
             )
         if ending == ".csv":
             write_table(path, self.header, self.rows(), provenance)

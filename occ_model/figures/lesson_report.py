@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
+from urllib.parse import quote
 
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
-from occ_model.errors import OutputError
+from occ_model.errors import OutputError, one_line, printable
 from occ_model.figures.drawing import figure_bytes, house_style, write_figure
 from occ_model.figures.lesson_steps import (
     draw_match,
@@ -51,7 +52,7 @@ def write_lesson_report(
         ending is that of a picture, or a file cannot be written.
     """
     if not steps:
-        raise OutputError(f"The lesson {lesson.title} has no answers to report.")
+        raise OutputError(f"The lesson {one_line(lesson.title)} has no answers to report.")
     scenes = {f"step {place}": each.scene for place, each in enumerate(steps, 1)}
     provenance = Provenance(f"Report of the lesson: {lesson.title}", scenes, date=date)
     about = "   ".join(text for text in (author, date) if text) or lesson.summary
@@ -70,7 +71,8 @@ def write_lesson_report(
             write_whole(path, _pdf(pages, provenance))
         else:
             raise OutputError(
-                f"{path.name}: the report has {len(pages)} pages; allowed endings: .pdf and .md."
+                f"{one_line(path.name)}: the report has {len(pages)} pages; "
+                "allowed endings: .pdf and .md."
             )
 
 
@@ -106,8 +108,8 @@ def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], a
                 "",
             ]
         if each.match is not None:
-            lines += [*(f"* {line}" for line in match_lines(each.match, each.photo)), ""]
-        lines += [f"![What was seen]({folder.name}/{figure.name})", ""]
+            lines += [*(f"* {_plain(line)}" for line in match_lines(each.match, each.photo)), ""]
+        lines += [f"![What was seen]({quote(folder.name)}/{figure.name})", ""]
         lines += [f"> {_plain(each.step.answer)}", ""]
     scene = steps[-1].scene.to_toml()
     lines += [f"Scene of the last step, occ-explorer {__version__}:", "", "```toml", scene, "```"]
@@ -126,6 +128,7 @@ def _write_step_figure(path: Path, each: AnsweredStep) -> None:
 
 def _plain(text: str) -> str:
     """Write a text so that Markdown shows it as it is."""
-    for sign in "\\`*_[]<>#|":
+    text = printable(text)
+    for sign in "\\`*_[]<>#|&":
         text = text.replace(sign, f"\\{sign}")
-    return text.replace("\n", " ")
+    return text

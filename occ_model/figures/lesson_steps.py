@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from occ_model.camera.photometry import column_profile
+from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import PHOTO, SIMULATION
 from occ_model.figures.window_panes import caption
 from occ_model.results.lessons import AnsweredStep
@@ -66,8 +67,8 @@ def draw_page(
     """
     figure = Figure(figsize=_PAGE)
     figure.set_layout_engine("none")
-    figure.text(0.08, 0.955, title, fontsize=16, fontweight="bold", parse_math=False)
-    figure.text(0.08, 0.935, about, fontsize=9, color="0.3", parse_math=False)
+    figure.text(0.08, 0.955, printable(title), fontsize=16, fontweight="bold", parse_math=False)
+    figure.text(0.08, 0.935, printable(about), fontsize=9, color="0.3", parse_math=False)
     figure.text(0.92, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
     unit = (_TOP - _BOTTOM) / sum(map(_room, steps))
     top = _TOP
@@ -92,7 +93,7 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
     )
     line = 0.0145
     for text, size, weight, colour in texts:
-        wrapped = textwrap.wrap(text, int(_LINE * 10 / max(size, 9)), max_lines=5)
+        wrapped = textwrap.wrap(printable(text), int(_LINE * 10 / max(size, 9)), max_lines=5)
         if not wrapped:
             continue
         figure.text(
@@ -118,7 +119,7 @@ def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) ->
 
 def match_lines(match: Match, photo: str) -> list[str]:
     """Say what a match found: values with standard deviations, the verdict, its reasons."""
-    lines = [f"photo {photo}: {match.verdict}" if photo else match.verdict]
+    lines = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
     for name in ("readout_time", "exposure_time"):
         declared = quantity(name)
         deviation = match.uncertainties.get(name)

@@ -204,7 +204,7 @@ def _profile_figure(
     axes[0].set_ylabel("enhanced level" if enhanced else "grey level")
     axes[0].set_ylim(bottom=0)
     if undefined:
-        axes[0].set_title(undefined, fontsize=7)
+        axes[0].set_title(undefined, fontsize=7, parse_math=False)
     if comparison is not None:
         residual = lines["photo"] - lines["simulation"]
         axes[1].axhline(0.0, color="grey", linewidth=0.5)

@@ -4,8 +4,12 @@ import csv
 from collections.abc import Sequence
 from io import StringIO
 
+from occ_model.errors import one_line, printable
 from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoTable
 from occ_model.version import __version__
+
+_LONGEST = 10_000
+"""Characters of a text; a path has fewer."""
 
 _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",
@@ -33,7 +37,7 @@ def csv_text(table: PhotoTable, more: Sequence[str] = ()) -> str:
         f"# measured: {table.estimate}",
         *_mean(table.estimate, table.estimated),
         *_mean("exposure_time", table.exposure_time),
-        *(f"# {_one_line(note)}" for note in (*table.notes, *more)),
+        *(f"# {printable(note)}" for note in (*table.notes, *more)),
         "#",
         "# scene at hand:",
         *(f"# {line}".rstrip() for line in table.scene.to_toml().splitlines()),
@@ -50,8 +54,9 @@ def _photo_rows(table: PhotoTable) -> list[str]:
             estimates += [getattr(row, name), row.uncertainty(name)]
         texts.append(
             _row(
-                [str(row.path), row.verdict, kept, *estimates, row.noted_exposure, row.correlation,
-                 row.pattern, row.lines or None, row.camera, row.note]
+                [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
+                 row.correlation, row.pattern, row.lines or None, _text(row.camera or ""),
+                 _text(row.note)]
             )
         )  # fmt: skip
     return texts
@@ -68,8 +73,14 @@ def _mean(name: str, found: CombinedEstimate | None) -> list[str]:
     ]
 
 
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
+_FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
+"""Letters that begin a formula in a spreadsheet, also those of full width."""
+
+
+def _text(text: str) -> str:
+    """Write a text of a file, such as its camera's name, which no spreadsheet calculates."""
+    text = one_line(text, _LONGEST)
+    return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
 
 
 def _row(cells: Sequence[object]) -> str:

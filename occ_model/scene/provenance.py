@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 
-from occ_model.errors import SceneFileError, one_line
+from occ_model.errors import SceneFileError, one_line, printable
 from occ_model.files.reading import read_bytes, read_start
 from occ_model.scene.scene import Scene
 from occ_model.version import __version__
@@ -59,6 +59,12 @@ class Provenance:
     seed: int | None = None
     notes: tuple[str, ...] = field(default=())
     date: str = ""
+
+    def __post_init__(self) -> None:
+        # Whatever they are made of, none of them can look like a further line, or a scene.
+        object.__setattr__(self, "title", printable(self.title))
+        object.__setattr__(self, "notes", tuple(map(printable, self.notes)))
+        object.__setattr__(self, "date", printable(self.date))
 
     def lines(self) -> list[str]:
         """Write the provenance as lines of text."""

@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from occ_model.errors import OccError, SceneFileError, one_line, shown
+from occ_model.errors import OccError, SceneFileError, one_line, printable, shown
 from occ_model.files.reading import read_text
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.files.user_folder import files_in, user_folder
@@ -218,7 +218,7 @@ def _text(content: Mapping[str, Any], key: str, default: str | None = None) -> s
 
 
 def _paragraph(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
-    return " ".join(_text(content, key, default).split())
+    return printable(_text(content, key, default))
 
 
 def _one_of(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:

@@ -39,8 +39,8 @@ from occ_model.teaching.lessons import lessons
 _HEAVY = ("rows", "columns", "point_spread", "distance", "panel_width", "panel_height")
 """What would make pictures so large, or blurs so wide, that a soak is about them alone."""
 
-_PATIENCE_MS = 60_000
-"""All figures in all formats take some seconds, and other programs may be at work, too."""
+_PATIENCE_MS = 600_000
+"""All figures in all formats take some seconds; at the lowest priority they take minutes."""
 
 
 _FIRST_SIZE = (1280, 800)

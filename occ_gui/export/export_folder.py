@@ -27,7 +27,7 @@ def folder_aside(folder: Path) -> Iterator[Path]:
     aside = folder / f"{_PREFIX}{token_hex(4)}"
     lock = _lock_of(aside)
     is_locked = lock.tryLock(0)  # before the folder exists, which another process could remove
-    aside.mkdir()
+    aside.mkdir(mode=0o700)
     try:
         if not is_locked:
             raise OSError(f"no lock can be made beside {aside.name}")

@@ -3,7 +3,7 @@
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from errno import EACCES
 from io import BytesIO
 from pathlib import Path
@@ -108,6 +108,8 @@ def check_replaceable(path: Path) -> int | None:
     return stat.S_IMODE(mode)
 
 
+_PRIVATE = stat.S_IRUSR | stat.S_IWUSR
+
 _ANY_WRITE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
@@ -145,13 +147,19 @@ def written_whole(path: Path) -> Iterator[Path]:
 @contextmanager
 def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
     temporary = path.with_name(f".{token_hex(4)}.{path.name}")
-    # A file that replaces another must be readable by nobody else before its mode is set.
     mode = 0o666 if permissions is None else 0o600
-    os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode))
+    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
     try:
-        if permissions is not None:
-            temporary.chmod(permissions)
+        if permissions is None:  # those of any new file, which the umask of the process leaves
+            permissions = stat.S_IMODE(os.fstat(descriptor).st_mode)
+    finally:
+        os.close(descriptor)
+    try:
+        # Nobody else can read it before it is whole, also where the program is killed meanwhile.
+        with suppress(OSError):  # a disk may have no permissions
+            temporary.chmod(_PRIVATE)
         yield temporary
+        temporary.chmod(permissions)
         temporary.replace(path)
     except BaseException:  # leave no half-written file, whatever happens
         temporary.unlink(missing_ok=True)

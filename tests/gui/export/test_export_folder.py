@@ -1,5 +1,6 @@
 """The next export removes the temporary files of one that was killed, and nothing else."""
 
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +34,15 @@ def test_what_a_killed_export_left_is_removed_by_the_next(tmp_path: Path) -> Non
     (tmp_path / "figure.png").write_bytes(b"whole")
     export(ExportJob((), folder=tmp_path))
     assert [path.name for path in tmp_path.iterdir()] == ["figure.png"]
+
+
+def test_nobody_else_reads_what_is_at_work(tmp_path: Path) -> None:
+    names = set()
+    for _ in range(10):
+        with folder_aside(tmp_path) as aside:
+            assert stat.S_IMODE(aside.stat().st_mode) == 0o700
+            names.add(aside.name)
+    assert len(names) == 10
 
 
 def test_what_is_at_work_stays_and_is_gone_at_its_end(tmp_path: Path) -> None:

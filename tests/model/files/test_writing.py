@@ -12,7 +12,13 @@ import numpy as np
 import pytest
 
 from occ_model.errors import OutputError
-from occ_model.files.writing import check_replaceable, make_folder, write_image, write_whole
+from occ_model.files.writing import (
+    check_replaceable,
+    make_folder,
+    write_image,
+    write_whole,
+    written_whole,
+)
 
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
 
@@ -241,31 +247,40 @@ def test_a_write_protected_file_is_not_replaced(tmp_path: Path, through_a_link: 
     assert (file.read_bytes(), stat.S_IMODE(file.stat().st_mode)) == (b"kept", 0o444)
 
 
-@pytest.mark.parametrize("mode", [0o600, 0o640, 0o666])
-def test_a_written_file_is_never_readable_beyond_its_permissions(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: int
+@pytest.mark.parametrize("mode", [None, 0o600, 0o640, 0o666])
+def test_a_file_that_is_being_written_is_private(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: int | None
 ) -> None:
     path = tmp_path / "private.toml"
-    path.write_bytes(b"old")
-    path.chmod(mode)
-    seen: list[tuple[str, int]] = []
-    plain_open, plain_write = os.open, Path.write_bytes
-
-    def watched_open(name: Path, flags: int, wanted: int = 0o777) -> int:
-        descriptor = plain_open(name, flags, wanted)
-        seen.append(("made", stat.S_IMODE(os.fstat(descriptor).st_mode)))
-        return descriptor
+    if mode is not None:
+        path.write_bytes(b"old")
+        path.chmod(mode)
+    (tmp_path / "any").touch()
+    wanted = stat.S_IMODE((tmp_path / "any").stat().st_mode) if mode is None else mode
+    seen: list[tuple[int, int]] = []
+    plain_write = Path.write_bytes
 
     def watched_write(name: Path, content: bytes) -> int:
-        seen.append(("written", stat.S_IMODE(name.stat().st_mode)))
+        status = name.stat()
+        seen.append((stat.S_IMODE(status.st_mode), status.st_size))
         return plain_write(name, content)
 
-    monkeypatch.setattr(os, "open", watched_open)
     monkeypatch.setattr(Path, "write_bytes", watched_write)
     write_whole(path, b"secret")
     monkeypatch.undo()
-    assert seen == [("made", 0o600), ("written", mode)]
+    assert seen == [(0o600, 0)]
+    assert stat.S_IMODE(path.stat().st_mode) == wanted
     assert path.read_bytes() == b"secret"
+
+
+def test_the_name_of_a_temporary_file_cannot_be_foreseen(tmp_path: Path) -> None:
+    names = set()
+    for _ in range(20):
+        with written_whole(tmp_path / "film.mkv") as temporary:
+            names.add(temporary.name)
+            assert stat.S_IMODE(temporary.stat().st_mode) == 0o600
+            assert temporary.suffix == ".mkv"
+    assert len(names) == 20
 
 
 @pytest.mark.parametrize("name", [b"caf\xe9.png", b"\xff\xfe.png", b"name\nline.png"])

@@ -106,9 +106,9 @@ def licence(name: str) -> str | None:
     if package is None:
         return None
     about = package.metadata
-    stated = about.get("License-Expression") or ""
+    stated = (about.get_all("License-Expression") or [""])[0]
     if not stated:
-        text = (about.get("License") or "").strip()
+        text = (about.get_all("License") or [""])[0].strip()
         # Some give the whole text in place of the name.
         stated = "" if "\n" in text or text == "UNKNOWN" else text
     if not stated:

@@ -19,7 +19,7 @@ GROUPS = (plugins.DECODERS, plugins.LINE_CODES, plugins.FRAMINGS)
 
 @pytest.fixture(autouse=True)
 def _installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    names = {name: "named:it" for name in (*OTHERWISE, "good-1_a")}
+    names = dict.fromkeys((*OTHERWISE, "good-1_a"), "named:it")
     install(tmp_path, "named", dict.fromkeys(GROUPS, names), "it = 1")
     monkeypatch.syspath_prepend(tmp_path)
     plugins._found.cache_clear()

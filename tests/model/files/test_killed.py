@@ -1,0 +1,84 @@
+"""Kill -9 in the middle of writing a film, a sketch, a report or a table: whole files, or none."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+import os, signal, sys
+from pathlib import Path
+import occ_model as occ
+from occ_model.boards.sketch import DEFAULT_BOARD, board_named
+from occ_model.boards.transmission import transmission
+from occ_model.figures.lesson_report import write_lesson_report
+from occ_model.figures.transmitter_files import write_transmitter_files
+from occ_model.files.writing import write_whole
+from occ_model.results.lessons import AnsweredStep, Lesson, Step
+
+SCENE = occ.load_preset("phone-68us").replace(rows=40, columns=400)
+
+def film(folder):
+    occ.write_video(occ.render_video(SCENE, 3), folder / "film.mkv")
+
+def sketch(folder):
+    write_transmitter_files(folder, transmission(SCENE, board_named(DEFAULT_BOARD)))
+
+def report(folder):
+    step = Step(goal="a", text="b", question="c", answer="d", scene=SCENE)
+    write_lesson_report(folder / "report.md", Lesson("a", "b", "c", (step,)),
+                        [AnsweredStep(step, None, SCENE)])
+
+def table(folder):
+    write_whole(folder / "table.csv", b"whole" * 10_000_000)
+
+def main():
+    kind, folder, last = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3])
+    real, done = Path.replace, []
+    def replace(path, target):
+        done.append(path)
+        if len(done) == last:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return real(path, target)
+    Path.replace = replace
+    globals()[kind](folder)
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+def run(folder: Path, kind: str, last: int) -> int:
+    """Run the program, which is killed where it would put its so-many-th file into its place."""
+    folder.mkdir(parents=True, exist_ok=True)
+    command = [sys.executable, "-c", PROGRAM, kind, str(folder), str(last)]
+    return subprocess.run(command, check=False, stdout=subprocess.DEVNULL).returncode
+
+
+def shown(folder: Path) -> dict[str, bytes]:
+    """Read the files of a folder that are not hidden."""
+    files = (path for path in folder.rglob("*") if path.is_file() and path.name[0] != ".")
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}
+
+
+@pytest.mark.parametrize(
+    ("kind", "last"), [("film", 1), ("table", 1), ("report", 2), ("sketch", 3)]
+)
+def test_what_kill_9_leaves_is_whole_or_absent(tmp_path: Path, kind: str, last: int) -> None:
+    assert run(tmp_path / "whole" / "it", kind, 0) == 0
+    whole = shown(tmp_path / "whole" / "it")
+    assert len(whole) >= last
+    left = tmp_path / "left" / "it"
+    left.mkdir(parents=True)
+    for name in whole:
+        (left / name).parent.mkdir(exist_ok=True)
+        (left / name).write_bytes(b"old")
+    assert run(left, kind, last) == -signal.SIGKILL
+    found = shown(left)
+    assert found.keys() == whole.keys()
+    written = [name for name, content in found.items() if content != b"old"]
+    assert len(written) == last - 1
+    assert all(found[name] == whole[name] for name in written)
+    assert len([*left.rglob(".*")]) == 1  # what was to take its place

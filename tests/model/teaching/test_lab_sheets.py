@@ -88,7 +88,7 @@ def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_
     assert "about 12.8 µs \\*exactly\\*" in text  # as typed, not as markup
     for line in match_lines(match, "mine.jpg"):
         assert f"* {line}" in text
-    assert "readout time 12.79" in text
+    assert "readout time 12.80" in text
     assert " ± 0.0" in text
     for place in range(1, len(SHEETS[1].steps) + 1):
         figure = tmp_path / "report-figures" / f"step-{place}.png"

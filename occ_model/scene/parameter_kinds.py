@@ -78,11 +78,11 @@ class Quantity(Declaration):
         return number
 
     def _outside(self, number: float) -> str:
-        """Write a value that is not allowed with enough digits to tell it from the limits."""
+        """Write a value that is not allowed with enough digits that none allowed is read in it."""
         text = self.unit.format(number)
-        if text in (self.unit.format(self.low), self.unit.format(self.high)):
-            return self.unit.format(number, digits=17)
-        return text
+        read = self.unit.parse(text)  # 0.999999999 mm is written as 1000 µm
+        is_rounded_in = read is not None and self.low <= read <= self.high
+        return self.unit.format(number, digits=17) if is_rounded_in else text
 
     def parse(self, text: str, plain: float = 1.0) -> float:
         """Read a value as people write it; ``plain`` is the SI value of 1 without a unit."""

@@ -30,6 +30,9 @@ from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar
 
+_OPENED_BELOW = 0.3
+"""Share of the window's height that a pane gets which opens below the middle."""
+
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _WITH_PICTURE = "photo"
@@ -150,9 +153,18 @@ class MainWindow(QMainWindow):
 
     def _raise(self, name: str) -> None:
         dock = self.docks[name]
+        is_new = dock.isHidden()
         dock.show()
         # A window that has just been shown arranges its docks once more, in another order.
-        QTimer.singleShot(0, dock, dock.raise_)
+        QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
+
+    def _give_place(self, dock: Dock, is_new: bool) -> None:
+        """Bring a pane to the front, and let one that opens below the middle be high enough."""
+        dock.raise_()
+        least = round(_OPENED_BELOW * self.height())
+        is_below = self.dockWidgetArea(dock) == Qt.DockWidgetArea.BottomDockWidgetArea
+        if is_new and is_below and not dock.isFloating() and dock.height() < least:
+            self.resizeDocks([dock], [least], Qt.Orientation.Vertical)
 
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front in the present mode, unless the story has a row of the same.

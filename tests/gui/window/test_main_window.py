@@ -209,3 +209,21 @@ def test_text_is_not_taken_for_files(application: Application) -> None:
     enter.ignore()
     QApplication.sendEvent(application.window, enter)
     assert not enter.isAccepted()
+
+
+@pytest.mark.parametrize("height", [800, 1080])
+def test_a_pane_that_opens_below_the_middle_is_high_enough(
+    application: Application, qtbot: QtBot, height: int
+) -> None:
+    window = application.window
+    window.resize(1280, height)
+    window.bring_to_front("compare")
+    compare = window.docks["compare"]
+    qtbot.waitUntil(lambda: compare.height() > 0.25 * height)
+    # The height that the user gives it stays, also when it is brought to the front again.
+    window.resizeDocks([compare], [180], Qt.Orientation.Vertical)
+    qtbot.waitUntil(lambda: compare.height() < 0.25 * height)
+    given = compare.height()
+    window.bring_to_front("compare")
+    qtbot.wait(50)
+    assert compare.height() == given

@@ -141,7 +141,7 @@ def test_stripes_that_no_parameter_explains_are_refused() -> None:
     slow = KNOWN.replace(switching_frequency=1.0)  # a readout of many milliseconds a column
     match = occ.match_photo(PHOTO, slow)
     assert match.readout_time > 1e-3
-    with pytest.raises(occ.MatchError, match="is not allowed: readout_time is 0.1.* ns; allowed: 1 ns"):
+    with pytest.raises(occ.MatchError, match="not allowed: readout_time is"):
         occ.match_photo(PHOTO, KNOWN.replace(switching_frequency=1e9))
 
 

@@ -8,7 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from every_error import NOT_IN_THE_SHELL, ErrorClass, check_that_all_have_a_case
+from every_error import (
+    NOT_IN_THE_SHELL,
+    WRONG,
+    ErrorClass,
+    check_sentence,
+    check_that_all_have_a_case,
+)
 from model.plugins.installed_package import forget_plugins, install
 from PIL import Image
 
@@ -19,7 +25,7 @@ from occ_model.commands import command_line
 from occ_model.commands.cluster import ClusterError
 from occ_model.errors import PluginError
 from occ_model.program import EXIT_MISUSE
-from occ_model.scene.parameter_kinds import Choice, Count, OpenChoice, Parameter, Payload, Quantity
+from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 
 Words = list[str]
@@ -138,55 +144,6 @@ def test_every_class_ends_a_command_with_one_sentence(
     assert not (tmp_path / "out.png").is_file()
 
 
-def hardly(limit: float) -> float:
-    """A step beyond a limit that is kept when it is written and read, and too small to be seen."""
-    return 1e-9 * (abs(limit) or 1.0)
-
-
-def wrong_texts(declared: Parameter) -> list[str]:
-    """Texts for a parameter that are below and above its range, and no value of it at all."""
-    match declared:
-        case Quantity():
-            out_of_range = [declared.low - 1.0, declared.low - hardly(declared.low)]
-            if declared.high < math.inf:
-                out_of_range += [2.0 * declared.high, declared.high + hardly(declared.high)]
-            unit = "V" if declared.unit.symbol else "m"
-            texts = [declared.format(value, 17) for value in out_of_range]
-            return [*texts, "nan", "inf", f"3 {unit}", "soon"]
-        case Count():
-            return [str(declared.low - 1), str(declared.high + 1), "nan", "1.5", "3 m"]
-        case Choice():
-            return ["nan", ""]
-        case Payload():
-            return []
-        case _:
-            return ["2", "nan"]
-
-
-WRONG = [(name, text) for name, each in PARAMETERS.items() for text in wrong_texts(each)]
-
-
-def check_sentence(sentence: str, name: str, text: str) -> None:
-    """See that a sentence names a parameter, the value with its unit, and what is allowed."""
-    declared = PARAMETERS[name]
-    assert sentence.isprintable()
-    assert sentence.startswith(f"{name} "), sentence
-    value, _, allowed = sentence.partition("; allowed: ")
-    words = declared.allowed
-    if isinstance(declared, OpenChoice):  # of which the names are given, those of plug-ins too
-        words = ", ".join(declared.all_choices())
-    assert allowed == f"{words}.", sentence
-    number = declared.unit.parse(text) if isinstance(declared, Quantity) else None
-    if number is None:
-        assert repr(text) in value or value == f"{name} is {text}", sentence
-        return
-    assert isinstance(declared, Quantity)
-    written = declared.unit.parse(value.removeprefix(f"{name} is "))
-    assert written is not None, sentence
-    assert math.isclose(written, number, rel_tol=1e-5), sentence
-    assert not declared.low <= written <= declared.high, sentence
-
-
 def test_every_wrong_value_is_named_with_its_unit_and_range(
     ended_with: list[BaseException], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -197,7 +154,7 @@ def test_every_wrong_value_is_named_with_its_unit_and_range(
         assert type(ended_with[-1]) is occ.ParameterError
         prefix, _, sentence = err.rstrip("\n").partition(": ")
         assert prefix == "occ-model"
-        check_sentence(sentence, name, text)
+        check_sentence(sentence, PARAMETERS[name], text, f"{name} is ")
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])

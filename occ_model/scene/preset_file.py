@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
@@ -55,7 +55,7 @@ def preset_from(name: str, text: str) -> Preset:
         A value is out of range, or a note is on an unknown parameter.
     """
     preset = _put_together(name, _layers(text))
-    return preset if preset.title else Preset(name, name, preset.scene, preset.sources, {})
+    return preset if preset.title else replace(preset, title=name)
 
 
 @lru_cache(maxsize=64)

@@ -24,6 +24,13 @@ def process_id(heartbeat: Heartbeat) -> int:
     return os.getpid()
 
 
+def count_to(number: int, heartbeat: Heartbeat) -> int:
+    """Let the heart beat some times."""
+    for _ in range(number):
+        heartbeat()
+    return number
+
+
 def count_for_ever(heartbeat: Heartbeat) -> NoReturn:
     """Work until a heartbeat ends it."""
     while True:

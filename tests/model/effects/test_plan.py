@@ -106,6 +106,33 @@ def test_reasons_name_the_bound_and_the_tolerance(scene: Scene) -> None:
     assert lines[0].startswith("LED rise and fall: at most ")
 
 
+def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
+    """Above the tolerance by itself, above it with what is left out before it, or within it."""
+    bounds = sorted(d.bound for d in occ.plan(scene, 0.0).decisions if d.bound)
+    small, next_one = bounds[:2]
+    seen = set()
+    # A bound that is the tolerance itself is not above it, but its sum with a smaller one is.
+    for tolerance in (small, next_one, 0.5 * (bounds[-2] + bounds[-1]), bounds[-1], sum(bounds)):
+        for decision in occ.plan(scene, tolerance).decisions:
+            if not decision.bound:
+                continue
+            if not decision.included:
+                expected, ending = "within the tolerance", f", tolerance {tolerance:g}: left out"
+            elif decision.bound > tolerance:
+                expected, ending = "above the tolerance", f", tolerance {tolerance:g}: taken in"
+            else:
+                expected = "above it with what is left out"
+                ending = f", tolerance {tolerance:g}, {expected}: taken in"
+            assert (decision.bound, decision.why) == (decision.bound, expected)
+            assert decision.reason.endswith(ending)
+            seen.add(expected)
+    assert len(seen) == 3
+    for decision in occ.plan(scene, math.inf).decisions:
+        why = "no tolerance is set" if decision.bound else "none in this scene"
+        assert decision.why == why
+        assert "tolerance" not in decision.reason
+
+
 def test_a_plan_is_a_value(scene: Scene) -> None:
     assert occ.plan(scene) == occ.plan(scene)
     assert hash(occ.plan(scene)) == hash(occ.plan(scene))

@@ -10,9 +10,9 @@ from typing import NoReturn
 
 import pytest
 from model.parallel.bench import Bench
-from worker_calls import count_for_ever, echo, fail, process_id
+from worker_calls import count_for_ever, count_to, echo, fail, process_id
 
-from occ_model.parallel.job import Job, JobResult, Stage
+from occ_model.parallel.job import CHANNELS, Job, JobResult, Stage
 from occ_model.parallel.process_pool import ProcessPool
 from occ_model.parallel.worker_thread import WorkerThread
 
@@ -60,6 +60,15 @@ def test_an_abandoned_job_ends_at_its_next_heartbeat(pool: ProcessPool) -> None:
     pool.abandon(1, 2)
     assert result(endless).is_abandoned
     assert result(pool.submit(Job(echo, ("new",)), 1, 2)).value == "new"
+
+
+def test_each_counter_holds_the_heartbeats_of_its_jobs_and_no_others(pool: ProcessPool) -> None:
+    """A job's heart beats once as it begins, so that one that takes no time is seen too."""
+    for counter, numbers in ((5, (3, 4)), (0, (7,)), (CHANNELS - 1, (0,))):
+        for number in numbers:
+            assert result(pool.submit(Job(count_to, (number,), counter), 0, 1)).value == number
+    counted = {counter: pool.counted(counter) for counter in range(CHANNELS)}
+    assert counted == {**dict.fromkeys(range(CHANNELS), 0), 5: 9, 0: 8, CHANNELS - 1: 1}
 
 
 def test_closing_ends_the_processes_in_the_middle_of_a_job(pool: ProcessPool) -> None:

@@ -4,7 +4,7 @@ import time
 from collections.abc import Iterator
 
 import pytest
-from worker_calls import count_for_ever, echo
+from worker_calls import count_for_ever, count_to, echo
 
 from occ_model.parallel.job import Job
 from occ_model.parallel.worker_thread import WorkerThread
@@ -39,6 +39,13 @@ def test_an_abandoned_job_ends_at_its_next_heartbeat(worker: WorkerThread) -> No
     assert endless.result(PATIENCE_S).is_abandoned
     assert worker.submit(Job(echo, ("late",)), 0, 1).result(PATIENCE_S).is_abandoned
     assert worker.submit(Job(echo, ("new",)), 0, 2).result(PATIENCE_S).value == "new"
+
+
+def test_each_counter_holds_the_heartbeats_of_its_jobs_and_no_others(worker: WorkerThread) -> None:
+    for counter, number in ((3, 5), (0, 2), (3, 4)):
+        assert worker.submit(Job(count_to, (number,), counter), 0, 1).result(PATIENCE_S).value
+    # Each job's heart beats once as it begins.
+    assert [worker.counted(counter) for counter in range(4)] == [3, 0, 0, 11]
 
 
 def test_other_channels_go_on(worker: WorkerThread) -> None:

@@ -79,7 +79,7 @@ class MapPlots(QWidget):
         shown = [plot for plot in self.plots if not plot.isHidden()]
         in_rows = len(shown) > _MOST_IN_A_ROW and self.height() >= _LEAST_OF_TWO_ROWS
         columns = -(-len(shown) // 2) if in_rows else max(len(shown), 1)
-        if columns == self._columns and self._grid.count() == len(shown):
+        if columns == self._columns:
             return
         self._columns = columns
         for plot in self.plots:

@@ -114,7 +114,7 @@ class CommandPalette(QDialog):
 
     def _accept_chosen(self) -> None:
         row = self.list.currentRow()
-        if 0 <= row < len(self._matching):
+        if row >= 0:
             self._chosen = self._matching[row]
             self.accept()
 

@@ -207,6 +207,16 @@ def test_every_axis_has_numbers_within_its_slider_and_a_title(name: str) -> None
     assert axis_title(quantity(name))
 
 
+@pytest.mark.parametrize("name", [n for n in MAP_PARAMETERS if quantity(n).scale == "linear"])
+@pytest.mark.parametrize("most", [3, 5, 8])
+def test_the_numbers_of_an_even_axis_are_as_close_as_they_may_be(name: str, most: int) -> None:
+    """Steps are 1, 2 or 5 times a power of ten, and the next finer ones would be too many."""
+    places = [tick.place for tick in ticks(quantity(name), most)]
+    step = np.diff(places).max()
+    assert np.diff(places) == pytest.approx(step)
+    assert step < 2.5 / most * (1.0 + 1e-6)
+
+
 def test_the_status_shows_rate_bits_and_interval_or_why_not(
     view: MapView,
 ) -> None:

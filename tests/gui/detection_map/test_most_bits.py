@@ -147,6 +147,18 @@ def test_go_makes_the_scene_what_was_found_in_one_step(bench: Bench, qtbot: QtBo
     assert bench.scenes.scene == before
 
 
+def test_a_look_after_the_last_decoder_finds_nothing_more_to_count(
+    bench: Bench, qtbot: QtBot
+) -> None:
+    bench.card.search.click()
+    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    shown = bench.card.text.toolTip()
+    with qtbot.captureExceptions() as raised:
+        bench.controller._look.timeout.emit()
+    assert raised == []
+    assert bench.card.text.toolTip() == shown
+
+
 @pytest.mark.parametrize("changed", ["distance", "frames a second"])
 def test_another_exposure_distance_or_frame_rate_makes_it_outdated(
     bench: Bench, qtbot: QtBot, changed: str

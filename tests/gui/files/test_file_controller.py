@@ -194,6 +194,16 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     assert opened.args[0].path == photo_file
 
 
+@pytest.mark.parametrize(("name", "written"), [("scene", ["scene.toml"]), ("scene.txt", [])])
+def test_a_name_without_an_ending_gets_that_of_scenes_and_no_other_is_changed(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, written: list[str]
+) -> None:
+    answer = (str(tmp_path / name), "")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: answer)
+    bench.files.ask_to_save_scene()
+    assert [path.name for path in tmp_path.iterdir()] == written
+
+
 def test_the_dialogs_offer_the_formats_that_can_be_used(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -17,6 +17,7 @@ from occ_gui.pins.pinned import Pinned
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.plot import PACKETS_IN_VIEW
 from occ_model.scene.scene import Scene
 
 SnapshotOf = Callable[..., Snapshot]
@@ -97,6 +98,16 @@ def test_the_outputs_are_those_of_the_two_states(
     assert found["Decoder “threshold”"] == ("code 718, right", b.decoded.failure)
     assert "Effects simulated" not in found  # none in both
     assert all(row.meaning for row in pane.pinned.outputs)
+
+
+def test_the_effects_named_are_those_that_the_plan_includes(
+    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf, snapshot_of: SnapshotOf
+) -> None:
+    none, some = bare_snapshot_of(), snapshot_of()
+    included = [d.label for d in some.frame.plan.decisions if d.included]
+    assert 0 < len(included) < len(some.frame.plan.decisions)
+    pin_two(pins, none, some)
+    assert outputs(pane.pinned)["Effects simulated"] == ("none", ", ".join(included))
 
 
 def test_a_decoder_that_read_only_one_of_them_is_compared_with_none(
@@ -183,6 +194,34 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
     view.show_pinned(Pinned())
     assert "as A" in view.hint.text()
     assert not view.clear.isEnabled()
+
+
+def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
+    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(switching_frequency=16e3, iso=200.0))
+    view.show_pinned(pane.pinned)
+    both = [pin for pin in (pane.pinned.a, pane.pinned.b) if pin is not None]
+    (first, last), (low, high) = view.plot.getViewBox().viewRange()
+    starts = [pin.first_column for pin in both]
+    ends = [pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in both]
+    shown = min(max(ends), len(both[0].profile) - 1.0)
+    assert first == pytest.approx(min(starts), abs=0.03 * shown)
+    assert last == pytest.approx(shown, abs=0.03 * shown)
+    brightest = max(float(pin.profile.max()) for pin in both)
+    assert low <= 0.0
+    assert brightest <= high <= 1.2 * max(brightest, 20.0)
+
+
+def test_a_narrow_pane_leaves_the_table_as_much_as_the_plot(
+    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
+    view.show_pinned(pane.pinned)
+    view.resize(view.minimumSizeHint().width(), 260)
+    heads = view.table.horizontalHeader()
+    words = max(heads.fontMetrics().horizontalAdvance(text) for text in ("not read", "68 µs"))
+    assert min(heads.sectionSize(column) for column in (1, 2)) > words
 
 
 def test_a_view_that_is_not_seen_draws_nothing_until_it_is(

@@ -98,6 +98,14 @@ def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:
         assert line.pointed.text() == text
 
 
+def test_times_are_shown_in_milliseconds(line: StatusLine) -> None:
+    line.resize(1600, 24)
+    line.show_timing(0.01234, 2.5)
+    QApplication.processEvents()
+    texts = [label.text() for label in line.findChildren(QLabel)]
+    assert "simulated in 12.3 ms, read in 2500.0 ms" in texts
+
+
 def test_nothing_is_painted_outside_the_labels(line: StatusLine) -> None:
     line.resize(800, 24)
     QApplication.processEvents()

@@ -5,9 +5,6 @@ from dataclasses import dataclass
 KNOWN = ("switching_frequency", "readout_time")
 """Stripes determine only the product of these two: one must be known to estimate the other."""
 
-CHIPS_OF_A_CYCLE = 2
-"""Chips of one cycle of a blinking LED: one on, one off."""
-
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:

@@ -12,25 +12,17 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN, MatchChoice
+from occ_gui.photo.match_choice import KNOWN, MatchChoice
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
 from occ_model.scene.units import HERTZ
-
-SQUARE_FREQUENCY = Quantity(
-    "square_frequency",
-    "Frequency of the square wave",
-    "",
-    "Cycles per second of a blinking LED, each of two chips: one lit, one dark.",
-    unit=HERTZ, low=0.5, high=5e8, slider=(50.0, 2e4), scale="log", default=1000.0,
-)  # fmt: skip
 
 _FREQUENCY = KNOWN[0]
 

@@ -3,15 +3,13 @@
 from dataclasses import dataclass
 
 from occ_gui.background.cancellable import Report
-from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, MatchChoice
+from occ_gui.photo.match_choice import MatchChoice
 from occ_model.errors import MatchError
 from occ_model.photo.match import match_photo
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 from occ_model.scene.scene import Scene
-
-SQUARE_WAVE = "10"
-"""Chips of a blinking LED: on for half a cycle, off for the other half."""
+from occ_model.scene.square_wave import blinking
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -57,8 +55,7 @@ def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     """
     if choice.sent != "square":
         return scene, choice.sent
-    chips = CHIPS_OF_A_CYCLE * choice.square_frequency
-    return scene.replace(pattern=SQUARE_WAVE, switching_frequency=chips), "scene"
+    return blinking(scene, choice.square_frequency), "scene"
 
 
 def match(request: MatchRequest, report: Report) -> Match | Refusal:

@@ -7,11 +7,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
-from occ_gui.photo.match_choice import CHIPS_OF_A_CYCLE, KNOWN
+from occ_gui.photo.match_choice import KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.results import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ
 
 _ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")

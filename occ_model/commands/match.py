@@ -1,6 +1,7 @@
 """The command ``occ-model match``: find the settings that explain a photo."""
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.assumption import assumption
@@ -17,8 +18,9 @@ from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Alternative, Match
 from occ_model.scene.from_text import write_scene_file
-from occ_model.scene.parameters import parameter_named, quantity
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
 
 _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
@@ -148,9 +150,8 @@ def _how_known(match: Match, options: argparse.Namespace) -> str:
 
 
 def _square_wave(scene: Scene, text: str) -> Scene:
-    """Make a scene send a square wave: two chips per cycle."""
-    frequency = parameter_named("switching_frequency").parse(text)
-    return scene.replace(pattern="10", switching_frequency=2.0 * float(frequency))
+    """Make a scene send a square wave; the sentence about a wrong value names the option."""
+    return blinking(scene, replace(SQUARE_FREQUENCY, name="--led-frequency").parse(text))
 
 
 def _report(match: Match, assumption: str, noted: float | None) -> list[str]:

@@ -14,6 +14,7 @@ from every_error import (
     ErrorClass,
     check_sentence,
     check_that_all_have_a_case,
+    wrong_texts,
 )
 from model.plugins.installed_package import forget_plugins, install
 from PIL import Image
@@ -27,6 +28,7 @@ from occ_model.errors import PluginError
 from occ_model.program import EXIT_MISUSE
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 Words = list[str]
 
@@ -155,6 +157,14 @@ def test_every_wrong_value_is_named_with_its_unit_and_range(
         prefix, _, sentence = err.rstrip("\n").partition(": ")
         assert prefix == "occ-model"
         check_sentence(sentence, PARAMETERS[name], text, f"{name} is ")
+
+
+@pytest.mark.parametrize("text", wrong_texts(SQUARE_FREQUENCY))
+def test_a_wrong_frequency_of_the_led_is_named_as_it_was_given(
+    text: str, ended_with: list[BaseException]
+) -> None:
+    main(["match", "photo.png", "--led-frequency", text])
+    check_sentence(str(ended_with[0]), SQUARE_FREQUENCY, text, "--led-frequency is ")
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])

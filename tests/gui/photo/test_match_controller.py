@@ -14,7 +14,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.photo import match_request as match_module
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import MatchController
-from occ_gui.photo.match_request import SQUARE_WAVE
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import MatchError
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
@@ -22,6 +21,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, Region, Stripes
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import SQUARE_WAVE
 
 PATIENCE_S = 10.0
 DAY = date(2026, 1, 31)

@@ -9,11 +9,11 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.match_form import SQUARE_FREQUENCY
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
+from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 
 def test_every_option_of_the_models_match_can_be_chosen(view: PhotoView) -> None:

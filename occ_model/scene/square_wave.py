@@ -1,0 +1,38 @@
+"""The square wave of an LED that only blinks, as a scene sends it."""
+
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+
+SQUARE_WAVE = "10"
+"""The chips of one cycle: one lit, one dark."""
+
+CHIPS_OF_A_CYCLE = len(SQUARE_WAVE)
+
+_CHIPS = quantity("switching_frequency")
+
+SQUARE_FREQUENCY = Quantity(
+    "square_frequency",
+    "Frequency of the square wave",
+    "",
+    "Cycles per second of a blinking LED, each of two chips: one lit, one dark.",
+    unit=_CHIPS.unit,
+    low=_CHIPS.low / CHIPS_OF_A_CYCLE,
+    high=_CHIPS.high / CHIPS_OF_A_CYCLE,
+    slider=(50.0, 2e4),
+    scale=_CHIPS.scale,
+    default=1000.0,
+)
+
+
+def blinking(scene: Scene, cycles: float) -> Scene:
+    """Let a scene send a square wave.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    cycles
+        Cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
+    """
+    return scene.replace(pattern=SQUARE_WAVE, switching_frequency=CHIPS_OF_A_CYCLE * cycles)

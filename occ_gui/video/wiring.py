@@ -12,7 +12,7 @@ from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
 from occ_gui.video.marks import Marks, MarkState, frame_marks
 from occ_gui.video.reading_controller import ReadingController
-from occ_gui.video.save_film import FilmToSave, save_film
+from occ_gui.video.save_jobs import FilmToSave, save_film
 from occ_gui.video.video_view import VideoView
 from occ_model.errors import OccError, one_line
 from occ_model.results.video import Video

@@ -20,6 +20,8 @@ HEAD = (
     "| bound | by light |\n|---|---|---|---|---|---|---|---|---|---|---|"
 )
 
+_SMALL = 9.95e-5
+
 
 def row(name: str, found: list[Trial], what: str) -> str:
     """Write a line of the table, each share with its own standard deviation."""
@@ -32,13 +34,16 @@ def row(name: str, found: list[Trial], what: str) -> str:
     bounds = np.array([(one.picture_bounds[number], one.light_bounds[number]) for one in sure])
     off = error / stated
     # The median of an error is 0.674 of its standard deviation.
-    percent = (np.median(error), np.median(stated), *(0.674 * np.median(bounds, axis=0)))
+    shares = (np.median(error), np.median(stated), *(0.674 * np.median(bounds, axis=0)))
     return (
         f"| {name} | {len(found)} | {len(sure)} | {what} | {within(off, 1.0)} | "
-        f"{within(off, 2.0)} | {off.max():.1f} | "
-        + " | ".join(f"{100.0 * value:.2g} %" for value in percent)
-        + " |"
+        f"{within(off, 2.0)} | {off.max():.1f} | " + " | ".join(map(as_share, shares)) + " |"
     )
+
+
+def as_share(value: float) -> str:
+    """Write a share in percent, a very small one in parts in a million."""
+    return f"{1e6 * value:.2g} ppm" if value < _SMALL else f"{100.0 * value:.2g} %"
 
 
 def within(off: np.ndarray, most: float) -> str:

@@ -6,7 +6,7 @@ from round_trips import Found, round_trip, round_trips
 
 pytestmark = pytest.mark.first
 
-SAMPLE, WHOLE = 12, 80
+SAMPLE, WHOLE = 12, 40
 
 
 @pytest.fixture(scope="module")

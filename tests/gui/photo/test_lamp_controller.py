@@ -158,3 +158,13 @@ def test_a_damaged_region_is_left_out(damaged: str, tmp_path: Path) -> None:
     again = SessionFile(tmp_path, ())
     assert again.last.region is None
     again.close()
+
+
+def test_a_rectangle_that_is_taken_away_is_hidden_and_draws_nothing(bench: Bench) -> None:
+    drawn: list[Region] = []
+    bench.outlines.drawn.connect(drawn.append)
+    bench.outlines.show_rectangle(Region(3, 9, 4, 20))
+    assert bench.outlines.rectangle.isVisible()
+    bench.outlines.show_rectangle(None)
+    assert not bench.outlines.rectangle.isVisible()
+    assert drawn == []

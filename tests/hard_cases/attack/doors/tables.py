@@ -13,6 +13,7 @@ import numpy as np
 import occ_model as occ
 from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door
+from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results import RateSettings, SweepRequest
 from occ_model.results.photo_table_csv import csv_text
@@ -89,7 +90,7 @@ def _many_photos(chance: Random, folder: Path) -> list[str]:
     text = csv_text(table, list(lines_to_paste(table).values()))
     data = text[text.index("\nfile,") + 1 :]
     rows = list(csv.DictReader(data.splitlines(keepends=True), strict=True))
-    assert [row["file"] for row in rows] == [str(path) for path in paths]
+    assert [row["file"] for row in rows] == [one_line(str(path), 10_000) for path in paths]
     assert [row["verdict"] for row in rows] == [row.verdict for row in table.rows]
     return [*table.notes, *(row.note for row in table.rows if row.note)]
 

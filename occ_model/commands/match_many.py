@@ -7,7 +7,7 @@ from pathlib import Path
 from occ_model.commands.assumption import assumption
 from occ_model.commands.files import SCENE_FILE, TABLE, Written
 from occ_model.commands.progress_bar import progress_bar
-from occ_model.errors import OutputError, one_line
+from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
@@ -35,7 +35,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     jobs = usual_jobs() if options.jobs is None else options.jobs
     check_count("jobs", jobs, 1, MOST_JOBS)
     if options.out:
-        _check_out(options.out)
+        check_replaceable(options.out)  # before minutes of work are done
     table = _matched(paths, scene, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
@@ -48,15 +48,6 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     if options.out:
         print(f"{one_line(str(options.out))}: {len(table.rows)} photos")
     return EXIT_FAILURE if table.estimated is None else 0
-
-
-def _check_out(path: Path) -> None:
-    """Refuse a file that could not be written, before minutes of work are done."""
-    check_replaceable(path)
-    if not path.resolve().parent.is_dir():
-        raise OutputError(
-            f"{one_line(str(path))} cannot be written: name a file in a folder that is there."
-        )
 
 
 def _matched(

@@ -87,11 +87,13 @@ def check_replaceable(path: Path) -> int | None:
     """
     try:
         mode = path.stat().st_mode
-    except FileNotFoundError as error:
+    except FileNotFoundError:
         # Known before the work whose result is to be written, not after it.
         folder = path.resolve().parent
         if not folder.is_dir():
-            raise _unwritable(path, error) from None
+            raise OutputError(
+                f"{one_line(str(path))} cannot be written: name a file in a folder that is there."
+            ) from None
         if not os.access(folder, os.W_OK | os.X_OK):
             raise _unwritable(path, PermissionError(EACCES, os.strerror(EACCES))) from None
         return None

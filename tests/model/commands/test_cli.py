@@ -173,7 +173,7 @@ MISUSES = {
     "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",
     "render --scene folder.png": "folder.png cannot be read: it is a folder.",
     "render --scene text.txt": "text.txt cannot be read. This is not a TOML file: ",
-    "render -o missing/out.png": "missing/out.png cannot be written: No such file or directory.",
+    "render -o missing/out.png": "missing/out.png cannot be written: name a file in a folder ",
     "render -o folder.png": "folder.png is a folder; name a file to write to.",
     "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",
     "decode missing.png": "missing.png cannot be read: No such file or directory.",

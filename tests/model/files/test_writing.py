@@ -179,7 +179,7 @@ def test_a_missing_folder_is_not_made(tmp_path: Path) -> None:
     path = tmp_path / "missing" / "file.png"
     with pytest.raises(OutputError) as refused:
         write_image(path, IMAGE)
-    assert str(refused.value) == f"{path} cannot be written: No such file or directory."
+    assert str(refused.value) == f"{path} cannot be written: name a file in a folder that is there."
     assert list(tmp_path.iterdir()) == []
 
 

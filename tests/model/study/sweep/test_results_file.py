@@ -187,7 +187,7 @@ def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: P
         (foreign, "holds no results of a sweep; name another file"),
         (tmp_path, "is a folder"),
         (Path(os.devnull), "is a device"),
-        (tmp_path / "no" / "r.csv", "cannot be written: No such file"),
+        (tmp_path / "no" / "r.csv", "name a file in a folder that is there"),
         (foreign / "r.csv", "cannot be written: Not a directory"),
     ):
         with pytest.raises(occ.OutputError, match=words):

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError, one_line, shown
+from occ_model.errors import ParameterError, shown
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.equalizer.decoder import DECODER as EQUALIZER
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
@@ -16,6 +16,7 @@ from occ_model.receiver.sequence.decoder import DECODER as SEQUENCE
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.plugin_values import plain_reason
 
 PAPER_DECODER = THRESHOLD.name
 """The name of the paper's decoder, which is the default."""
@@ -71,7 +72,6 @@ def _plugin(name: str) -> Decoder:
             )
         if problem:
             return DecodeResult(name, signal=signal, failure=f"{who} gives {problem}.")
-        failure = None if result.failure is None else one_line(result.failure)
-        return replace(result, decoder=name, failure=failure, location=None)
+        return replace(result, decoder=name, failure=plain_reason(result.failure), location=None)
 
     return Decoder(name, plugins.title_of(offered, who), read)

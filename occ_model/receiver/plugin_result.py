@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.errors import shown
 from occ_model.results import DecodeResult
 from occ_model.results.decoding import RunHistogram, Runs
-from occ_model.transmitter.line_codes.registry import is_bits
+from occ_model.transmitter.plugin_values import is_bits, is_reason
 
 _RANGES = {
     "threshold": (-math.inf, math.inf),
@@ -48,7 +48,7 @@ def _problem_of_code(result: DecodeResult) -> str | None:
     failure: object = result.failure
     code: object = result.code
     payload: object = result.payload
-    if failure is not None and (not isinstance(failure, str) or not failure):
+    if not is_reason(failure):
         return "a failure that is no sentence"
     if failure is None and (code is None or not result.bits.size):
         return "neither a code with its bits nor a failure"

@@ -6,14 +6,15 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, PluginError, one_line, shown
+from occ_model.errors import ParameterError, PluginError, shown
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.line_codes.registry import (
+from occ_model.transmitter.plugin_values import (
     are_places,
     checked_chips,
     is_bits,
     is_reason,
     plain_bits,
+    plain_reason,
 )
 from occ_model.transmitter.registry import Registry
 
@@ -46,8 +47,7 @@ def _guarded(offered: Framing) -> Framing:
             return Framed.nothing(f"{who} gives neither bits nor a reason.")
         if not are_places(read.headers, len(chips)):
             return Framed.nothing(f"{who} gives headers that are no places among the chips.")
-        failure = None if read.failure is None else one_line(read.failure)
-        return Framed(read.headers, plain_bits(read.bits), failure)
+        return Framed(read.headers, plain_bits(read.bits), plain_reason(read.failure))
 
     title = plugins.title_of(offered, who)
     return replace(offered, title=title, encode=encode, decode=decode)

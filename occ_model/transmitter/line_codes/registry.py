@@ -6,9 +6,17 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError, one_line, shown
+from occ_model.errors import PluginError, shown
 from occ_model.scene.parameter_kinds import MAX_PATTERN_CHIPS
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
+from occ_model.transmitter.plugin_values import (
+    are_places,
+    checked_chips,
+    is_bits,
+    is_reason,
+    plain_bits,
+    plain_reason,
+)
 from occ_model.transmitter.registry import Registry
 
 
@@ -57,53 +65,10 @@ def _guarded(offered: LineCode) -> LineCode:
             return Decoded(failure=f"{who} gives no bits, but a {type(read).__name__}.")
         if not are_places(read.violations, len(read.bits)) or not is_reason(read.failure):
             return Decoded(failure=f"{who} gives bits, but not where they break the code, or why.")
-        failure = None if read.failure is None else one_line(read.failure)
-        return Decoded(plain_bits(read.bits), read.violations, failure)
+        return Decoded(plain_bits(read.bits), read.violations, plain_reason(read.failure))
 
     title = plugins.title_of(offered, who)
     return replace(offered, title=title, encode=encode, decode=decode)
-
-
-def is_bits(values: object) -> bool:
-    """Whether values are an array of zeros and ones of one dimension."""
-    return (
-        isinstance(values, np.ndarray)
-        and values.ndim == 1
-        and values.dtype.kind in "biu"
-        and bool(np.isin(values, (0, 1)).all())
-    )
-
-
-def plain_bits(bits: ByteArray) -> ByteArray:
-    """Return a plug-in's bits as an array of bytes, of no other class and not changed later."""
-    return np.array(bits, dtype=np.uint8, subok=False)
-
-
-def are_places(places: object, count: int) -> bool:
-    """Whether places are a tuple of whole numbers from 0 to before a number."""
-    return isinstance(places, tuple) and all(
-        type(place) is int and 0 <= place < count for place in places
-    )
-
-
-def is_reason(failure: object) -> bool:
-    """Whether a plug-in's failure is None or a sentence."""
-    return failure is None or (isinstance(failure, str) and bool(failure))
-
-
-def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArray:
-    """Return a plug-in's chips as bytes.
-
-    Raises
-    ------
-    PluginError
-        They are no zeros and ones, or not as many as they should be.
-    """
-    if not isinstance(chips, np.ndarray) or not is_bits(chips) or not chips.size:
-        raise PluginError(f"{who} gives no chips, which are zeros and ones.")
-    if count is not None and len(chips) != count:
-        raise PluginError(f"{who} gives {len(chips)} chips in place of {count}.")
-    return plain_bits(chips)
 
 
 LINE_CODES = Registry(

@@ -1,0 +1,53 @@
+"""Checks of the values that plug-ins give: bits, chips, places among them, and reasons."""
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.errors import PluginError, one_line
+
+
+def is_bits(values: object) -> bool:
+    """Whether values are an array of zeros and ones of one dimension."""
+    return (
+        isinstance(values, np.ndarray)
+        and values.ndim == 1
+        and values.dtype.kind in "biu"
+        and bool(np.isin(values, (0, 1)).all())
+    )
+
+
+def plain_bits(bits: ByteArray) -> ByteArray:
+    """Return a plug-in's bits as an array of bytes, of no other class and not changed later."""
+    return np.array(bits, dtype=np.uint8, subok=False)
+
+
+def are_places(places: object, count: int) -> bool:
+    """Whether places are a tuple of whole numbers from 0 to before a number."""
+    return isinstance(places, tuple) and all(
+        type(place) is int and 0 <= place < count for place in places
+    )
+
+
+def is_reason(failure: object) -> bool:
+    """Whether a plug-in's failure is None or a sentence."""
+    return failure is None or (isinstance(failure, str) and bool(failure))
+
+
+def plain_reason(failure: str | None) -> str | None:
+    """Return a plug-in's failure in one line."""
+    return None if failure is None else one_line(failure)
+
+
+def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArray:
+    """Return a plug-in's chips as bytes.
+
+    Raises
+    ------
+    PluginError
+        They are no zeros and ones, or not as many as they should be.
+    """
+    if not isinstance(chips, np.ndarray) or not is_bits(chips) or not chips.size:
+        raise PluginError(f"{who} gives no chips, which are zeros and ones.")
+    if count is not None and len(chips) != count:
+        raise PluginError(f"{who} gives {len(chips)} chips in place of {count}.")
+    return plain_bits(chips)

@@ -248,8 +248,7 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
         gamma *= math.exp(float(values[3]))
         covariance[3, :3] = covariance[:3, 3] = gamma * mode.covariance[3, :3]
         covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
-    timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
-    return _described(model, timing, mode, covariance)
+    return _described(model, replace(timing, gamma=gamma), mode, covariance)
 
 
 def _with_width(timing: Timing, mode: JointFit) -> Timing:

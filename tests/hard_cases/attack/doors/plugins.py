@@ -53,7 +53,9 @@ def offered(name: str) -> object:
         raise _made.choice(_FAULTS)
     if _made.random() < 0.1:
         return _nonsense()
-    return {"decoder": _decoder, "code": _line_code, "frame": _framing}[name]()
+    if name == "decoder":
+        return _decoder()
+    return _coder(_CODERS[name], name)
 
 
 def _nonsense() -> object:
@@ -100,24 +102,18 @@ def _decoder() -> object:
     return occ.Decoder(_named(_own_name("decoder")), _named("A title"), _does(read))  # type: ignore[arg-type]
 
 
-def _line_code() -> object:
-    code = replace(
-        LINE_CODE,
-        name=_own_name("code"),
-        encode=_does(LINE_CODE.encode),  # type: ignore[arg-type]
-        decode=_does(LINE_CODE.decode),  # type: ignore[arg-type]
-    )
-    return _spoiled(code, ("name", "encode", "decode"))
+_CODERS: dict[str, occ.LineCode | occ.Framing] = {"code": LINE_CODE, "frame": FRAMING}
 
 
-def _framing() -> object:
-    framing = replace(
-        FRAMING,
-        name=_own_name("frame"),
-        encode=_does(FRAMING.encode),  # type: ignore[arg-type]
-        decode=_does(FRAMING.decode),  # type: ignore[arg-type]
+def _coder(offered: occ.LineCode | occ.Framing, kind: str) -> object:
+    """Give a line code or a framing that does and declares what chance makes of a right one."""
+    made = replace(
+        offered,
+        name=_own_name(kind),
+        encode=_does(offered.encode),  # type: ignore[arg-type]
+        decode=_does(offered.decode),  # type: ignore[arg-type]
     )
-    return _spoiled(framing, ("name", "encode", "decode"))
+    return _spoiled(made, ("name", "encode", "decode"))
 
 
 _names: dict[str, str] = {}

@@ -230,6 +230,7 @@ class SimulationController(QObject):
         heartbeat: Callable[[], None] = _go_on
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
+            self._is_painted.clear()
             self._rendered.emit(Picture.of(draft, request.whose, request, reading))
             self._wait_for_paint()
             reading, heartbeat = None, self.runner.give_way
@@ -241,6 +242,7 @@ class SimulationController(QObject):
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
         if reading is not None:
             reading = replace(reading, has_picture=True)
+        self._is_painted.clear()
         self._rendered.emit(Picture.of(frame, request.whose, request, reading))
         self._wait_for_paint()
         if reading is not None:
@@ -261,7 +263,6 @@ class SimulationController(QObject):
         both take twice as long, and what the user waits for is the picture.
         """
         self._is_painted.wait(_LONGEST_PAINT)
-        self._is_painted.clear()
 
     def _show_with_picture(self, picture: Picture) -> None:
         self._show_early(picture.reading)

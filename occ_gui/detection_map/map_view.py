@@ -136,7 +136,9 @@ class MapView(QWidget):
         head.addWidget(self.what, 2)
         head.addWidget(self.shown, 2)
         head.addWidget(self.frame_rate)
-        head.addWidget(self.advise)
+        searches = QHBoxLayout()
+        searches.addWidget(self.most_bits, 1)
+        searches.addWidget(self.advise)
         foot = QHBoxLayout()
         foot.addWidget(self.legend, 1)
         foot.addWidget(self.image_effects)
@@ -145,7 +147,7 @@ class MapView(QWidget):
         column.setContentsMargins(4, 2, 4, 2)
         column.setSpacing(2)
         column.addWidget(self.cards)
-        column.addWidget(self.most_bits)
+        column.addLayout(searches)
         column.addLayout(head)
         column.addWidget(self.plots, 1)
         column.addLayout(foot)
@@ -209,11 +211,11 @@ class MapView(QWidget):
         self.plots.show_setting((x, y))
 
     def show_progress(self, known: int, total: int, images: int) -> None:
-        """Show how many points are known, and the images at each."""
+        """Show how many points are known, and how many images each has at least."""
         if known < total:
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
-            text = self.tr("{total} points, images at each: {images}; colour: {what}").format(
+            text = self.tr("{total} points, at least {images} images at each; colour: {what}").format(
                 total=total, images=images, what="{what}"
             )
         self._progress = text

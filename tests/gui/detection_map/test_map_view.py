@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QImage
-from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QComboBox,
+    QStyle,
+    QStyleOptionComboBox,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -286,6 +293,17 @@ def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[in
             assert control.visibleRegion().boundingRect() == control.rect(), control
             assert control.width() >= least.width(), control
             assert control.height() >= least.height(), control
+    for box in view.findChildren(QComboBox):
+        if box.isVisible():
+            option = QStyleOptionComboBox()
+            box.initStyleOption(option)
+            field = box.style().subControlRect(
+                QStyle.ComplexControl.CC_ComboBox,
+                option,
+                QStyle.SubControl.SC_ComboBoxEditField,
+                box,
+            )
+            assert box.fontMetrics().horizontalAdvance(box.currentText()) <= field.width(), box
     plot = view.plots.plots[0]
     assert plot.rect().toRectF().contains(plot.area())
     assert plot.area().contains(plot.place_of((1.0, 1.0)))

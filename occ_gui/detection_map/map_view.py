@@ -136,7 +136,7 @@ class MapView(QWidget):
         head.addWidget(self.what, 2)
         head.addWidget(self.shown, 2)
         head.addWidget(self.frame_rate)
-        searches = QHBoxLayout()
+        self._searches = searches = QHBoxLayout()
         searches.addWidget(self.most_bits, 1)
         searches.addWidget(self.advise)
         foot = QHBoxLayout()
@@ -152,7 +152,9 @@ class MapView(QWidget):
         column.addWidget(self.plots, 1)
         column.addLayout(foot)
         column.addWidget(self.left_out)
-        column.addWidget(self.status)
+        self._state = QHBoxLayout()
+        self._state.addWidget(self.status, 1)
+        column.addLayout(self._state)
         self._pages = QStackedWidget()
         self._pages.addWidget(page)
         self._pages.addWidget(self.advice)
@@ -163,8 +165,11 @@ class MapView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Show the limits above the map where there is space for both."""
         super().resizeEvent(event)
+        with_cards = self.height() >= _LEAST_WITH_CARDS
         for card in (self.cards, self.most_bits):
-            card.setVisible(self.height() >= _LEAST_WITH_CARDS)
+            card.setVisible(with_cards)
+        # In a low pane it needs no line of its own.
+        (self._searches if with_cards else self._state).addWidget(self.advise)
 
     def _connect(self) -> None:
         self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))
@@ -215,9 +220,9 @@ class MapView(QWidget):
         if known < total:
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
-            text = self.tr("{total} points, at least {images} images at each; colour: {what}").format(
-                total=total, images=images, what="{what}"
-            )
+            text = self.tr(
+                "{total} points, images at each: {images} or more; colour: {what}"
+            ).format(total=total, images=images, what="{what}")
         self._progress = text
         self._show_status()
 

@@ -317,14 +317,16 @@ def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: Map
     view.show_age(0.01)
     assert (
         view.status.toolTip()
-        == "Earlier scene: 91 points, images at each: 20; colour: share of bits read"
+        == "Earlier scene: 91 points, images at each: 20 or more; colour: share of bits read"
     )
     assert view.outdated.isHidden()
     view.show_age(1.0)
     assert view.outdated.isVisible()
     view.show_age(0.0)
     assert view.outdated.isHidden()
-    assert view.status.toolTip() == "91 points, images at each: 20; colour: share of bits read"
+    assert (
+        view.status.toolTip() == "91 points, images at each: 20 or more; colour: share of bits read"
+    )
 
 
 def test_bits_a_second_are_shown_of_whole_payloads(qtbot: QtBot) -> None:

@@ -121,6 +121,21 @@ def test_other_checks_keep_their_output_until_the_tests_end(
     ]  # fmt: skip
 
 
+def test_the_checks_keep_what_python_compiles(
+    start: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    put_program: Callable[[Path, str], None],
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
+    monkeypatch.setenv("KEPT", "as it is")
+    for check in CHECKS:
+        body = 'echo "$KEPT, ${PYTHONDONTWRITEBYTECODE-compiled}"'
+        put_program(start.PROGRAMS / check.split()[0], body)
+    assert start.run_checks([]) == 0
+    assert capfd.readouterr().out.splitlines().count("as it is, compiled") == len(CHECKS)
+
+
 def test_the_tests_use_every_core_that_this_process_may_use(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:

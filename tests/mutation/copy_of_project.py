@@ -1,8 +1,8 @@
 """A copy of the project, in which mutants live; the user's files are never touched."""
 
+import json
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from mutation.runner import TIMED_OUT, end_group
 
-_TIMED_OUT = 124
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @dataclass
@@ -24,6 +24,8 @@ class Copy:
     root: Path
     _clock: Iterator[int] = field(default_factory=lambda: count(1_000_000_000, 10))
     _process: subprocess.Popen[str] | None = None
+    _runner: subprocess.Popen[str] | None = None
+    _child: int = 0
 
     def write(self, file: str, text: str) -> None:
         """Replace a file.
@@ -58,27 +60,68 @@ class Copy:
         try:
             printed, _ = process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:
-            return _TIMED_OUT, "timeout"
+            return TIMED_OUT, "timeout"
         finally:
             _end(process)
         return process.returncode, printed
 
+    def pytest(self, arguments: Sequence[str], timeout: float) -> tuple[int, str]:
+        """Run pytest in the copy: exit code and what it printed.
+
+        Where the system can fork, a process that has others' packages imported already does it.
+        """
+        if not hasattr(os, "fork"):
+            return self.run(["-m", "pytest", *arguments], timeout)
+        if self._runner is None or self._runner.poll() is not None:
+            self._runner = self._new_runner()
+        asked, told = self._runner.stdin, self._runner.stdout
+        assert asked is not None
+        assert told is not None
+        printed, imported = (self.root.parent / name for name in ("printed.txt", "imported.json"))
+        imported.unlink(missing_ok=True)
+        command = {
+            "arguments": [*arguments], "seconds": timeout,
+            "printed": str(printed), "imported": str(imported),
+        }  # fmt: skip
+        asked.write(json.dumps(command) + "\n")
+        asked.flush()
+        self._child = int(told.readline())
+        code = int(told.readline())
+        self._child = 0
+        return code, printed.read_text(encoding="utf-8", errors="replace")
+
+    def _new_runner(self) -> subprocess.Popen[str]:
+        environment = {**os.environ, "PYTHONPATH": str(self.root)}
+        return subprocess.Popen(
+            [sys.executable, str(Path(__file__).with_name("runner.py"))],
+            cwd=self.root,
+            env=environment,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
     def stop(self) -> None:
         """End what runs in the copy."""
-        if self._process is not None:
-            _end(self._process)
+        if self._child:
+            end_group(self._child)
+        for process in (self._process, self._runner):
+            if process is not None:
+                _end(process)
 
 
 def _end(process: subprocess.Popen[str]) -> None:
     """End a process and all that it has started and left."""
     if hasattr(os, "killpg"):
-        with suppress(ProcessLookupError, PermissionError):
-            os.killpg(process.pid, signal.SIGKILL)
+        end_group(process.pid)
     else:
         process.kill()
     process.wait()
-    if process.stdout is not None:
-        process.stdout.close()
+    for stream in (process.stdin, process.stdout):
+        if stream is not None:
+            with suppress(BrokenPipeError):
+                stream.close()
 
 
 @contextmanager
@@ -97,4 +140,8 @@ def copy_of_project(root: Path = ROOT) -> Iterator[Copy]:
         # The real photographs are looked for beside the project.
         if (root.parent / "shared").exists():
             (copy.parent / "shared").symlink_to((root.parent / "shared").resolve())
-        yield Copy(copy)
+        result = Copy(copy)
+        try:
+            yield result
+        finally:
+            result.stop()

@@ -1,6 +1,7 @@
 """A small project with a weak and a strong test: one mutant survives, another one dies."""
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -37,14 +38,16 @@ NAMES = ("test_sizes.py::test_a_one_is_small", "test_sizes.py::test_a_thousand_i
 
 
 @pytest.fixture
-def copy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Copy:
+def copy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Copy]:
     # The small project's tests need no plug-ins, which take long to start.
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     project = tmp_path / "project"
     project.mkdir()
     (project / "sizes.py").write_text(SOURCE)
     (project / "test_sizes.py").write_text(TESTS)
-    return Copy(project)
+    copy = Copy(project)
+    yield copy
+    copy.stop()
 
 
 def mutant(after: str) -> Mutant:
@@ -160,3 +163,20 @@ def test_what_a_copy_runs_imports_the_copy(copy: Copy) -> None:
     code, printed = copy.run(["-c", program], timeout=60.0)
     assert code == 0
     assert {Path(line) for line in printed.split(os.linesep) if line} == {copy.root / "sizes.py"}
+
+
+def test_each_run_of_tests_imports_the_project_anew_and_others_packages_once(copy: Copy) -> None:
+    (copy.root / "test_sizes.py").write_text(
+        "import os, sys\n"
+        "def test_it():\n    import sizes\n"
+        "    print(os.getppid(), 'PIL.Image' in sys.modules, sizes.LIMIT, sizes.__file__)\n"
+        "    import PIL.Image\n"
+    )
+    run = ["-q", "-s", "-p", "no:cacheprovider", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
+    code, first = copy.pytest([*run, "test_sizes.py"], timeout=60.0)
+    copy.write("sizes.py", SOURCE.replace("3", "4"))
+    again, second = copy.pytest([*run, "test_sizes.py"], timeout=60.0)
+    assert code == again == 0
+    parent, *_ = first.split()
+    assert first.split()[1:4] == ["False", "3", str(copy.root / "sizes.py")]
+    assert second.split()[:4] == [parent, "True", "4", str(copy.root / "sizes.py")]

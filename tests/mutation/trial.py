@@ -11,7 +11,11 @@ KILLED, SURVIVED, UNREACHED, UNCLEAR = "killed", "survived", "unreached", "uncle
 _PATIENCE = 60.0
 _SLOWER = 5.0
 
-_PYTEST = ["-m", "pytest", "-x", "-q", "--tb=line", "-p", "no:cacheprovider"]
+_PYTEST = [
+    "-x", "-q", "--tb=line", "-p", "no:cacheprovider",
+    # That plug-ins of pytest are imported already is known.
+    "-W", "ignore::pytest.PytestAssertRewriteWarning",
+]  # fmt: skip
 _PASSED, _NOT_FOUND, _NO_TESTS, _TIMED_OUT = 0, 4, 5, 124
 
 
@@ -34,16 +38,16 @@ def tried(mutant: Mutant, source: str, choice: Choice, copy: Copy) -> Outcome:
     timeout = _PATIENCE + _SLOWER * choice.seconds
     copy.write(mutant.file, mutant.apply(source))
     try:
-        code, printed = copy.run([*_PYTEST, *_named(names, copy)], timeout)
+        code, printed = copy.pytest([*_PYTEST, *_named(names, copy)], timeout)
         if code == _NOT_FOUND:
             # Names of tests have values in them that the mutant may have changed.
             files = list(dict.fromkeys(test.file for test in choice.tests))
-            code, printed = copy.run([*_PYTEST, *files], timeout + 10.0 * _PATIENCE)
+            code, printed = copy.pytest([*_PYTEST, *files], timeout + 10.0 * _PATIENCE)
     finally:
         copy.write(mutant.file, source)
     if code == _TIMED_OUT:
         # On a machine that is busy the tests may take as long without a mutant.
-        code, _ = copy.run([*_PYTEST, *_named(names, copy)], timeout)
+        code, _ = copy.pytest([*_PYTEST, *_named(names, copy)], timeout)
         result = UNCLEAR if code == _TIMED_OUT else KILLED
         return Outcome(result, "time", len(names), choice.left_out)
     if code in (_PASSED, _NO_TESTS):
@@ -54,7 +58,7 @@ def tried(mutant: Mutant, source: str, choice: Choice, copy: Copy) -> Outcome:
 
 def passes_unchanged(test: str, copy: Copy) -> bool:
     """Tell whether a test that has killed a mutant passes without one."""
-    code, _ = copy.run([*_PYTEST, *_named([test], copy)], 10.0 * _PATIENCE)
+    code, _ = copy.pytest([*_PYTEST, *_named([test], copy)], 10.0 * _PATIENCE)
     return code == _PASSED
 
 

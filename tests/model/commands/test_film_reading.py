@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 from occ_model.cli import main
+from occ_model.commands.film_reading import _measured
+from occ_model.results.video_reading import Measured
 from occ_model.video.file.kind import is_film
 
 SCENE = [
@@ -63,3 +65,20 @@ def test_a_film_is_told_from_a_picture_by_its_content(film: Path, tmp_path: Path
     animated.write_bytes(b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR....acTL....IDAT" + bytes(64))
     assert is_film(animated)
     assert not is_film(tmp_path / "missing.mkv")
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "scale", "text"),
+    [
+        (2999.98765, 0.0123, 1.0, "2999.988 ± 0.012 Hz"),
+        (2999.98765, 1.5, 1.0, "3000.0 ± 1.5 Hz"),
+        (2999.98765, 15.0, 1.0, "3000 ± 15 Hz"),
+        (2999.98765, 150.0, 1.0, "3000 ± 1.5e+02 Hz"),
+        (2.5e-5, 1.2e-8, 1e6, "25.000 ± 0.012 Hz"),
+        (3000.0, 0.0, 1.0, "3000 Hz"),
+    ],
+)
+def test_a_number_is_written_to_the_second_digit_of_its_error(
+    value: float, error: float, scale: float, text: str
+) -> None:
+    assert _measured(Measured(value, error), "Hz", scale) == text

@@ -38,6 +38,8 @@ VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.
         ("averaging=light,pixel-value", ["light", "pixel-value"]),
         (" yaw = -10deg:10deg:10deg", [-np.pi / 18, 0.0, np.pi / 18]),
         ("edge_time=0:2us:x3", [0.0, 1e-6, 2e-6]),
+        # From zero no ratios are even, on a logarithmic scale either.
+        ("luminance=0:2000:x3", [0.0, 1000.0, 2000.0]),
     ],
 )
 def test_axes_are_read_as_people_write_them(text: str, values: list[object]) -> None:

@@ -195,6 +195,37 @@ def test_no_value_is_tried_beyond_the_first_that_fails(monkeypatch: pytest.Monke
     assert max(tried) < 20e3 * STEP**1.01
 
 
+def test_each_end_is_read_in_all_images_where_the_first_ones_mislead(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def misleading(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
+        frequency = scene.transmitter.switching_frequency
+        for image in range(settings.images):
+            yield (10 if 2e3 <= frequency <= 10e3 or image < FEW_IMAGES else 0,)
+
+    monkeypatch.setattr(module, "right_bits_of_images", misleading)
+    found = occ.limits(SCENE.replace(switching_frequency=5e3), images=20).frequency
+    for range_end, truth in ((found.lowest, 2e3), (found.highest, 10e3)):
+        works, fails = ends(range_end)
+        assert min(works, fails) <= truth <= max(works, fails)
+        assert range_end is not None
+        assert (range_end.works.images, range_end.works.rate) == (20, 100.0)
+
+
+def test_the_command_says_the_right_bits_a_second(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    scene = ["--set", "columns=1000", "--set", "readout_time=40us", "--set", "bits=16"]
+    command = ["limits", *scene, "--rate", "90", "--images", "1", "--jobs", "1"]
+    assert main([*command, "--fps", "10"]) == 0
+    # 16 bits in 10 pictures, of which 90 % are right.
+    assert "in each of 10 pictures a second are at least 144 right bits" in capsys.readouterr().out
+    assert main([*command, "--fps", "60"]) == 0
+    # The columns of a picture take 40 ms: there are no more than 25 a second.
+    assert "in each of 25 pictures a second are at least 360 right bits" in capsys.readouterr().out
+
+
 def test_no_image_of_a_value_is_simulated_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     read: Counter[float] = Counter()
 

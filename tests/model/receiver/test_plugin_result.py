@@ -1,0 +1,27 @@
+"""Which results of a plug-in's decoder are refused."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.receiver.plugin_result import problem_of
+
+
+def with_headers(headers: object) -> str | None:
+    chips, bits = np.array([1, 0, 0]), np.array([1])
+    result = occ.DecodeResult("own", code=1, bits=bits, chips=chips, headers=headers)  # type: ignore[arg-type]
+    return problem_of(result, columns=10)
+
+
+@pytest.mark.parametrize("headers", [(), (0,), (2,), (0, 1, 2), (np.int64(1),)])
+def test_headers_are_places_among_the_chips(headers: tuple[int, ...]) -> None:
+    assert with_headers(headers) is None
+
+
+@pytest.mark.parametrize(
+    "headers", [(-1,), (3,), (0, 3), (-1, 0), (1.0,), (0, "1"), (True,), [0], None]
+)
+def test_headers_elsewhere_are_refused(headers: object) -> None:
+    said = with_headers(headers)
+    assert said is not None
+    assert said.endswith("which are no places among its chips")

@@ -10,6 +10,7 @@ the exact picture followed the last move.
 import argparse
 import math
 import os
+import subprocess
 import sys
 from dataclasses import dataclass, field
 from time import perf_counter
@@ -18,10 +19,9 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
 from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
-from PySide6.QtWidgets import QApplication
 
 import occ_model as occ
-from occ_gui.app.application import Application
+from occ_gui.app.command_line import start
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_model.scene.scene import Scene
@@ -30,6 +30,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 _WARM_UP = 5
 _DRAG_SECONDS = 3.0
 _MOVE_SECONDS = 0.016
+_SIZES = ((1280, 800), (1920, 1080))
 
 CASES = {
     "noise-free": ("phone-136us", SimulationSettings(tolerance=math.inf)),
@@ -61,11 +62,11 @@ class Painted:
 class Window(QObject):
     """An application whose results are noted once they are painted."""
 
-    def __init__(self, qt: QApplication, case: str, size: tuple[int, int]) -> None:
+    def __init__(self, case: str, size: tuple[int, int]) -> None:
         super().__init__()
         preset, settings = CASES[case]
-        self._qt = qt
-        self.application = Application(occ.load_preset(preset), settings)
+        # As the program starts: its time slices of threads, and when it collects garbage.
+        self._qt, self.application = start(occ.load_preset(preset), sys.argv[:1], settings)
         self.painted = Painted()
         self._waiting: list[tuple[str, Scene]] = []
         self.application.simulation.picture_ready.connect(self._on_picture)
@@ -137,8 +138,8 @@ class Window(QObject):
         self.application.stop()
 
 
-def _measure(qt: QApplication, case: str, size: tuple[int, int], moves: int) -> None:
-    window = Window(qt, case, size)
+def _measure(case: str, size: tuple[int, int], moves: int) -> None:
+    window = Window(case, size)
     ms = 1e3 * np.array(window.single_moves(moves))
     rate, exact = window.drag()
     window.close()
@@ -151,17 +152,25 @@ def _measure(qt: QApplication, case: str, size: tuple[int, int], moves: int) -> 
     print(f"    {1e3 * exact:.0f} ms after the last move")
 
 
+def _size(text: str) -> tuple[int, int]:
+    width, height = map(int, text.split("x"))
+    return width, height
+
+
 def main() -> None:
-    """Print the table."""
+    """Print the table, each case measured in a process of its own."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--case", action="append", choices=tuple(CASES), help="default: all")
+    parser.add_argument("--size", action="append", type=_size, metavar="WIDTHxHEIGHT")
     parser.add_argument("--moves", type=int, default=60)
     options = parser.parse_args()
-    qt = QApplication.instance() or QApplication(sys.argv[:1])
-    assert isinstance(qt, QApplication)
-    for case in options.case or CASES:
-        for size in ((1280, 800), (1920, 1080)):
-            _measure(qt, case, size, options.moves)
+    chosen = [(case, size) for case in options.case or CASES for size in options.size or _SIZES]
+    if len(chosen) == 1:
+        _measure(*chosen[0], options.moves)
+        return
+    for case, (width, height) in chosen:
+        arguments = [f"--case={case}", f"--size={width}x{height}", f"--moves={options.moves}"]
+        subprocess.run([sys.executable, __file__, *arguments], check=True)
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.simulation.render import render_with
+from occ_model.simulation.render import plan_scene, render_with
 
 _REST = 0.05
 """Seconds without a change after which a hand rests, and the exact picture is begun."""
@@ -224,8 +224,9 @@ class SimulationController(QObject):
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
-        reading = reading_by_profile(request)
-        draft = draft_of(request)
+        planned = plan_scene(request.scene, request.settings)  # once for all that follows
+        reading = reading_by_profile(request, planned)
+        draft = draft_of(request, planned)
         # Without a draft something must be shown of every scene that is begun.
         heartbeat: Callable[[], None] = _go_on
         if draft is not None:
@@ -236,10 +237,10 @@ class SimulationController(QObject):
             reading, heartbeat = None, self.runner.give_way
             self.runner.give_way(self.ages.rest(_REST))
             self._wait_for_others()
-        elif reading is not None and not is_soon(request):
+        elif reading is not None and not is_soon(planned):
             self._read_early.emit(reading)
             reading = None
-        frame = render_with(request.scene, request.settings, heartbeat=heartbeat)
+        frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
         if reading is not None:
             reading = replace(reading, has_picture=True)
         self._is_painted.clear()

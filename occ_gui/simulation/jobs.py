@@ -8,14 +8,13 @@ from typing import TypedDict
 import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
 from occ_model.arrays import FloatArray
-from occ_model.camera.projection import check_size
-from occ_model.effects.plan import called_for_by_signal, plan_with
+from occ_model.effects.plan import called_for_by_signal
 from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
 from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import enhanced_band_profile
-from occ_model.simulation.render import render_with
+from occ_model.simulation.render import PlannedScene, render_with
 from occ_model.study.profile_reading import read_profile
 
 SMALL = 1_000_000
@@ -32,18 +31,14 @@ class _Beside(TypedDict):
     band_undefined: str
 
 
-def reading_by_profile(request: SimulationRequest) -> Reading | None:
-    """Read a scene without its picture; None where only pixels show what is read.
-
-    Raises
-    ------
-    ParameterError
-        A setting is invalid.
-    ProjectionError
-        The panel has no picture in this pose.
-    """
+def reading_by_profile(
+    request: SimulationRequest, planned: PlannedScene | None = None
+) -> Reading | None:
+    """Read a scene without its picture; None where only pixels show what is read."""
     more = filter(_is_usable, request.more)
-    found = read_profile(request.scene, request.settings, (*QUICK_DECODERS, *more))
+    decoders = (*QUICK_DECODERS, *more)
+    view = None if planned is None else planned.view
+    found = read_profile(request.scene, request.settings, decoders, view)
     if found is None:
         return None
     first, *others = found.results
@@ -60,28 +55,19 @@ def reading_by_profile(request: SimulationRequest) -> Reading | None:
     )
 
 
-def is_soon(request: SimulationRequest) -> bool:
+def is_soon(planned: PlannedScene) -> bool:
     """Return whether a picture is there within milliseconds: its rows are copies of one."""
-    check_size(request.scene.camera)
-    return plan_with(request.scene, request.settings).kinds <= {"column"}
+    return planned.plan.kinds <= {"column"}
 
 
-def draft_of(request: SimulationRequest) -> Frame | None:
-    """Simulate some rows of a picture; None where the whole one is there as soon.
-
-    Raises
-    ------
-    ParameterError
-        A setting is invalid.
-    ProjectionError
-        The panel has no picture in this pose.
-    """
+def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
+    """Simulate some rows of a picture; None where the whole one is there as soon."""
     camera = request.scene.camera
-    if camera.rows * camera.columns <= SMALL or is_soon(request):
+    if camera.rows * camera.columns <= SMALL or is_soon(planned):
         return None
     # Noise drawn for each pixel is no nearer to that of the picture, which is drawn anew.
     settings = replace(request.settings, noise="reused")
-    return render_with(request.scene, settings, request.draft_step)
+    return render_with(request.scene, settings, request.draft_step, planned=planned)
 
 
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:

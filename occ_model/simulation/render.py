@@ -1,6 +1,7 @@
 """Render a scene: simulate the picture, stage by stage as light travels, each stage timed."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -81,27 +82,66 @@ def render(
     return render_with(scene, settings, rows_step)
 
 
-def render_with(
-    scene: Scene,
-    settings: SimulationSettings,
-    rows_step: int = 1,
-    heartbeat: Heartbeat = lambda: None,
-) -> Frame:
-    """Simulate the picture that the scene's camera takes with some settings: see :func:`render`.
+@dataclass(frozen=True, eq=False, slots=True)
+class PlannedScene:
+    """A scene whose effects are chosen: what its draft and its whole picture begin with alike.
 
-    The heartbeat is called before each band of rows that differ; what it raises ends the work.
+    Parameters
+    ----------
+    view
+        The paper's view of the scene.
+    plan
+        The effects that are simulated.
+    timings
+        Seconds of each stage so far.
+    """
+
+    view: PaperView
+    plan: Plan
+    timings: Mapping[str, float]
+
+
+def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:
+    """Choose the effects of a scene with some settings, whatever their seed and noise.
+
+    Raises
+    ------
+    ParameterError
+        A setting is invalid, or the image would be too large.
+    ProjectionError
+        Part of the panel is behind the camera.
     """
     check_scene(scene)
-    check_count("rows_step", rows_step, 1, scene.camera.rows)
     settings = settings.checked(NAMES)
     check_size(scene.camera)
     timer = StageTimer()
     view = paper_view_of(scene, timer.stage_ended)
     chosen = plan_of(view, settings)
     timer.stage_ended("plan")
+    return PlannedScene(view, chosen, timer.timings)
+
+
+def render_with(
+    scene: Scene,
+    settings: SimulationSettings,
+    rows_step: int = 1,
+    heartbeat: Heartbeat = lambda: None,
+    planned: PlannedScene | None = None,
+) -> Frame:
+    """Simulate the picture that the scene's camera takes with some settings: see :func:`render`.
+
+    The heartbeat is called before each band of rows that differ; what it raises ends the work.
+    What :func:`plan_scene` gave for the same scene and settings need not be found again.
+    """
+    check_scene(scene)
+    check_count("rows_step", rows_step, 1, scene.camera.rows)
+    settings = settings.checked(NAMES)
+    if planned is None:
+        planned = plan_scene(scene, settings)
+    timer = StageTimer(planned.timings)
     return render_plan(
-        view,
-        chosen,
+        planned.view,
+        planned.plan,
         seed=settings.seed,
         noise=settings.noise,
         rows_step=rows_step,

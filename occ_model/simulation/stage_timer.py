@@ -1,6 +1,6 @@
 """Time the stages of a simulation."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import fsum
 from time import perf_counter
 from typing import Self
@@ -11,10 +11,15 @@ class StageTimer:
 
     Every moment since the timer was made counts to one stage: the times of all stages add up to the
     time between the first moment and the end of the last stage.
+
+    Parameters
+    ----------
+    before
+        Seconds of stages that ended before the timer was made, which count too.
     """
 
-    def __init__(self) -> None:
-        self.timings: dict[str, float] = {}
+    def __init__(self, before: Mapping[str, float] | None = None) -> None:
+        self.timings: dict[str, float] = dict(before or {})
         self._last = perf_counter()
 
     def stage_ended(self, stage: str) -> None:

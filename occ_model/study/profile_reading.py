@@ -55,7 +55,10 @@ def signal_plan(view: PaperView, settings: SimulationSettings) -> Plan:
 
 
 def read_profile(
-    scene: Scene, settings: SimulationSettings, decoders: Sequence[str] = QUICK_DECODERS
+    scene: Scene,
+    settings: SimulationSettings,
+    decoders: Sequence[str] = QUICK_DECODERS,
+    view: PaperView | None = None,
 ) -> ProfileReading | None:
     """Read a scene by the profile path.
 
@@ -67,6 +70,8 @@ def read_profile(
         How its picture is simulated; the effects are planned for the signal all the same.
     decoders
         The decoders' names.
+    view
+        The paper's view of the scene, where it is known.
 
     Returns
     -------
@@ -82,7 +87,7 @@ def read_profile(
     """
     check_scene(scene)
     check_size(scene.camera)
-    view = paper_view_of(scene)
+    view = view or paper_view_of(scene)
     chosen = signal_plan(view, settings)
     span = panel_span(scene)
     if span is None or "image" in chosen.kinds:

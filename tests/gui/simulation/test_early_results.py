@@ -15,9 +15,15 @@ from pytestqt.qtbot import QtBot
 from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP, SimulationRequest
+from occ_model.effects import plan
+from occ_model.effects.paper_view import PaperView
+from occ_model.effects.plan import plan_of
+from occ_model.results import Plan
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation import render
 from occ_model.simulation.render import render_with
+from occ_model.study import profile_reading
 
 SETTINGS = SimulationSettings(noise="reused")
 
@@ -74,6 +80,27 @@ def test_a_draft_of_the_scene_comes_before_its_exact_picture(
     assert draft.frame.scene == exact.frame.scene == bench.store.scene
     assert draft.frame.plan == exact.frame.plan
     assert bench.views[0].shown[-1].frame is exact.frame
+
+
+@pytest.mark.parametrize("jpeg", [0, 80])
+def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
+    bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch, jpeg: int
+) -> None:
+    bench.settings.set_tolerance(0.0)  # which leaves out nothing that a signal may call for
+    bench.wait_until_idle()
+    pictures.clear()
+    observables: list[str] = []
+
+    def note(view: PaperView, settings: SimulationSettings) -> Plan:
+        observables.append(settings.observable)
+        return plan_of(view, settings)
+
+    for module in (render, profile_reading, plan):
+        monkeypatch.setattr(module, "plan_of", note)
+    bench.store.change(iso=200.0, jpeg_quality=jpeg)
+    bench.wait_until_idle()
+    assert [picture.is_draft for picture in pictures] == [True, False]
+    assert sorted(observables) == ["image", "signal"]  # that of the early reading
 
 
 @pytest.mark.parametrize("jpeg", [0, 80])

@@ -10,18 +10,20 @@ from occ_gui.simulation import jobs
 from occ_gui.simulation.preview import Picture, halved
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
+from occ_model.simulation.render import plan_scene
 
 
 def test_a_picture_of_few_pixels_needs_no_draft(
     snapshot_of: Callable[..., Snapshot], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     request = snapshot_of().request
-    assert not jobs.is_soon(request), "it has an effect that differs by pixel"
+    planned = plan_scene(request.scene, request.settings)
+    assert not jobs.is_soon(planned), "it has an effect that differs by pixel"
     pixels = request.scene.camera.rows * request.scene.camera.columns
     monkeypatch.setattr(jobs, "SMALL", pixels)
-    assert jobs.draft_of(request) is None
+    assert jobs.draft_of(request, planned) is None
     monkeypatch.setattr(jobs, "SMALL", pixels - 1)
-    draft = jobs.draft_of(request)
+    draft = jobs.draft_of(request, planned)
     assert draft is not None
     assert draft.rows_step == request.draft_step
 

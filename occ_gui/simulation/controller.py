@@ -16,10 +16,10 @@ The results of a change arrive in this order, each by a signal:
 A reading is never replaced by one of an earlier scene. ``failed`` says why a scene has no picture.
 """
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from threading import Event
+from time import perf_counter
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -28,6 +28,7 @@ from occ_gui.background.latest_wins import LatestWins
 from occ_gui.background.result_age import ResultAges
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.simulation.draft_rows import DraftRows
 from occ_gui.simulation.jobs import (
     draft_of,
     is_soon,
@@ -142,6 +143,7 @@ class SimulationController(QObject):
         self._read: Reading | None = None
         self._whose = PICTURES[0]
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
+        self._draft_rows = DraftRows()
         self._more: tuple[str, ...] = ()
         self._others_first: Callable[[], bool] = lambda: False
         self._is_painted = Event()
@@ -183,7 +185,7 @@ class SimulationController(QObject):
         self._whose = whose
 
     def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
-        """Draft as many rows from now on as the screen shows.
+        """Draft as many rows from now on as the screen shows, or fewer where drafts are late.
 
         Parameters
         ----------
@@ -211,8 +213,7 @@ class SimulationController(QObject):
 
     def _request(self) -> SimulationRequest:
         scene = self._scenes.scene
-        step = max(LEAST_DRAFT_STEP, math.floor(self._rows_per_pixel()))
-        step = min(step, scene.camera.rows)
+        step = self._draft_rows.step(scene.camera.rows, self._rows_per_pixel())
         return SimulationRequest(scene, self._settings.settings, self._whose, step, self._more)
 
     def _submit(self) -> None:
@@ -224,6 +225,7 @@ class SimulationController(QObject):
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest) -> Snapshot:
+        begun = perf_counter()
         planned = plan_scene(request.scene, request.settings)  # once for all that follows
         reading = reading_by_profile(request, planned)
         draft = draft_of(request, planned)
@@ -231,6 +233,7 @@ class SimulationController(QObject):
         heartbeat: Callable[[], None] = _go_on
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
+            self._draft_rows.took(perf_counter() - begun)
             self._is_painted.clear()
             self._rendered.emit(Picture.of(draft, request.whose, request, reading))
             self._wait_for_paint()

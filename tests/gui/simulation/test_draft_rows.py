@@ -1,0 +1,59 @@
+"""Rows of a draft follow the screen, and the time that drafts take."""
+
+import pytest
+
+from occ_gui.simulation.draft_rows import LEAST_ROWS, LONGEST, THINNEST, DraftRows
+from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP
+
+ROWS = 4608
+
+
+def step_after(*seconds: float, rows: int = ROWS, shown: float = 11.3) -> int:
+    chosen = DraftRows()
+    for each in seconds:
+        chosen.took(each)
+    return chosen.step(rows, shown)
+
+
+@pytest.mark.parametrize(
+    ("shown", "step"), [(11.9, 11), (0.5, LEAST_DRAFT_STEP), (4.0, 4), (1e9, ROWS)]
+)
+def test_a_draft_in_time_has_the_rows_that_the_screen_shows(shown: float, step: int) -> None:
+    assert step_after(shown=shown) == step
+    assert step_after(*9 * [0.9 * LONGEST], shown=shown) == step
+
+
+def test_of_late_drafts_the_next_has_half_of_the_rows() -> None:
+    late = 1.1 * LONGEST
+    assert step_after(late, late) == 22
+    assert step_after(*4 * [late]) == 11 * THINNEST
+    assert step_after(*99 * [late]) == 11 * THINNEST
+
+
+def test_a_single_late_draft_changes_nothing() -> None:
+    late, in_time = 9.0 * LONGEST, 0.9 * LONGEST
+    assert step_after(*9 * [late, in_time]) == 11
+
+
+def test_a_draft_that_is_ample_in_time_gets_its_rows_back() -> None:
+    late, soon = 1.1 * LONGEST, 0.3 * LONGEST
+    assert step_after(*4 * [late], *2 * [soon]) == 22
+    assert step_after(*4 * [late], *4 * [soon]) == 11
+
+
+@pytest.mark.parametrize("share_of_rows", [1.0, 0.5, 0.0])
+@pytest.mark.parametrize("whole", [0.5, 0.99, 1.01, 1.9, 2.1, 3.9, 4.1, 50.0])
+def test_the_rows_settle(whole: float, share_of_rows: float) -> None:
+    """Whatever part of a draft's time goes with its rows, their number soon stays the same."""
+    chosen, steps = DraftRows(), []
+    for _ in range(30):
+        steps.append(chosen.step(ROWS, 11.0))
+        thinned = steps[-1] / 11
+        chosen.took(whole * LONGEST * (1.0 - share_of_rows + share_of_rows / thinned))
+    assert len(set(steps[10:])) == 1
+
+
+def test_no_draft_is_thinned_below_what_shows_a_picture() -> None:
+    late = 4 * [9.0 * LONGEST]
+    assert step_after(*late, rows=LEAST_ROWS * 15) == 15
+    assert step_after(*late, rows=LEAST_ROWS * 2) == 11

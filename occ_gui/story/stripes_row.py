@@ -1,6 +1,5 @@
 """Row of the stripes: the picture cropped to the panel, and the whole frame as a thumbnail."""
 
-import cv2
 import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
@@ -8,7 +7,7 @@ from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from occ_gui.simulation.preview import Picture
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
-from occ_gui.story.column_means import resampled
+from occ_gui.story.column_means import resampled, shrunk
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import REGION
@@ -139,9 +138,9 @@ class FrameThumbnail(QAbstractButton):
     def _scaled(self, pixels: ByteArray, place: QRectF) -> QImage:
         """Return the frame at its size on the screen."""
         ratio = self.devicePixelRatioF()
-        size = (max(1, round(place.width() * ratio)), max(1, round(place.height() * ratio)))
-        small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
-        image = QImage(small.data, *size, size[0], QImage.Format.Format_Grayscale8).copy()
+        width, height = max(1, round(place.width() * ratio)), max(1, round(place.height() * ratio))
+        small = shrunk(pixels, height, width)
+        image = QImage(small.data, width, height, width, QImage.Format.Format_Grayscale8).copy()
         image.setDevicePixelRatio(ratio)
         return image
 

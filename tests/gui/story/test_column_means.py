@@ -1,11 +1,12 @@
 """Pictures and curves are reduced to a screen without losing light or extremes."""
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occ_gui.story.column_means import envelope, resampled
+from occ_gui.story.column_means import envelope, resampled, shrunk
 from occ_gui.story.curve_lines import lines_of
 
 COLUMNS = 40
@@ -78,3 +79,15 @@ def test_dashes_follow_the_curve_for_their_share_of_it() -> None:
     for line in dashes:
         middle = (line.x1() + line.x2()) / 2
         assert (line.y1() + line.y2()) / 2 == pytest.approx(np.interp(middle, xs, ys), abs=1e-6)
+
+
+@pytest.mark.parametrize("size", [(419, 3456), (4608, 3456), (64, 80), (30, 1000)])
+def test_a_shrunk_picture_has_the_means_of_its_cells(size: tuple[int, int]) -> None:
+    rows, columns = 40, 50
+    y, x = np.meshgrid(*(np.linspace(0.0, np.pi, side) for side in size), indexing="ij")
+    picture = (120.0 + 100.0 * np.sin(x) * np.cos(y)).astype(np.uint8)
+    exact = cv2.resize(picture, (columns, rows), interpolation=cv2.INTER_AREA)
+    found = shrunk(picture, rows, columns)
+    assert found.shape == (rows, columns)
+    a_cell = 100.0 * np.pi / min(rows, columns)  # the most by which neighbours differ
+    assert np.abs(found.astype(int) - exact).max() <= a_cell / 2 + 1

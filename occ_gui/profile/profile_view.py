@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -59,6 +59,7 @@ class ProfileView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._reading: Reading | None = None
+        self._is_behind = False
         self._photo: PhotoProfile | None = None
         self._photo_levels: FloatArray | None = None
         self._before: Snapshot | None = None
@@ -175,9 +176,20 @@ class ProfileView(QWidget):
         self.plot.getAxis("bottom").setStyle(showValues=not below)
 
     def show_reading(self, reading: Reading) -> None:
-        """Show this reading in place of the previous one."""
+        """Show this reading in place of the previous one.
+
+        While the pane is hidden, what the exact picture replaces in a moment is not drawn.
+        """
         self._reading = reading
-        self._redraw()
+        self._is_behind = reading.source != "picture" and not self.isVisible()
+        if not self._is_behind:
+            self._redraw()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw what was not drawn while the pane was hidden."""
+        super().showEvent(event)
+        if self._is_behind:
+            self._redraw()
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
         """Show this profile of a photo in place of the previous one, or none."""
@@ -203,7 +215,7 @@ class ProfileView(QWidget):
             self._fit_columns(self._reading)
 
     def _redraw(self) -> None:
-        reading = self._reading
+        reading, self._is_behind = self._reading, False
         if reading is None:
             return
         decoded = reading.decoded

@@ -15,7 +15,7 @@ from occ_gui.profile import profile_view
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.controller import simulate
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Snapshot, Source
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, DecodeResult
@@ -63,6 +63,21 @@ def test_the_simulated_profile_is_drawn_column_by_column(
     x, y = drawn(view.simulation)
     assert x == list(range(len(snapshot.frame.profile)))
     assert y == snapshot.frame.profile.tolist()
+
+
+@pytest.mark.parametrize("source", ["profile", "draft"])
+def test_an_early_reading_is_drawn_when_the_pane_is_seen(
+    view: ProfileView, snapshot_of: SnapshotOf, source: Source
+) -> None:
+    first, early = snapshot_of(), replace(snapshot_of(exposure_time=68e-6), source=source)
+    view.hide()
+    view.show_reading(first)
+    view.show_reading(early)
+    assert drawn(view.simulation)[1] == first.profile.tolist()  # the picture follows in a moment
+    view.show()
+    assert drawn(view.simulation)[1] == early.profile.tolist()
+    view.show_reading(replace(first, source=source))
+    assert drawn(view.simulation)[1] == first.profile.tolist()
 
 
 def test_the_band_model_is_drawn_where_it_is_defined(

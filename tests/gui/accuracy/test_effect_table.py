@@ -10,8 +10,9 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QComboBox
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.effect_rows import ELSE, rows_of
-from occ_gui.accuracy.effect_table import EFFECT, ERROR, STAGE, TIME, EffectTable
+from occ_gui.accuracy.effect_detail import EffectDetail
+from occ_gui.accuracy.effect_rows import ELSE, rows_of, slowest_of
+from occ_gui.accuracy.effect_table import EFFECT, ERROR, HIGHEST_ROW, STAGE, TIME, EffectTable
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import (
     EffectCrop,
@@ -193,3 +194,26 @@ def test_all_rows_are_in_view_at_the_least_size(table: EffectTable) -> None:
     table.resize(table.width(), table.minimumSizeHint().height())
     last = table.effects.index(table.effects.rowCount() - 1, EFFECT)
     assert table.viewport().rect().contains(table.visualRect(last))
+
+
+def test_the_effect_shown_first_is_the_slowest_in_the_picture(frame: Frame) -> None:
+    rows = rows_of(frame, costs_of(frame), new=())
+    assert slowest_of(rows) == "sensor-noise"
+    slower = replace(frame, timings={**frame.timings, "led-edges": 0.05})
+    assert slowest_of(rows_of(slower, costs_of(slower), new=())) == "led-edges"
+    assert slowest_of([row for row in rows if row.effect == ELSE]) == ""
+
+
+def test_at_the_height_it_asks_for_the_rows_are_as_high_as_they_can_be(table: EffectTable) -> None:
+    table.resize(640, table.sizeHint().height())
+    assert table.verticalHeader().defaultSectionSize() == HIGHEST_ROW
+
+
+def test_the_name_of_the_effect_chosen_is_bold_and_the_tables_text_small(
+    qtbot: QtBot, table: EffectTable
+) -> None:
+    detail = EffectDetail()
+    qtbot.addWidget(detail)
+    assert detail.title.font().bold()
+    assert not detail.reason.font().bold()
+    assert table.font().pointSizeF() < detail.font().pointSizeF()

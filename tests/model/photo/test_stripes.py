@@ -1,5 +1,7 @@
 """Stripes are found where the panel is, with their period; a photo without any is refused."""
 
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -8,7 +10,10 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.projection import panel_corners
-from occ_model.photo.stripes.period import autocorrelation, repeat_period
+from occ_model.errors import ParameterError
+from occ_model.photo.stripes.lamp_profile import lamp_profile
+from occ_model.photo.stripes.period import autocorrelation, repeat_period, unrepeated_share
+from occ_model.results import Region
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -133,3 +138,47 @@ def test_a_panel_that_is_nearly_all_white_is_refused() -> None:
 def test_what_shows_no_stripes_is_refused_in_a_sentence(image: np.ndarray, why: str) -> None:
     with pytest.raises(occ.MatchError, match=why):
         occ.find_stripes(photo_of(image))
+
+
+def test_lone_edges_to_either_side_are_no_part_of_the_stripes() -> None:
+    covered = np.zeros((90, 900))
+    covered[10:80, 300:600] = 1.0
+    samples = np.array(_lamp(8.0, covered).samples)
+    alone = find_stripes_of(samples)
+    for place in (60, 840):
+        spotted = samples.copy()
+        spotted[:, place : place + 2] = 200
+        assert find_stripes_of(spotted) == alone
+
+
+def find_stripes_of(samples: np.ndarray) -> tuple[int, int]:
+    region = occ.find_stripes(photo_of(samples)).region
+    return region.first_column, region.last_column
+
+
+@pytest.mark.parametrize("beyond", [(1, 0), (0, 1), (0, 0)])
+def test_a_lamp_may_reach_the_rim_of_its_photo_and_no_farther(beyond: tuple[int, int]) -> None:
+    photo = photo_of(np.arange(60, dtype=np.uint8).reshape(6, 10))
+    rows, columns = 6 + beyond[0], 10 + beyond[1]
+    lamp = Mock(region=Region(0, rows, 0, columns), spans=np.array([[0, 6, 0, 10]]))
+    if any(beyond):
+        with pytest.raises(ParameterError, match="which has 6 rows and 10 columns"):
+            lamp_profile(photo, lamp)
+    else:
+        np.testing.assert_allclose(lamp_profile(photo, lamp), 25.0 + np.arange(10.0))
+
+
+@pytest.mark.parametrize("seed", [92, 102, 111, 337])
+def test_no_period_nearby_explains_more_than_the_one_found(seed: int) -> None:
+    # Waves whose fit, gone on with, moves away from the best period again.
+    random = np.random.default_rng(seed)
+    count, chips = random.integers(80, 400), random.integers(6, 30)
+    levels, width = random.integers(0, 2, chips).astype(np.float64), random.uniform(2, 8)
+    wave = levels[(np.arange(count) / width).astype(int) % chips]
+    wave = wave + random.normal(0.0, random.uniform(0.01, 0.6), count)
+    found = repeat_period(wave)
+    assert found is not None
+    period, uncertainty = found
+    share = unrepeated_share(wave, period)
+    for off in (-1.0, -0.3, -0.2, 0.2, 0.3, 1.0):
+        assert share <= unrepeated_share(wave, period + off * uncertainty)

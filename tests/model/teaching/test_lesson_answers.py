@@ -1,6 +1,7 @@
 """Every answer of the lessons is true: its numbers are held against the model."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import occ_model as occ
 from occ_model.files.resources import resource_path
 from occ_model.results.lessons import Step
 from occ_model.scene.scene import Scene
+from occ_model.teaching import answers
 from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
@@ -214,6 +216,20 @@ def test_an_answer_that_is_no_number_is_said_to_be_none(text: str) -> None:
     assert checked.outcome == "unreadable"
     assert "no number in kHz" in checked.sentence
     assert len(checked.sentence) < 100
+
+
+@pytest.mark.parametrize(
+    ("text", "outcome"), [("-14.7", "right"), ("14.7", "wrong"), ("-7", "wrong"), ("-15", "near")]
+)
+def test_an_answer_to_a_negative_number_is_as_near_as_to_a_positive_one(
+    monkeypatch: pytest.MonkeyPatch, text: str, outcome: str
+) -> None:
+    asked = step(3, 1)
+    assert asked.check is not None
+    name = asked.check.quantity
+    negative = replace(QUANTITIES[name], compute=lambda *_: -14.7e3)
+    monkeypatch.setattr(answers, "QUANTITIES", {name: negative})
+    assert check_answer(asked, text).outcome == outcome
 
 
 def test_an_answer_in_words_is_compared_with_the_explanation() -> None:

@@ -48,6 +48,14 @@ def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
         assert value == pytest.approx(sharp.mean(x - lag, x), abs=1e-9)
 
 
+@pytest.mark.parametrize("edge", [0.0, 60e-6])
+def test_the_light_is_given_from_the_first_chips_edge_to_the_last_ones(edge: float) -> None:
+    curve = light_over_columns(scene_with(edge_time=edge), 10.3, 380.2, 10_000, edged=edge > 0.0)
+    assert curve is not None
+    ends = curve.columns[[0, -1]].tolist()
+    assert ends == pytest.approx(curve.edges[[0, -1]].tolist(), abs=1e-9)
+
+
 def test_each_chip_is_the_one_sent_at_its_place() -> None:
     scene = scene_with()
     curve = light_over_columns(scene, 10.3, 380.2, 10_000)

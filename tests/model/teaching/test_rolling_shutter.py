@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import occ_model as occ
+from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.rolling_shutter import rolling_shutter
 
@@ -43,3 +44,16 @@ def test_the_shown_columns_begin_within_four_chips() -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
     shown = rolling_shutter(scene)
     assert shown.starts[-1] == pytest.approx(4 * 500e-6, rel=0.01)
+
+
+@pytest.mark.parametrize("shown", [2, 7, 25])
+def test_as_many_columns_are_shown_as_asked_for_where_there_are_more(shown: int) -> None:
+    scene = occ.load_preset("phone-68us").replace(switching_frequency=1e3)
+    columns = rolling_shutter(scene, shown).columns
+    assert len(columns) == shown
+    assert columns[0] == 0
+
+
+def test_what_is_no_scene_is_refused_in_words() -> None:
+    with pytest.raises(ParameterError, match="scene is 'phone-68us'; allowed: a Scene"):
+        rolling_shutter("phone-68us")  # type: ignore[arg-type]

@@ -65,9 +65,11 @@ class CodeRow(StoryRow):
         return int(self._decoded.bits[bit])
 
     def state_of(self, bit: int) -> State:
-        """Return whether a bit that was received is the one sent."""
+        """Return whether a bit that was received is the one sent; neutral if it was refused."""
         if self._decoded is None or bit >= min(len(self._sent), self._decoded.bits.size):
             return State.NEUTRAL
+        if self._decoded.failure is not None and not self.fields:
+            return State.NEUTRAL  # that a bit is the one sent says nothing: it may be by chance
         right = int(self._decoded.bits[bit]) == self._sent[bit]
         return State.GOOD if right else State.BAD
 
@@ -129,15 +131,24 @@ class CodeRow(StoryRow):
         inner = place.adjusted(8, 0, 0, 0)
         painter.drawText(inner, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)
 
+    def list_label(self) -> str:
+        """Return what is said before bits that are not under the columns that carry them."""
+        if self._decoded is not None and self._decoded.failure is not None:
+            return self.tr("not accepted:")
+        return self.tr("from all packets together:")
+
     def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
-        """Draw bits that have no columns of their own side by side."""
+        """Draw bits that have no columns of their own side by side, and say so before them."""
         if not decoded.bits.size:
             self._write(painter, place, self.tr("No bits were read."))
             return
+        label = self.list_label()
+        self._write(painter, place, label)
+        left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
         count = max(len(self._sent), decoded.bits.size)
-        width = min(34.0, place.width() / count)
+        width = min(34.0, (place.right() - left) / count)
         for bit, value in enumerate(decoded.bits.tolist()):
-            cell = QRectF(place.left() + 8 + bit * width, place.top(), width, place.height())
+            cell = QRectF(left + bit * width, place.top(), width, place.height())
             draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit))
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:

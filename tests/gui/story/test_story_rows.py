@@ -274,6 +274,20 @@ def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:
     assert rows.code.edges is not None
 
 
+def test_bits_without_columns_say_so_and_refused_ones_are_not_ticked(
+    rows: StoryRows, snapshot: Snapshot
+) -> None:
+    decoded = replace(snapshot.decoded, headers=())
+    assert decoded.failure is None
+    assert decoded.bits.size
+    rows.code.show_reading(snapshot, decoded)
+    assert rows.code.list_label() == "from all packets together:"
+    assert rows.code.state_of(0) is State.GOOD
+    rows.code.show_reading(snapshot, replace(decoded, failure="Too noisy.", code=None))
+    assert rows.code.list_label() == "not accepted:"
+    assert {rows.code.state_of(bit) for bit in range(decoded.bits.size)} == {State.NEUTRAL}
+
+
 def test_the_legend_names_what_is_drawn(
     rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
 ) -> None:

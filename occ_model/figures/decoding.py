@@ -12,7 +12,7 @@ from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import Drawing
-from occ_model.figures.window_panes import caption
+from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
 
@@ -45,7 +45,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
         else:
             _draw_runs(lower, result)
         upper.set_title(message, fontsize=8, loc="left", parse_math=False)
-        figure.supxlabel(caption(scene), fontsize=7)
+        write_caption(figure, scene)
         return figure
 
     signal = [] if result.signal is None else result.signal.tolist()

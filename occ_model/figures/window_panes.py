@@ -1,6 +1,7 @@
 """Draw the window's picture and column profiles for print."""
 
 from collections.abc import Callable, Iterable, Mapping
+from textwrap import fill
 from typing import Any
 
 import cv2
@@ -21,6 +22,12 @@ from occ_model.scene.scene import Scene
 MOST_CELLS = 900
 """Cells on each side of a printed picture: more are no finer on paper."""
 
+_CAPTION_SIZE = 7
+"""Points of a caption's letters."""
+
+_WIDTH_OF_A_LETTER = 0.055
+"""Inches of a caption's letter, numbers and spaces included, with a little to spare."""
+
 _NAMED = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
 
@@ -32,6 +39,15 @@ def caption(scene: Scene) -> str:
         value = declared.format(scene.value(name))  # type: ignore[arg-type]
         parts.append(f"{declared.label.lower()} {value}")
     return ", ".join(parts)
+
+
+def write_caption(figure: Figure, scene: Scene) -> None:
+    """Write the scene under a figure, in as many lines as its width needs."""
+    most = int(figure.get_figwidth() / _WIDTH_OF_A_LETTER)
+    # Spaces that may not break, so that lines end after a comma only.
+    parts = [part.replace(" ", "\xa0") for part in caption(scene).split(", ")]
+    text = fill(", ".join(parts), most).replace("\xa0", " ")
+    figure.supxlabel(text, fontsize=_CAPTION_SIZE)
 
 
 def picture_drawing(
@@ -84,7 +100,7 @@ def picture_drawing(
             corner = (region.first_column - 0.5, region.first_row - 0.5)
             style: dict[str, Any] = {"fill": False, "linewidth": 1.0, "color": colours.REGION}
             axes[0].add_patch(Rectangle(corner, region.columns, region.rows, **style))
-        figure.supxlabel(caption(frame.scene), fontsize=7)
+        write_caption(figure, frame.scene)
         return figure
 
     if difference is not None:
@@ -172,7 +188,7 @@ def profile_drawing(
 
     def draw() -> Figure:
         figure = _profile_figure(shown, undefined, comparison, slice(first, last), enhanced)
-        figure.supxlabel(caption(frame.scene), fontsize=7)
+        write_caption(figure, frame.scene)
         return figure
 
     def rows() -> Iterable[tuple[object, ...]]:

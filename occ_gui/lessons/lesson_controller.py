@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import UserState
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
+from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
@@ -82,7 +83,7 @@ class LessonController(QObject):
         photos.opened.connect(self._note_photo)
         answers.checked.connect(self._show_checked)
         answers.failed.connect(self._show_failed)
-        scenes.changed.connect(self._draw_shutter)
+        scenes.changed.connect(self._follow_scene)
         pane.list.chosen.connect(self.choose)
         pane.list_asked.connect(self.leave)
         pane.step.moved.connect(self.go)
@@ -195,7 +196,7 @@ class LessonController(QObject):
         self.equation_wanted.emit(step.equation)
         self._set(lesson, place)
         self.control_wanted.emit(step.control)
-        self._draw_shutter()
+        self._follow_scene()
 
     def _set(self, lesson: Lesson, place: int) -> None:
         step = lesson.steps[place]
@@ -236,9 +237,12 @@ class LessonController(QObject):
         step = self._step()
         self.control_wanted.emit("" if step is None else step.control)
 
-    def _draw_shutter(self) -> None:
+    def _follow_scene(self) -> None:
         step = self._step()
-        if step is not None and step.animation:
+        if step is None:
+            return
+        self._pane.step.show_changed(changed_sentence(step, self._scenes.scene))
+        if step.animation:
             self._pane.step.animation.show_shutter(rolling_shutter(self._scenes.scene))
 
     def _check(self, text: str) -> None:

@@ -57,6 +57,9 @@ class StepPage(QWidget):
         )
         self.control.setAccessibleName(self.tr("Show the control of this step"))
         self.control.clicked.connect(self.control_asked)
+        self.changed = paragraph()
+        self.changed.setAccessibleName(self.tr("Your changes of the scene"))
+        self.changed.hide()
         self.action = button("", self.tr("Do what this step is about."))
         self.action.setAccessibleName(self.tr("Do what this step asks for"))
         self.action.clicked.connect(self.action_asked)
@@ -105,7 +108,8 @@ class StepPage(QWidget):
         column.setSpacing(8)
         for widget in (
             self.place, self.progress, self.goal, self.animation, self.text, self.control,
-            self.action, self.question, self.answer_field, self.reveal, self.answer, self.equation,
+            self.action, self.question, self.changed, self.answer_field,
+            self.reveal, self.answer, self.equation,
         ):  # fmt: skip
             column.addWidget(widget)
         column.addStretch()
@@ -145,6 +149,11 @@ class StepPage(QWidget):
         self.back.setEnabled(place > 0)
         self.next.setText(self.tr("Next") if place + 1 < count else self.tr("Done"))
         self._scroll.verticalScrollBar().setValue(0)
+
+    def show_changed(self, sentence: str) -> None:
+        """Say what the student has changed; an empty sentence for nothing."""
+        self.changed.setText(sentence)
+        self.changed.setVisible(bool(sentence))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
         """Show the equation that explains the answer, with its present numbers."""

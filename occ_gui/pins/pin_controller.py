@@ -11,18 +11,17 @@ from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.wording import distinguished
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import one_line
 from occ_model.results import DecodeResult
-from occ_model.scene.parameter_kinds import Parameter, ParameterValue, Quantity
+from occ_model.scene.parameter_kinds import Parameter, ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE
 
 _LONGEST_PAYLOAD = 24
 """Characters of a payload that the table shows."""
-
-_ALL_DIGITS = 17
 
 
 class ComparePane(Protocol):
@@ -127,7 +126,7 @@ class PinController(QObject):
         rows = []
         for declared, one, other in inputs:
             if one != other:
-                texts = _distinguished(declared, one, other)
+                texts = distinguished(declared, one, other)
                 first, second = (text or self.tr("none") for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
         if a.force != b.force:
@@ -214,16 +213,3 @@ class PinController(QObject):
             payload = one_line(result.payload, _LONGEST_PAYLOAD)
             return self.tr("“{payload}”, {verdict}").format(payload=payload, verdict=verdict)
         return self.tr("code {code}, {verdict}").format(code=result.code, verdict=verdict)
-
-
-def _distinguished(
-    declared: Parameter, one: ParameterValue, other: ParameterValue
-) -> tuple[str, str]:
-    """Format two different values with enough digits to distinguish them."""
-    if isinstance(declared, Quantity):
-        a, b = float(one), float(other)
-        texts = declared.format(a), declared.format(b)
-        if texts[0] != texts[1]:
-            return texts
-        return declared.format(a, _ALL_DIGITS), declared.format(b, _ALL_DIGITS)
-    return str(one), str(other)

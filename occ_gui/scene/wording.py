@@ -2,6 +2,7 @@
 
 import re
 
+from occ_model.scene.parameter_kinds import Parameter, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 
 _FIRST = re.compile(r"^[a-z]\w*")
@@ -9,6 +10,8 @@ _INNER = re.compile(r"\b[a-z]+(?:_[a-z0-9]+)+\b")
 """Names with an underscore; a name without one could be an ordinary word, and is kept."""
 
 _WRONG_VALUE = re.compile(r"^([^;]+?) (is|are|has) (.*; allowed: .*)$", re.DOTALL)
+_ALL_DIGITS = 17
+
 _CANNOT = {"is": "cannot be", "are": "cannot be", "has": "cannot have"}
 
 
@@ -39,3 +42,16 @@ def with_labels(sentence: str) -> str:
         return found[0] if declared is None else f"“{declared.label}”"
 
     return _INNER.sub(inner, _FIRST.sub(first, sentence))
+
+
+def distinguished(
+    declared: Parameter, one: ParameterValue, other: ParameterValue
+) -> tuple[str, str]:
+    """Format two different values with enough digits to distinguish them."""
+    if isinstance(declared, Quantity):
+        a, b = float(one), float(other)
+        texts = declared.format(a), declared.format(b)
+        if texts[0] != texts[1]:
+            return texts
+        return declared.format(a, _ALL_DIGITS), declared.format(b, _ALL_DIGITS)
+    return str(one), str(other)

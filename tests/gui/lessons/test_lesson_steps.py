@@ -55,6 +55,30 @@ def test_a_change_of_the_scene_does_not_change_what_is_right(
     assert "Right" in answer(guide, user, "62.5")
 
 
+def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    guide.list.choices[0].click()
+    changed = guide.step.changed
+    assert not changed.isVisible()
+    application.store.change(readout_time=19e-6)
+    assert changed.isVisible()
+    assert "Readout time is 19 µs instead of 8 µs." in changed.text()
+    assert "the check" in changed.text()
+    guide.step.again.click()
+    assert not changed.isVisible()
+    application.store.change(readout_time=19e-6)
+    guide.step.next.click()
+    assert not changed.isVisible()
+    # The question of the second step is about this value.
+    application.store.change(readout_time=20e-6)
+    assert not changed.isVisible()
+    application.store.change(readout_time=21e-6, iso=200.0, distance=1.0)
+    assert changed.text().count(" instead of ") == 2
+    assert "and 1 more" in changed.text()
+    user.wait_until_idle()
+
+
 def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     application: Application, guide: LessonView, user: User, qtbot: QtBot
 ) -> None:

@@ -1,0 +1,52 @@
+"""Says that the student has changed a step's scene, so that the text's numbers are not its."""
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.scene.wording import distinguished
+from occ_model.results.lessons import Step
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS, Scene
+
+_MOST_NAMED = 2
+
+
+def changed_sentence(step: Step, scene: Scene) -> str:
+    """Say what differs from the step's scene, and which panes show which.
+
+    Parameters
+    ----------
+    step
+        The step under way.
+    scene
+        The scene that is shown.
+
+    Returns
+    -------
+    str
+        One or two sentences; empty where the scene is that of the step or of its check, and where
+        the step is about a photo of the student's, whose match is not of the scene.
+    """
+    asked = step.scene if step.check is None else step.check.scene
+    if step.own_photo or scene in {step.scene, asked}:
+        return ""
+    changes = []
+    for name in (name for names in GROUPS.values() for name in names):
+        now, own = scene.value(name), step.scene.value(name)
+        if now != own:
+            texts = (text or _tr("empty") for text in distinguished(PARAMETERS[name], now, own))
+            changes.append(
+                _tr("{label} is {now} instead of {own}").format(
+                    label=PARAMETERS[name].label, now=next(texts), own=next(texts)
+                )
+            )
+    named = changes[:_MOST_NAMED]
+    if len(changes) > _MOST_NAMED:
+        named.append(_tr("{more} more").format(more=len(changes) - _MOST_NAMED))
+    return _tr(
+        "You have changed the scene: {changes}. The picture and the formula show your scene; the "
+        "text, the check and the explanation keep to the lesson's values."
+    ).format(changes=_tr(" and ").join(named))
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("ChangedScene", text)

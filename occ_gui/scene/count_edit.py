@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QSpinBox, QWidget
 
-from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Count
 
@@ -36,6 +36,7 @@ class CountEdit(QSpinBox):
         self.setRange(declared.low, declared.high)
         self.setKeyboardTracking(False)
         leave_undo_to_window(self)
+        select_numbers_whole(self)
 
     def limit(self, high: int) -> None:
         """Set the largest number that is allowed."""

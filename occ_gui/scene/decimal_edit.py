@@ -4,7 +4,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QDoubleSpinBox, QWidget
 
-from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -39,6 +39,7 @@ class DecimalEdit(QDoubleSpinBox):
             self.setSuffix(f" {declared.unit.symbol}")
         self.setKeyboardTracking(False)
         leave_undo_to_window(self)
+        select_numbers_whole(self)
 
     def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
         """Allow any text to be typed; invalid text is refused with a sentence at the end."""

@@ -4,7 +4,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 
-from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -44,6 +44,7 @@ class QuantityEdit(QAbstractSpinBox):
         self.editingFinished.connect(self.take_typed)
         self._typed = False
         leave_undo_to_window(self)
+        select_numbers_whole(self)
         self._show()
 
     def value(self) -> float:

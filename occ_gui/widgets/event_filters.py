@@ -1,10 +1,14 @@
-"""Event filters of input fields: mouse wheel, undo keys and dropped files."""
+"""Event filters of input fields: mouse wheel, double click, undo keys and dropped files."""
+
+import re
 
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtGui import QKeyEvent, QKeySequence, QMouseEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QLineEdit, QWidget
 
 _UNDO_KEYS = (QKeySequence.StandardKey.Undo, QKeySequence.StandardKey.Redo)
+
+_NUMBER = re.compile(r"[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?")
 
 
 class _WheelFilter(QObject):
@@ -26,6 +30,32 @@ def keep_wheel_for_scrolling(control: QWidget) -> None:
     """
     control.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     control.installEventFilter(_WheelFilter(control))
+
+
+class _NumberFilter(QObject):
+    """Selects the whole number that is double-clicked: for Qt, it ends at the decimal point."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if (
+            event.type() == QEvent.Type.MouseButtonDblClick
+            and isinstance(event, QMouseEvent)
+            and event.button() == Qt.MouseButton.LeftButton
+            and isinstance(watched, QLineEdit)
+        ):
+            place = watched.cursorPositionAt(event.position().toPoint())
+            watched.mouseDoubleClickEvent(event)  # also prepares the third click, which takes all
+            for found in _NUMBER.finditer(watched.text()):
+                if found.start() <= place <= found.end():
+                    watched.setSelection(found.start(), found.end() - found.start())
+                    break
+            return True
+        return False
+
+
+def select_numbers_whole(field: QAbstractSpinBox) -> None:
+    """Let a double click select a number with its decimals, and without its unit."""
+    line = field.lineEdit()
+    line.installEventFilter(_NumberFilter(line))
 
 
 class _UndoKeyFilter(QObject):

@@ -188,3 +188,37 @@ def test_the_field_is_wide_enough_for_every_value_a_slider_shows(qtbot: QtBot) -
         for step in range(0, 1001, 7):
             text = declared.format(declared.at(step / 1000))
             assert field.fontMetrics().horizontalAdvance(text) <= room, text
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "number"),
+    [
+        ("switching_frequency", 10.07e3, "10.07"),
+        ("yaw", -0.5235987755982988, "-30"),
+        ("iso", 1250.0, "1250"),
+    ],
+)
+def test_a_double_click_selects_the_whole_number_and_a_third_click_all(
+    qtbot: QtBot, name: str, value: float, number: str
+) -> None:
+    field = Field(name, qtbot)
+    field.edit.set_value(value)
+    line = field.edit.lineEdit()
+    line.setCursorPosition(1)
+    spot = line.cursorRect().center()
+    qtbot.mouseClick(line, Qt.MouseButton.LeftButton, pos=spot)
+    qtbot.mouseDClick(line, Qt.MouseButton.LeftButton, pos=spot)
+    assert line.selectedText() == number
+    qtbot.mouseClick(line, Qt.MouseButton.LeftButton, pos=spot)
+    assert line.selectedText() == line.text()
+
+
+def test_a_number_typed_over_a_double_clicked_one_replaces_its_decimals(qtbot: QtBot) -> None:
+    field = Field("switching_frequency", qtbot)
+    field.edit.set_value(14.07e3)
+    line = field.edit.lineEdit()
+    line.setCursorPosition(1)
+    qtbot.mouseDClick(line, Qt.MouseButton.LeftButton, pos=line.cursorRect().center())
+    qtbot.keyClicks(line, "20")
+    field.press(Qt.Key.Key_Return)
+    assert field.edit.value() == 20e3

@@ -40,15 +40,15 @@ class CurveLegend(QWidget):
             self._lines[key] = (pen, name)
             keys, note = self.shown, self.note
             self.shown = ()
-            self.show_lines(keys, note)
+            self.show_lines(keys, note, self.toolTip())
 
-    def show_lines(self, keys: tuple[str, ...], note: str = "") -> None:
-        """Show these entries, and a remark after them."""
+    def show_lines(self, keys: tuple[str, ...], note: str = "", meaning: str = "") -> None:
+        """Show these entries, and a remark after them; the pointer gets a sentence to read."""
+        self.setToolTip(meaning)
         if (keys, note) != (self.shown, self.note):
             self.shown, self.note = keys, note
             texts = [self._lines[key][1] for key in keys] + ([note] if note else [])
             self.setAccessibleDescription(", ".join(texts))
-            self.setToolTip(note)
             self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

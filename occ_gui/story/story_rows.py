@@ -21,6 +21,7 @@ from occ_gui.story.stripes_row import StripesRow
 from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results import DecodeResult
 from occ_model.results.frame import PICTURES
+from occ_model.scene.parameters import PARAMETERS
 
 RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
@@ -95,10 +96,21 @@ class StoryRows(QWidget):
             "simulation": profile.levels, "band": profile.band, "photo": profile.photo,
             "threshold": profile.threshold,
         }  # fmt: skip
-        undefined = self._reading is not None and bool(self._reading.band_undefined)
+        undefined = "" if self._reading is None else self._reading.band_undefined
         note = self.tr("no band model here") if undefined else ""
         keys = tuple(key for key, value in found.items() if value is not None)
-        self.legend.show_lines(keys, note)
+        self.legend.show_lines(keys, note, undefined or self._meaning_of_band())
+
+    def _meaning_of_band(self) -> str:
+        """Say why the band model's curve runs off the simulation's, where it does."""
+        reading = self._reading
+        if reading is None or reading.scene.model.band_reading != "literal":
+            return ""
+        return self.tr(
+            "The band model counts whole columns for each chip and for each change of state. What "
+            "it rounds off adds up along the picture, so that its bands drift away from those of "
+            "the simulation. The field “{field}” under Model takes exact run lengths instead."
+        ).format(field=PARAMETERS["band_reading"].label)
 
     def show_picture(self, picture: Picture) -> None:
         """Show the stripes of this picture in place of the previous ones."""

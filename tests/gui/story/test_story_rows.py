@@ -297,6 +297,20 @@ def test_the_legend_names_what_is_drawn(
     assert rows.legend.note == "no band model here"
 
 
+def test_the_legend_says_why_the_band_model_drifts_or_ends(
+    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
+) -> None:
+    rows.show_reading(bare_snapshot_of())
+    assert "whole columns" in rows.legend.toolTip()
+    assert "drift" in rows.legend.toolTip()
+    rows.show_reading(bare_snapshot_of(band_reading="charitable"))
+    assert rows.legend.toolTip() == ""
+    ended = bare_snapshot_of(exposure_time=136e-6)
+    rows.show_reading(ended)
+    assert rows.legend.toolTip() == ended.band_undefined
+    assert "136 µs" in rows.legend.toolTip()
+
+
 @pytest.mark.parametrize(
     "changes",
     [

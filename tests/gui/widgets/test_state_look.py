@@ -14,9 +14,10 @@ from occ_gui.widgets.state_look import _BADGES, State
 
 @pytest.mark.parametrize("state", _BADGES)
 def test_the_outline_of_an_icon_is_the_same_on_both_sides(state: State) -> None:
-    corners = {(point.x(), point.y()) for point in _BADGES[state]}
+    points = _BADGES[state].toList()
+    corners = {(point.x(), point.y()) for point in points}
     assert corners == {(-x, y) for x, y in corners}
-    assert len(corners) == len(_BADGES[state])
+    assert len(corners) == len(points)
 
 
 @pytest.mark.parametrize("fill", [None, QColor("red")])

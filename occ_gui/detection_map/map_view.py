@@ -109,7 +109,8 @@ class MapView(QWidget):
         self.up = KeyedComboBox(
             self.tr("Vertical axis"), self.tr("The parameter of the vertical axis."), names
         )
-        words = {"both": self.tr("all decoders"), **{name: name for name in decoders}}
+        every = self.tr("both decoders") if len(decoders) == 2 else self.tr("all decoders")
+        words = {"both": every, **{name: name for name in decoders}}
         if len(decoders) > 1:
             words["difference"] = self.tr("difference")
         self.what = KeyedComboBox(
@@ -118,7 +119,10 @@ class MapView(QWidget):
 
         self.shown = KeyedComboBox(
             self.tr("What is shown"),
-            self.tr("Success rates, or the net bits a second of a video, one payload a picture."),
+            self.tr(
+                "Success rates, which are the shares of bits read; or the net bits a second of a "
+                "video, one payload a picture."
+            ),
             {"rate": self.tr("success rate"), "bits": self.tr("bits a second")},
         )
         self.frame_rate = QuantityEdit(FRAME_RATE)
@@ -260,8 +264,7 @@ class MapView(QWidget):
     def _show_status(self) -> None:
         facts = self._facts
         if facts is None:
-            what = {"rate": self.tr("share of bits read"), "bits": self.tr("bits a second")}
-            progress = self._progress.replace("{what}", what[self.shown.key()])
+            progress = self._progress.replace("{what}", self.shown.currentText())
             text = self._failure or self._refusal or progress
         else:
             text = f"{self._position(facts)}: {facts.note or self._counts(facts)}"

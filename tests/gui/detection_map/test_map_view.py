@@ -66,6 +66,18 @@ def test_why_the_whole_map_is_refused_stands_in_its_place(view: MapView) -> None
     assert "points" in view.status.toolTip()
 
 
+@pytest.mark.parametrize(
+    ("decoders", "word"),
+    [(DECODERS, "both decoders"), ((*DECODERS, "third"), "all decoders")],
+)
+def test_the_choice_of_every_decoder_counts_those_of_the_map(
+    qtbot: QtBot, decoders: tuple[str, ...], word: str
+) -> None:
+    view = MapView(decoders)
+    qtbot.addWidget(view)
+    assert view.what.itemText(view.what.findData("both")) == word
+
+
 def whole(count: tuple[int, int], refused: tuple[int, ...] = ()) -> RateMap:
     points = SHAPE[0] * SHAPE[1]
     return rates_of({i: count for i in range(points) if i not in refused}, refused)
@@ -317,16 +329,14 @@ def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: Map
     view.show_age(0.01)
     assert (
         view.status.toolTip()
-        == "Earlier scene: 91 points, images at each: 20 or more; colour: share of bits read"
+        == "Earlier scene: 91 points, images at each: 20 or more; colour: success rate"
     )
     assert view.outdated.isHidden()
     view.show_age(1.0)
     assert view.outdated.isVisible()
     view.show_age(0.0)
     assert view.outdated.isHidden()
-    assert (
-        view.status.toolTip() == "91 points, images at each: 20 or more; colour: share of bits read"
-    )
+    assert view.status.toolTip() == "91 points, images at each: 20 or more; colour: success rate"
 
 
 def test_bits_a_second_are_shown_of_whole_payloads(qtbot: QtBot) -> None:

@@ -27,11 +27,14 @@ class AdviceLine:
         The change that its button makes: a parameter, its value in SI units, and as text.
     is_title
         Whether it is the title of the lines that follow.
+    is_common
+        Whether it is the same for every decoder of a scene.
     """
 
     text: str
     destination: tuple[str, float, str] | None = None
     is_title: bool = False
+    is_common: bool = False
 
 
 class AdviceSentences(QObject):
@@ -61,18 +64,18 @@ class AdviceSentences(QObject):
                 for end in facts.ends
                 if (end.parameter, end.side) in ends
             )
-            lines.append(AdviceLine(theory))
+            lines.append(AdviceLine(theory, is_common=True))
         if advice.frequency.ends:
-            lines.append(AdviceLine(self._bits_a_second(advice.limits)))
-        lines.append(AdviceLine(self._confidence(advice.limits)))
+            lines.append(AdviceLine(self._bits_a_second(advice.limits), is_common=True))
+        lines.append(AdviceLine(self._confidence(advice.limits), is_common=True))
         return lines
 
     def _bits_a_second(self, found: Limits) -> str:
         camera, bits = found.scene.camera, found.scene.transmitter.payload_length
         pictures = min(self.frames_a_second, 1.0 / (camera.columns * camera.readout_time))
         return self.tr(
-            "Where it reads, {bits} bits in each of {pictures:.4g} pictures a second are at least "
-            "{right:.4g} right bits a second."
+            "Where a decoder reads, {bits} bits in each of {pictures:.4g} pictures a second are at "
+            "least {right:.4g} right bits a second."
         ).format(bits=bits, pictures=pictures, right=found.rate / 100.0 * bits * pictures)
 
     def on_highest_frequency(self, advice: Advice) -> AdviceLine:
@@ -81,6 +84,18 @@ class AdviceSentences(QObject):
         if end is None:
             return AdviceLine(self._nowhere(advice.limits, advice.frequency.found))
         return self._line(self.tr("The highest frequency that it reads is {value}"), end)
+
+    def common_title(self) -> str:
+        """Write the title of the lines that are the same for every decoder."""
+        return self.tr("For every decoder")
+
+    def still_holds(self, parameters: frozenset[str]) -> str:
+        """Say that the advice is of an earlier scene, and which of its limits hold all the same."""
+        text = self.tr("This advice is on the scene before the change.")
+        if not parameters:
+            return text
+        names = self.tr(" and ").join(sorted(quantity(name).label.lower() for name in parameters))
+        return f"{text} " + self.tr("Its limits of the {names} still hold.").format(names=names)
 
     def left_out(self, effects: tuple[str, ...]) -> str:
         """Say which of the scene's effects the advice leaves out."""

@@ -54,6 +54,8 @@ class AdviceView(QWidget):
         self._lines: list[QWidget] = []
         self.destinations: list[QPushButton] = []
         self._parameters: list[str] = []
+        self._beside: dict[QPushButton, QLabel] = {}
+        self._common: list[str] = []
         self._ended = ""
         self.back = self._button(self.tr("Back to the map"), self.tr("Show the map again."))
         self.back.clicked.connect(self.back_asked)
@@ -108,6 +110,7 @@ class AdviceView(QWidget):
             self._column.removeWidget(line)
             line.deleteLater()
         self._lines, self.destinations, self._parameters = [], [], []
+        self._beside, self._common = {}, []
         self.progress.setValue(0)
         self._show_running(True)
         self.cards.show_begun()
@@ -122,7 +125,12 @@ class AdviceView(QWidget):
         """Add the advice on one decoder."""
         self.cards.show_advice(advice)
         for line in self._sentences.lines(advice):
-            self._add(line)
+            if not line.is_common:
+                self._add(line)
+            elif line.text not in self._common:
+                if not self._common:
+                    self._add_common(AdviceLine(self._sentences.common_title(), is_title=True))
+                self._add_common(line)
 
     def show_advice_ended(self, sentence: str) -> None:
         """Show that the search has ended; a sentence says why if it is incomplete."""
@@ -144,19 +152,30 @@ class AdviceView(QWidget):
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self._lines:
             return
-        text = self.tr("This advice is on the scene before the change.")
+        text = self._sentences.still_holds(reachable)
         self.state.set_full_text(text if outdated else self._ended)
         for line in self._lines:
             for label in line.findChildren(QLabel):
                 label.setEnabled(not outdated)
         for button, parameter in zip(self.destinations, self._parameters, strict=True):
-            button.setEnabled(not outdated or parameter in reachable)
+            holds = not outdated or parameter in reachable
+            button.setEnabled(holds)
+            self._beside[button].setEnabled(holds)
 
     def sentences(self) -> list[str]:
         """Return all sentences that are shown."""
         return [label.text() for line in self._lines for label in line.findChildren(QLabel)]
 
+    def _add_common(self, line: AdviceLine) -> None:
+        """Add a line below those of all decoders."""
+        self._common.append(line.text)
+        self._insert(self._column.count() - 1, line)
+
     def _add(self, line: AdviceLine) -> None:
+        """Add a line above those that are the same for every decoder."""
+        self._insert(self._column.count() - 1 - len(self._common), line)
+
+    def _insert(self, place: int, line: AdviceLine) -> None:
         row = QWidget()
         layout = QHBoxLayout(row)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -164,23 +183,26 @@ class AdviceView(QWidget):
         label.setWordWrap(True)
         label.setTextFormat(Qt.TextFormat.PlainText)
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
+        # Not of a least height, which is that of a narrow label: the page would scroll too far.
+        label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         font = label.font()
         font.setBold(line.is_title)
         label.setFont(font)
         layout.addWidget(label, 1)
         if line.destination is not None:
-            layout.addWidget(self._destination(line), 0, Qt.AlignmentFlag.AlignTop)
-        self._column.insertWidget(self._column.count() - 1, row)
+            button = self._destination(line)
+            self._beside[button] = label
+            layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+        self._column.insertWidget(place, row)
         self._lines.append(row)
 
     def _destination(self, line: AdviceLine) -> QPushButton:
         assert line.destination is not None  # noqa: S101 - the caller has checked it
         name, value, text = line.destination
         button = self._button(
-            self.tr("Take me there"), self.tr("Change the scene to {value}.").format(value=text)
+            self.tr("Take me to {value}").format(value=text),
+            self.tr("Change the scene to {value}, where it read every bit.").format(value=text),
         )
-        button.setAccessibleName(self.tr("Take me there: {value}").format(value=text))
         button.clicked.connect(lambda: self.destination_chosen.emit(name, value))
         self.destinations.append(button)
         self._parameters.append(name)

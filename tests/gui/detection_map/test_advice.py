@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QLabel, QPushButton
+from PySide6.QtCore import QPoint, QTimer
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -21,6 +21,7 @@ from occ_model.parallel.job import Job, JobResult, Stages
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.advice import Advice, TheoryLimits
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.advice import advice_of
 
@@ -165,8 +166,9 @@ def test_a_destination_button_changes_the_scene_in_one_step(
     before = advised.store.scene
     advised.detection.advice.destinations[place].click()
     assert advised.store.scene == before.replace(**{name: value})
-    assert (
-        advised.detection.advice.state.toolTip() == "This advice is on the scene before the change."
+    label = quantity(name).label.lower()
+    assert advised.detection.advice.state.toolTip() == (
+        f"This advice is on the scene before the change. Its limits of the {label} still hold."
     )
     advised.store.undo_stack.undo()
     assert advised.store.scene == before
@@ -268,6 +270,41 @@ def test_every_button_has_a_name_and_says_what_it_does(
         assert button.toolTip()
 
 
+def test_a_button_says_which_value_it_sets(view: AdviceView, small_scene: Scene) -> None:
+    view.show_advice(advice_on(small_scene))
+    texts = [button.text() for button in view.destinations]
+    assert texts == ["Take me to 14.55 kHz", "Take me to 10 µs", "Take me to 194 µs"]
+
+
+def test_what_holds_for_every_decoder_is_said_once_below_all(
+    view: AdviceView, small_scene: Scene
+) -> None:
+    for decoder in ("threshold", "matched"):
+        advice = advice_on(small_scene)
+        view.show_advice(replace(advice, limits=replace(advice.limits, decoder=decoder)))
+    QApplication.processEvents()
+    labels = [label for row in view._lines for label in row.findChildren(QLabel)]
+    labels.sort(key=lambda label: label.mapTo(view._content, QPoint()).y())
+    shown = [label.text() for label in labels]
+    common = shown.index("For every decoder")
+    assert [text for text in shown[common:] if text in shown[:common]] == []
+    assert sum("By theory" in text for text in shown) == 2
+    assert all("By theory" not in text for text in shown[:common])
+    titles = [text for text in shown[:common] if " decoder, " in text]
+    assert [title.split()[1] for title in titles] == ["threshold", "matched"]
+
+
+def test_the_page_is_no_higher_than_its_sentences(view: AdviceView, small_scene: Scene) -> None:
+    view.resize(950, 600)
+    for _ in QUICK_DECODERS:
+        view.show_advice(advice_on(small_scene))
+    QApplication.processEvents()
+    content = view._content
+    needed = content.heightForWidth(content.width())
+    assert 200 < needed < 500
+    assert content.minimumSizeHint().height() <= needed
+
+
 def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
     advised: Application,
 ) -> None:
@@ -279,7 +316,9 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
 
     assert state() == ({True}, [True, True, True])
     advised.store.change(switching_frequency=9e3)  # its limits do not depend on it
-    assert state() == ({False}, [True, False, False])
+    assert state() == ({True, False}, [True, False, False])
+    (row,) = [row for row in advice._lines if advice.destinations[0] in row.children()]
+    assert all(label.isEnabled() for label in row.findChildren(QLabel))
     advised.store.change(iso=200.0)
     assert state() == ({False}, [False, False, False])
     advised.store.undo_stack.undo()

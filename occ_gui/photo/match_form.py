@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.photo.assumption import is_certain
 from occ_gui.photo.match_choice import KNOWN, MatchChoice
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
@@ -252,7 +253,7 @@ class MatchForm(QWidget):
         if square:
             self.known[_FREQUENCY].set_value(CHIPS_OF_A_CYCLE * self.square.value())
         name = self._known_name()
-        self.certain.setChecked(self._certain.get(name) == self.known[name].value())
+        self.certain.setChecked(is_certain(name, self.known[name].value(), self._certain))
         blinking = self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE
         self.hint.set_full_text(
             self.tr("chips: a blinking LED of {cycles}").format(cycles=HERTZ.format(blinking, 4))

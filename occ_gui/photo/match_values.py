@@ -1,12 +1,12 @@
 """Figures of a match: estimates with their uncertainties, quality of the fit, alternatives."""
 
-import math
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
+from occ_gui.photo.assumption import condition
 from occ_gui.photo.match_choice import KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.results import Alternative, Match
@@ -23,6 +23,12 @@ _DIGITS = 4
 def known_of(match: Match) -> str:
     """Return which of readout time and switching frequency was given."""
     return next(name for name in KNOWN if name not in match.uncertainties)
+
+
+def condition_of(match: Match, certain: Mapping[str, float]) -> str:
+    """Name the value that a match's estimates of time rest on, unless the user is certain of it."""
+    name = known_of(match)
+    return condition(name, float(getattr(match, name)), certain, len(match.pattern))
 
 
 def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
@@ -125,15 +131,7 @@ class MatchValues(QWidget):
         return {**texts, "others": condition + other if other else ""}
 
     def _condition(self, match: Match) -> str:
-        """Name the value that the estimates of time rest on, unless the user is certain of it."""
-        name = known_of(match)
-        value, confirmed = float(getattr(match, name)), self._certain.get(name, math.nan)
-        if math.isclose(value, confirmed, rel_tol=1e-9):
-            return ""
-        known = quantity(name)
-        return self.tr("if {symbol} = {value}: ").format(
-            symbol=known.symbol, value=known.format(value)
-        )
+        return condition_of(match, self._certain)
 
     def _quality(self, match: Match) -> dict[str, str]:
         how = self.tr("read") if match.pattern_was_read else self.tr("given")

@@ -1,10 +1,10 @@
 """Verdict bar of a photo: how far it is explained, first of all that is said in its mode."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.photo.match_values import known_of, with_uncertainty
+from occ_gui.photo.match_values import condition_of, known_of, with_uncertainty
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
@@ -28,6 +28,7 @@ class PhotoVerdictBar(StateBar):
         self._is_running = False
         self._why_not = self._outdated = ""
         self._is_applied = True
+        self._certain: Mapping[str, float] = {}
         self._simulation: tuple[Chip, ...] = ()
         self._write()
 
@@ -55,6 +56,11 @@ class PhotoVerdictBar(StateBar):
     def show_outdated(self, why: str) -> None:
         """Show why the match is not the present one, empty if it is."""
         self._outdated = why
+        self._write()
+
+    def show_certain(self, certain: Mapping[str, float]) -> None:
+        """Show which known values, in SI units by name, are confirmed and not only assumed."""
+        self._certain = certain
         self._write()
 
     def show_applied(self, applied: bool) -> None:
@@ -116,8 +122,5 @@ class PhotoVerdictBar(StateBar):
             declared, spread = quantity(name), match.uncertainties.get(name)
             value = with_uncertainty(declared, getattr(match, name), spread)
             parts.append(f"{declared.label.lower()} {value}")
-        known = quantity(given)
-        condition = known.format(float(getattr(match, given)))
-        return self.tr("If {symbol} = {value}: {found}.").format(
-            symbol=known.symbol, value=condition, found=", ".join(parts)
-        )
+        found = condition_of(match, self._certain) + ", ".join(parts)
+        return f"{found[0].upper()}{found[1:]}."

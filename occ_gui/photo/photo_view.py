@@ -77,6 +77,7 @@ class PhotoView(QWidget):
         self._path: Path | None = None
         self.form.certain_changed.connect(self.result.show_certain)
         self.form.certain_changed.connect(self.many.show_certain)
+        self.form.certain_changed.connect(self.verdict.show_certain)
         self._has_photo = False
         self.many.files_shown.connect(self._show_page)
         for form in (self.form, self.placement):

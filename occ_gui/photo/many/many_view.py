@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.photo.assumption import condition
 from occ_gui.photo.many.paste_lines import PasteLines
 from occ_gui.photo.many.rows_model import PhotoRowsModel
 from occ_gui.photo.match_values import with_uncertainty
@@ -26,6 +27,7 @@ from occ_model.results.photo_table import VERDICTS
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import sent_chips
 
 _ROWS_SEEN = 6
 
@@ -204,12 +206,9 @@ class ManyPhotosView(QWidget):
 
     def _condition(self, table: PhotoTable) -> str:
         """Name the value that the times rest on, unless the user is certain of it."""
-        known, value = quantity(table.known), float(table.scene.value(table.known))
-        if math.isclose(value, self._certain.get(table.known, math.nan), rel_tol=1e-9):
-            return ""
-        return self.tr("if {symbol} = {value}: ").format(
-            symbol=known.symbol, value=known.format(value)
-        )
+        value = float(table.scene.value(table.known))
+        chips = len(sent_chips(table.scene.transmitter))
+        return condition(table.known, value, self._certain, chips)
 
     def _show_found(self, table: PhotoTable | None) -> None:
         """Show the mean, the notes and the lines to paste of a table, or none."""

@@ -55,6 +55,29 @@ def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
     assert "If f = 2 kHz" in told
 
 
+def test_bar_and_figures_rest_on_the_same_value_until_it_is_confirmed(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    for shown in (match, replace(match, pattern="10")):
+        view.show_match(shown)
+        for certain in ({}, {"switching_frequency": 2e3}, {"switching_frequency": 4e3}):
+            view.form.certain_changed.emit(certain)
+            figure = view.result.values["readout_time"].text()
+            condition, colon, _ = figure.rpartition(": ")
+            told = bar.accessibleDescription().lower()
+            assert (condition.lower() + colon + "readout time") in told
+            assert ("if " in told) == bool(condition) == (certain.get("switching_frequency") != 2e3)
+
+
+def test_a_blinking_lamp_is_named_by_its_own_frequency(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(replace(match, pattern="10"))
+    assert "If it is a lamp of 1 kHz (2 kHz chips): readout" in bar.accessibleDescription()
+
+
 def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(
     view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:

@@ -39,8 +39,11 @@ QPushButton {
     background: palette(button);
 }
 QPushButton:hover:enabled { background: palette(midlight); }
-QPushButton:pressed { background: palette(mid); }
-QPushButton:checked { background: palette(highlight); color: palette(highlighted-text); }
+QPushButton:pressed { background: palette(midlight); border-color: palette(window-text); }
+QPushButton:checked, QPushButton:checked:hover:enabled, QPushButton:checked:pressed {
+    background: palette(highlight); color: palette(highlighted-text);
+}
+QPushButton:checked:hover:enabled { border-color: palette(window-text); }
 QPushButton:disabled { border-color: palette(midlight); }
 QPushButton:focus { border: 2px solid palette(accent); padding: 3px 8px; }
 QPushButton#step { border-radius: 13px; padding: 4px 4px; background: transparent; }

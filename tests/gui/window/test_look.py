@@ -4,7 +4,8 @@ import re
 
 import pytest
 from PySide6.QtCore import QPoint, QRect
-from PySide6.QtGui import QFont, QPalette
+from PySide6.QtGui import QFont, QImage, QPainter, QPalette
+from PySide6.QtWidgets import QPushButton, QStyle, QStyleOptionButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -53,6 +54,38 @@ def test_frames_marks_and_focus_have_a_contrast_of_three(
 def test_the_words_of_a_state_can_be_read(theme: str, state: State) -> None:
     found = colours_of(state, palette_of(theme))
     assert contrast(found.ink, found.paper) >= 4.5
+
+
+@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize("checked", [True, False])
+@pytest.mark.parametrize("how", ["at rest", "hovered", "pressed", "pressed by a key", "focused"])
+def test_a_button_can_be_read_in_every_state(
+    qtbot: QtBot, theme: str, checked: bool, how: str
+) -> None:
+    palette = palette_of(theme)
+    button = QPushButton()  # without words: its middle has the colour behind them
+    qtbot.addWidget(button)
+    button.setPalette(palette)
+    button.setStyleSheet(style_sheet(palette))
+    button.setCheckable(True)
+    button.setChecked(checked)
+    button.resize(80, 24)
+    option = QStyleOptionButton()
+    button.initStyleOption(option)
+    state = QStyle.StateFlag
+    option.state |= {
+        "at rest": state.State_None,
+        "hovered": state.State_MouseOver,
+        "pressed": state.State_MouseOver | state.State_Sunken,
+        "pressed by a key": state.State_Sunken | state.State_HasFocus,
+        "focused": state.State_HasFocus,
+    }[how]
+    image = QImage(button.size(), QImage.Format.Format_RGB32)
+    painter = QPainter(image)
+    button.style().drawControl(QStyle.ControlElement.CE_PushButton, option, painter, button)
+    painter.end()
+    text = ROLE.HighlightedText if checked else ROLE.ButtonText
+    assert contrast(palette.color(text), image.pixelColor(40, 12)) >= 4.5
 
 
 def test_plots_are_white_or_nearly_black() -> None:

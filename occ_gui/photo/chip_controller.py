@@ -5,9 +5,9 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject
 
+import occ_model as occ
 from occ_gui.background.latest_wins import LatestWins
 from occ_model.errors import MatchError
-from occ_model.photo.chips.read import read_chips
 from occ_model.photo.reading.load import Photo
 from occ_model.results import ChipReading, Lamp, Region
 
@@ -34,7 +34,7 @@ class ReadPhoto:
 def read(request: Request) -> ReadPhoto:
     """Read the chips of a photo, or of a part of it."""
     try:
-        return ReadPhoto(request, read_chips(*request))
+        return ReadPhoto(request, occ.read_chips(*request))  # imported with the first photo
     except MatchError:
         return ReadPhoto(request, None)
 

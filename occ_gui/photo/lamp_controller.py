@@ -5,9 +5,9 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
+import occ_model as occ
 from occ_gui.background.cancellable import Cancellable, Report
 from occ_model.errors import ParameterError
-from occ_model.photo.lamps.find import find_lamps
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import region_within
 from occ_model.results import Lamp, Region
@@ -24,7 +24,7 @@ class LampPane(Protocol):
 
 
 def _find(photo: Photo, report: Report) -> tuple[Photo, tuple[Lamp, ...]]:
-    return photo, find_lamps(photo, report)
+    return photo, occ.find_lamps(photo, report)  # imported with the first search
 
 
 class LampController(QObject):

@@ -11,7 +11,6 @@ from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_request import MatchRequest, Refusal, match, request_of
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
-from occ_model.photo.match import ESTIMATES
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 from occ_model.scene.parameters import PARAMETERS, quantity
@@ -153,6 +152,8 @@ class MatchController(QObject):
         except OccError as error:
             self._fail(str(error))
             return
+        from occ_model.photo.match import ESTIMATES  # with the first match, not with the window
+
         (self._asked_known,) = (name for name in ESTIMATES if name != choice.estimate)
         self._pane.show_match_begun()
         self.runner.start(request)

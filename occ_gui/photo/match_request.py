@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
+import occ_model as occ
 from occ_gui.background.cancellable import Report
 from occ_gui.photo.match_choice import MatchChoice
 from occ_model.errors import MatchError
-from occ_model.photo.match import match_photo
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 from occ_model.scene.scene import Scene
@@ -62,7 +62,7 @@ def match(request: MatchRequest, report: Report) -> Match | Refusal:
     """Match a photo."""
     report(0.0)
     try:
-        return match_photo(
+        return occ.match_photo(  # imported now: the window starts sooner without it
             request.photo,
             request.scene,
             estimate=request.estimate,

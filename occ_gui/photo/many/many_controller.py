@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
@@ -14,10 +15,10 @@ from occ_gui.photo.match_request import known_scene
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
-from occ_model.photo.many.match_photos import matched_rows, usual_jobs
-from occ_model.photo.many.row import MatchSettings
-from occ_model.photo.many.table import table_of
 from occ_model.results import PhotoRow, PhotoTable
+
+if TYPE_CHECKING:  # imported with the first match, not with the window
+    from occ_model.photo.many.row import MatchSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,14 +26,18 @@ class ManyRequest:
     """The photos to match, and how."""
 
     paths: tuple[Path, ...]
-    settings: MatchSettings
-    jobs: int
+    settings: "MatchSettings"
+    jobs: int | None
 
 
 def match_all(request: ManyRequest, report: Report) -> PhotoTable:
     """Match all photos, and report each row with its place."""
+    from occ_model.photo.many.match_photos import matched_rows, usual_jobs
+    from occ_model.photo.many.table import table_of
+
     rows: dict[int, PhotoRow] = {}
-    work = matched_rows(request.paths, request.settings, request.jobs, lambda: report(None))
+    jobs = request.jobs or usual_jobs()
+    work = matched_rows(request.paths, request.settings, jobs, lambda: report(None))
     # Closed here: processes that are not closed would go on after a cancel.
     with closing(work) as found:
         for place, row in found:
@@ -61,7 +66,7 @@ class ManyPhotosController(QObject):
         super().__init__()
         self._scenes = scenes
         self._view = view
-        self._jobs = usual_jobs() if jobs is None else jobs
+        self._jobs = jobs
         self._paths: tuple[Path, ...] = ()
         self._done = 0
         self.table: PhotoTable | None = None
@@ -92,6 +97,8 @@ class ManyPhotosController(QObject):
         except OccError as error:
             self._view.show_failed(str(error))
             return
+        from occ_model.photo.many.row import MatchSettings
+
         settings = MatchSettings(
             scene,
             choice.estimate,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo import chip_controller as module
+import occ_model as occ
 from occ_gui.photo.chip_controller import ChipController
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
@@ -26,7 +26,7 @@ class Pane:
 def test_chips_of_each_photo_are_shown(
     photo: Photo, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
-    monkeypatch.setattr(module, "read_chips", lambda _photo, _region: READING)
+    monkeypatch.setattr(occ, "read_chips", lambda _photo, _region: READING)
     pane = Pane()
     controller = ChipController(pane)
     controller.show_photo(photo)
@@ -43,7 +43,7 @@ def test_a_photo_without_chips_shows_none(
     def refuse(_photo: Photo, _region: Region | None) -> ChipReading:
         raise MatchError("No chips can be read.")
 
-    monkeypatch.setattr(module, "read_chips", refuse)
+    monkeypatch.setattr(occ, "read_chips", refuse)
     pane = Pane()
     controller = ChipController(pane)
     controller.show_photo(replace(photo))
@@ -55,7 +55,7 @@ def test_a_photo_without_chips_shows_none(
 def test_chips_of_a_photo_that_was_closed_are_not_shown(
     photo: Photo, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
-    monkeypatch.setattr(module, "read_chips", lambda _photo, _region: READING)
+    monkeypatch.setattr(occ, "read_chips", lambda _photo, _region: READING)
     pane = Pane()
     controller = ChipController(pane)
     controller.show_photo(photo)
@@ -71,7 +71,7 @@ def test_chips_of_another_part_replace_those_of_the_whole_photo(
     part = Region(0, 9, 10, 60)
     of_part = replace(READING, start=10.0)
     monkeypatch.setattr(
-        module, "read_chips", lambda _photo, region: READING if region is None else of_part
+        occ, "read_chips", lambda _photo, region: READING if region is None else of_part
     )
     pane = Pane()
     controller = ChipController(pane)

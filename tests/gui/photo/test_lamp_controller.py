@@ -50,7 +50,7 @@ class Bench:
         self.lamps.show_photo(photo)
 
     def find(self, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot) -> None:
-        monkeypatch.setattr("occ_gui.photo.lamp_controller.find_lamps", lambda *_: LAMPS)
+        monkeypatch.setattr("occ_model.find_lamps", lambda *_: LAMPS)
         with qtbot.waitSignal(self.lamps.runner.finished):
             self.lamps.find()
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo import match_request as match_module
+import occ_model as occ
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.scene.scene_store import SceneStore
@@ -53,7 +53,7 @@ class Bench:
         self.begun, self.go_on = threading.Event(), threading.Event()
         self.go_on.set()
         self.refusal: tuple[str, ...] = ()
-        monkeypatch.setattr(match_module, "match_photo", self._match)
+        monkeypatch.setattr(occ, "match_photo", self._match)
         self.store = SceneStore(scene)
         self.controller = MatchController(self.store, self)
         self.controller.matched.connect(self.used.append)

@@ -12,13 +12,13 @@ from PySide6.QtWidgets import QToolButton
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo.many import many_controller as module
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, NOTE, PHOTO, VERDICT
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
+from occ_model.photo.many import match_photos
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results import PhotoRow, PhotoTable
@@ -156,7 +156,7 @@ class Bench:
 
     def __init__(self, view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> None:
         self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
-        monkeypatch.setattr(module, "matched_rows", self._rows)
+        monkeypatch.setattr(match_photos, "matched_rows", self._rows)
         self.controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
         self.controller.show_files(PATHS)
 
@@ -231,7 +231,7 @@ def test_a_failure_is_a_sentence_in_the_table(
     def fail(*_arguments: object) -> None:
         raise occ.MatchError("Nothing works.")
 
-    monkeypatch.setattr(module, "matched_rows", fail)
+    monkeypatch.setattr(match_photos, "matched_rows", fail)
     controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
     controller.show_files(PATHS)
     controller.start(MatchChoice(), PhotoReading())

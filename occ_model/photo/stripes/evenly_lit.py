@@ -45,6 +45,10 @@ _CORES = 2
 """Number of groups into which the pixels that are clipped while lit are divided."""
 
 _MOST_GROUPS = 3
+_ALIKE = 16.0
+"""Rows that tell half of what any number of them would: their noise is averaged out, and what the
+camera's processing does to the stripes is the same in all of them."""
+
 _LEAST_COLUMNS = 24
 _LEAST_CELLS = 0.15
 """Share of a group's usual number of pixels that a column must have to be used."""
@@ -62,11 +66,19 @@ class EvenProfile:
         The columns in which none of them is clipped.
     clipped : ndarray of bool, shape as ``values``
         The columns in which all of them are: the light is at least what makes white.
+    rows
+        Number of the photo's rows over which a column's mean is taken, in the median.
     """
 
     values: FloatArray
     kept: NDArray[np.bool_]
     clipped: NDArray[np.bool_]
+    rows: float
+
+    @property
+    def tells(self) -> float:
+        """How much it tells: its columns, each by the share of noise that its rows average out."""
+        return float(self.kept.sum()) * self.rows / (self.rows + _ALIKE)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -79,10 +91,13 @@ class Cells:
         In grey levels.
     clipped : ndarray of float32, shape (bands, columns)
         Share of clipped pixels.
+    rows_a_band
+        Number of the photo's rows in a band, on average.
     """
 
     means: NDArray[np.float32]
     clipped: NDArray[np.float32]
+    rows_a_band: float
 
     @classmethod
     def of(cls, photo: Photo, region: Region) -> "Cells":
@@ -96,7 +111,11 @@ class Cells:
         for first, last in pairwise(starts.tolist()):
             means.append(_row_mean(part[first:last]) * (WHITE / photo.white))
             clipped.append(_row_mean(full[first:last]))
-        return cls(np.array(means, dtype=np.float32), np.array(clipped, dtype=np.float32))
+        return cls(
+            np.array(means, dtype=np.float32),
+            np.array(clipped, dtype=np.float32),
+            len(part) / len(means),
+        )
 
     def profiles(self, width: int) -> list[EvenProfile]:
         """Give the profiles of pixels that are lit alike.
@@ -117,7 +136,7 @@ class Cells:
             groups = self._groups(rows)
         found = [self._profile(shows & group[:, None]) for group in groups]
         profiles = [one for one in found if one is not None]
-        profiles.sort(key=lambda one: -one.kept.sum())
+        profiles.sort(key=lambda one: -one.tells)
         return profiles[:_MOST_GROUPS]
 
     def _groups(self, rows: FloatArray) -> list[NDArray[np.bool_]]:
@@ -146,7 +165,8 @@ class Cells:
         kept = seen & (near == 0)
         if kept.sum() < _LEAST_COLUMNS:
             return None
-        return EvenProfile(values, kept, seen & (share > _ALL))
+        rows = self.rows_a_band * float(np.median(count[kept]))
+        return EvenProfile(values, kept, seen & (share > _ALL), rows)
 
 
 def _row_mean(rows: NDArray[np.uint8 | np.uint16]) -> FloatArray:

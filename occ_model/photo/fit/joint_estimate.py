@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.photo.fit.averaged_fits import averaged
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
@@ -34,16 +35,13 @@ _UNKNOWN_RAMP = 0.002
 """Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
 change a ramp's shape."""
 
-_UNMODELLED = 1.7
-"""Ratio of an exposure's errors to its fit's deviation: cameras do more than a model. With 1
-a phone's photo that notes 79.0 us gives 87.1 +- 2.3, and two deviations cover 90 % of the exposures
-of simulated photographs; with this 93 % of them, and one deviation covers more than it should."""
+_UNKNOWN_BLUR = 0.02
+"""Standard deviation of a blur's variance, as a share of it: no camera's blur has exactly one of
+the shapes that are tried. An exposure of half a column behind a blur of one column is so known to a
+half, one of four columns to a percent."""
 
 _LEAST_EDGES = 0.1
 """Share of the edges' columns that must be seen without clipping."""
-
-_VANISHED = 2e-3
-"""Exposure in chips that is as good as none."""
 
 _MOST_UNUSUAL = 3.2
 """Standard deviations by which the camera's and the LED's unknowns may together be off what is
@@ -165,7 +163,7 @@ def _modes(
     for group in groups:
         most = min(one.fit.misfit for one in group) + _HOPELESS
         means.append(
-            _averaged([fit for one in group if one.fit.misfit <= most for fit in one.again()])
+            averaged([fit for one in group if one.fit.misfit <= most for fit in one.again()])
         )
     least = min(fit.misfit for fit in means)
     most = _RATIO * least + _AS_LIKELY
@@ -194,26 +192,6 @@ def _other_starts(
     return starts
 
 
-def _averaged(fits: Sequence[JointFit]) -> JointFit:
-    """Average over models, each weighted by the density of its best fit.
-
-    The estimate is the fit of the median exposure: where an edge is either blur's or the
-    exposure's, the mean of both is neither. An exposure that has shrunk to nothing has edges
-    without a slope, which tell no covariance: such a fit counts only where there is no other.
-    """
-    fits = [fit for fit in fits if fit.exposure > _VANISHED] or fits
-    fits = sorted(fits, key=lambda fit: fit.exposure)
-    misfits = np.array([fit.misfit for fit in fits])
-    weights = np.exp(-0.5 * (misfits - misfits.min()))
-    weights /= weights.sum()
-    middle = fits[int(np.searchsorted(np.cumsum(weights), 0.5))].values
-    covariance = sum(
-        weight * (fit.covariance + np.outer(fit.values - middle, fit.values - middle))
-        for weight, fit in zip(weights, fits, strict=True)
-    )
-    return JointFit(middle, np.asarray(covariance), float(misfits.min()))
-
-
 def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:
     """Take the step from the mean of all pixels: where white hides the edges, it tells more."""
     best = min(explanation.fits, key=lambda fit: fit.residual)
@@ -240,9 +218,10 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
     covariance = np.zeros((4, 4))
     covariance[:3, :3] = mode.covariance[:3, :3]
     timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
-    unknown = math.hypot(_UNKNOWN_RAMP, _rounding(model, timing)) * values[1]
-    covariance[1] *= _UNMODELLED
-    covariance[:, 1] *= _UNMODELLED
+    unknown = math.hypot(
+        math.hypot(_UNKNOWN_RAMP, _rounding(model, timing)) * timing.exposure,
+        _by_unknown_blur(timing, float(values[7])),
+    )
     covariance[1, 1] += unknown**2
     if with_gamma:
         gamma *= math.exp(float(values[3]))
@@ -279,6 +258,16 @@ def _rounding(model: StripeModel, timing: Timing) -> float:
     low, swing, _ = model.levels(timing)
     deviations = [1.0 / (math.sqrt(12.0) * max(1.0, np.ptp(one))) for one in (low, low + swing)]
     return math.hypot(*deviations) / max(float(np.median(swing)), 1.0)
+
+
+def _by_unknown_blur(timing: Timing, blur: float) -> float:
+    """Give the chips by which an exposure changes with what is not known of a blur's variance.
+
+    An edge's variance is t^2/12 + blur^2: if the second term is larger by d, then t is smaller by
+    6 d / t, and never by more than makes t^2/12 as small as d.
+    """
+    most = _UNKNOWN_BLUR * (blur * timing.step) ** 2
+    return min(6.0 * most / timing.exposure, math.sqrt(12.0 * most))
 
 
 def _doubts(seen: float, unusual: float) -> list[str]:

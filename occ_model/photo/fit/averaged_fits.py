@@ -1,0 +1,47 @@
+"""The mean over fits of several models, each weighted by how likely it is."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.fit.joint_fit import JointFit
+
+_UNMODELLED = 0.1
+"""Share of a misfit by which explanations must differ to be told apart: what a camera does beside
+the model changes each one's misfit by chance. Otherwise a blur of the wrong shape is often taken
+for the only one: of 78 exposures of simulated photographs two deviations cover 88 % with a third of
+this, and 94 % with this."""
+
+_VANISHED = 2e-3
+"""Exposure in chips that is as good as none."""
+
+_UNTOLD = 1e3
+"""Variance of gamma's logarithm of a fit that ended at gamma's bound, where it has no slope."""
+
+
+def averaged(fits: Sequence[JointFit]) -> JointFit:
+    """Average over models, each weighted by the density of its best fit.
+
+    The estimate is the fit of the median exposure: where an edge is either blur's or the
+    exposure's, the mean of both is neither. The deviation is that of densities which are trusted
+    less, since they are of noise alone. An exposure that has shrunk to nothing, or a gamma at its
+    bound, has no slope, which tells no covariance: such a fit counts only where there is no other.
+    """
+    tell = [one for one in fits if one.exposure > _VANISHED and one.covariance[3, 3] < _UNTOLD]
+    fits = sorted(tell or fits, key=lambda fit: fit.exposure)
+    misfits = np.array([fit.misfit for fit in fits])
+    least = float(misfits.min())
+    likely = np.cumsum(_weights(misfits - least))
+    middle = fits[int(np.searchsorted(likely, 0.5))].values
+    weights = _weights((misfits - least) / max(1.0, _UNMODELLED * least))
+    covariance = sum(
+        weight * (fit.covariance + np.outer(fit.values - middle, fit.values - middle))
+        for weight, fit in zip(weights, fits, strict=True)
+    )
+    return JointFit(middle, np.asarray(covariance), least)
+
+
+def _weights(excess: FloatArray) -> FloatArray:
+    density = np.exp(-0.5 * excess)
+    return np.asarray(density / density.sum())

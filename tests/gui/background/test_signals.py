@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from typing import Any, NoReturn
+from unittest.mock import Mock
 
 import pytest
 from pytestqt.qtbot import QtBot
@@ -192,3 +193,22 @@ def test_stopping_ends_the_workers_and_nothing_arrives_any_more(
     channel.put("late", stages_of("b"))
     qtbot.wait(30)
     assert (received.results, received.failures) == ([], [])
+
+
+def test_without_workers_no_heartbeat_is_counted(queue_of: Callable[..., WorkQueue]) -> None:
+    assert queue_of(HeldWorker()).counted(0) == 0
+
+
+def test_what_is_cancelled_is_not_worked_on_either(queue_of: Callable[..., WorkQueue]) -> None:
+    queue = queue_of(HeldWorker())
+    (channel,) = queue.channels
+    scheduler = Mock()
+    queue._scheduler = scheduler
+    channel.cancel()
+    scheduler.cancel.assert_not_called()
+    channel.put("request", stages_of(1))
+    run = scheduler.put.call_args.args[0]
+    channel.cancel()
+    # Every run of the channel before the next one.
+    scheduler.cancel.assert_called_once_with(run.channel, run.number + 1)
+    assert channel.is_idle

@@ -3,14 +3,17 @@
 import csv
 from collections.abc import Callable
 from concurrent.futures import Future
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
+from occ_gui.bench import bench_plot
 from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
 from occ_gui.bench.bench_controller import BenchController
 from occ_gui.bench.bench_measurement import request_of
@@ -196,3 +199,27 @@ def test_the_bench_is_exported_with_its_own_setting(
     assert any("5 rows a symbol" in line for line in lines if line.startswith("#"))
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     assert [row["decoder"] for row in rows] == ["threshold"]
+
+
+def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) -> None:
+    measuring.measure()
+    assert measuring.controller.full is not None
+    _, (first, *_) = measuring.controller.full
+    measuring.pane.table.show_points([replace(first, note="Why.")], RATES, 30.0)
+    item = measuring.pane.table.item(0, 2)
+    assert item is not None
+    assert item.toolTip() == "Why."
+    plots = measuring.pane.plots[RATES]
+    values = [
+        value
+        for curves in plots._curves.values()
+        for curve in curves
+        for value in (curve.seen.getData()[1], curve.intervals.getData()[1])
+    ]
+    shown = np.concatenate(values)
+    above = shown[shown > bench_plot._FLOOR[RATES]]
+    assert above.size < shown.size  # an interval that begins at no error goes on below
+    for plot in plots.plots.values():
+        low, high = plot.viewRange()[1]
+        assert above.min() - 0.5 < low < above.min()
+        assert above.max() < high

@@ -154,3 +154,21 @@ def test_bits_that_are_missing_at_the_end_leave_their_bars_out(picture: Picture)
 def test_many_bits_are_counted_in_the_tool_tip(strip: BitStrip) -> None:
     strip.show_bits([0] * 400, [0] * 100 + [1])
     assert strip.toolTip() == "sent 400 bits, received 101, 1 wrong"
+
+
+def test_missing_bars_are_a_line_where_those_of_zeros_end(
+    strip: BitStrip, picture: Picture
+) -> None:
+    sent = [1] * 2000
+    received = picture(sent, sent[:1000])
+    left, right = 66 + 10, strip.width() - 20
+    ends = {
+        column: np.flatnonzero(
+            np.abs(np.diff(received[received.shape[0] // 2 :, column].astype(int))) > 5
+        )
+        for column in (left, right)
+    }
+    # Bars of ones have a top and a bottom; a missing one has a line of a pixel.
+    assert ends[left].size >= 1
+    assert ends[right].size >= 1
+    assert ends[right].max() - ends[right].min() <= 2

@@ -79,3 +79,9 @@ def test_uncertain_chips_are_drawn_faintly(view: ProfileView) -> None:
     place = view.chips.cells.rectangles()[0][1].center().toPoint()
     place.setY(3)
     assert certain.pixelColor(place).lightness() < uncertain.pixelColor(place).lightness()
+
+
+def test_the_button_takes_the_place_under_the_plots_axis(view: ProfileView) -> None:
+    axis = view.plot.getAxis("left").width()
+    assert view.chips.copy.width() == pytest.approx(axis, abs=1)
+    assert view.chips.cells.x() == view.chips.copy.width()

@@ -302,3 +302,26 @@ def test_a_panel_at_the_pictures_rim_leaves_a_range_to_look_at(
 
 def test_before_any_result_the_legend_is_empty_but_for_its_lines(view: ProfileView) -> None:
     assert set(legend_texts(view)) <= {"simulation"}
+
+
+def test_levels_are_in_view_up_to_the_next_step_above_all_that_is_drawn(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    view.show_reading(snapshot_of())
+    largest = max(max(drawn(curve)[1]) for curve in (view.simulation, view.band))
+    _, high = view.plot.getViewBox().viewRange()[1]
+    step = 20.0 * math.ceil(largest / 20.0)
+    assert step <= high <= 1.1 * step
+
+
+@pytest.mark.parametrize("largest", [-60.0, 3.0, 45.0])
+def test_the_whole_residual_is_in_view(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo, largest: float
+) -> None:
+    view.show_reading(snapshot_of())
+    seen = np.array([100.0, 100.0 + largest, 101.0])
+    comparison = Comparison(900, seen, np.full(3, 100.0), 0.9)
+    view.show_photo_profile(PhotoProfile(comparison, photo.profile))
+    low, high = view.residual.plot.getViewBox().viewRange()[1]
+    assert low < min(0.0, largest)
+    assert high > max(0.0, largest)

@@ -60,3 +60,23 @@ def test_the_pane_follows_the_simulation_while_it_is_seen(
     user.wait_until_idle()
     assert "first null of the exposure: 10 kHz" in view.spectrum.accessibleDescription()
     assert before != view.spectrum.accessibleDescription()
+
+
+def test_every_grey_level_is_in_view(view: SpectrumView) -> None:
+    low, high = view.histogram.viewRange()[0]
+    assert low <= -0.5
+    assert high >= 255.5
+
+
+def test_only_the_panels_pixels_are_counted(
+    view: SpectrumView, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    snapshot = snapshot_of(rows=800, distance=3.0)
+    (left, top), (right, bottom) = snapshot.corners.min(axis=0), snapshot.corners.max(axis=0)
+    image = snapshot.frame.camera_image
+    assert min(left, top) > 20
+    assert (right < image.shape[1] - 20, bottom < image.shape[0] - 20) == (True, True)
+    measured(view, snapshot)
+    panel = image[int(top) : int(bottom) + 1, int(left) : int(right) + 1]
+    counts = np.bincount(panel.ravel(), minlength=256)
+    np.testing.assert_allclose(view.bars.opts["height"], 100.0 * counts / panel.size, atol=1e-9)

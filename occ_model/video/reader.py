@@ -118,7 +118,7 @@ class VideoReader:
         if seen == self._seen or self._period.scheme is None:
             return
         self._seen = seen
-        soft = self._soft_frame() if self._joined.known.all() else None
+        soft = self._soft_frame()
         if soft is not None and self._failure(soft) is None:
             self._payload = self._written(soft.framed.bits)
             self._complete_at = time if self._complete_at is None else self._complete_at

@@ -117,3 +117,16 @@ def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None
     with pytest.raises(occ.OutputError, match=r"figure\.doc has no ending"):
         drawing.write(tmp_path / "figure.doc", provenance(drawing))
     assert not list(tmp_path.iterdir())
+
+
+def test_the_lit_chips_of_a_decoder_are_drawn_below_its_signal() -> None:
+    found = occ.decode(FRAME.image, SCENE)
+    assert found.signal is not None
+    with house_style():
+        figure = decode_drawing(SCENE, found).draw()
+    (bars,) = [
+        item for ax in figure.axes for item in ax.collections if item.get_label() == "chips: lit"
+    ]
+    paths = bars.get_paths()
+    assert len(paths) == int(found.chips.sum())
+    assert max(path.vertices[:, 1].max() for path in paths) < found.signal.min()

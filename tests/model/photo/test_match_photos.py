@@ -173,6 +173,13 @@ def test_photos_that_contradict_each_other_give_no_line_to_paste() -> None:
     assert "differ by more than their errors" in table.notes[0]
 
 
+def test_photos_that_differ_by_less_than_matters_give_lines_to_paste() -> None:
+    table = made(row(7e-6, 1e-12), row(7.0001e-6, 1e-12))
+    assert table.estimated is not None
+    assert not table.estimated.agrees
+    assert sorted(lines_to_paste(table)) == ["Gyroflow", "OpenDroneMap"]
+
+
 def test_a_measured_frequency_gives_no_line_to_paste() -> None:
     frequency = row(1e-5, switching_frequency=5e3, uncertainties=(("switching_frequency", 1.0),))
     table = made(frequency, estimate="switching_frequency")

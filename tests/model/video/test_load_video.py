@@ -6,6 +6,7 @@ import subprocess
 import sys
 from itertools import islice
 from pathlib import Path
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -29,6 +30,7 @@ from occ_model.arrays import ByteArray
 from occ_model.video.file import decoder_process
 from occ_model.video.file.decoder_process import DecoderProcess
 from occ_model.video.file.source import MAX_PIXELS
+from occ_model.video.load import VideoFile
 
 _BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 _MEMORY, _DAMAGED_FILMS = _BENCHMARKS / "film_memory.py", _BENCHMARKS / "damaged_films.py"
@@ -428,3 +430,16 @@ def test_ten_minutes_of_4k_stay_within_400_megabytes(
     assert frames == (60 if codec == "MJPG" else 8)
     assert late < 400_000_000
     assert late < 1.1 * early
+
+
+@pytest.mark.parametrize(("rate", "is_whole"), [(None, True), (30.0, False)])
+def test_a_film_without_a_rate_states_no_length_that_it_could_end_before(
+    rate: float | None, is_whole: bool
+) -> None:
+    film = SimpleNamespace(
+        frame_count=100, frame_rate=rate, _container=SimpleNamespace(counts=False),
+        _times=[0.0, 0.01, 0.02], _first_time=0.0, _problem=None, _shown="film.mkv",
+    )  # fmt: skip
+    VideoFile._note_end(film, 3)  # type: ignore[arg-type]
+    assert (film._problem is None) is is_whole
+    assert film.frame_count == (3 if is_whole else 100)

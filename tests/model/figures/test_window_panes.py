@@ -129,4 +129,4 @@ def test_the_lit_chips_of_a_decoder_are_drawn_below_its_signal() -> None:
     ]
     paths = bars.get_paths()
     assert len(paths) == int(found.chips.sum())
-    assert max(path.vertices[:, 1].max() for path in paths) < found.signal.min()
+    assert max(np.asarray(path.vertices)[:, 1].max() for path in paths) < found.signal.min()

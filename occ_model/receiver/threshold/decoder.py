@@ -11,11 +11,15 @@ from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.receiver.threshold.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
 from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of
 
 _SHORTEST_CHIP = 1.0
 """Columns of a chip below which run lengths do not give numbers of chips."""
+
+_DIGITS = 3
+"""Significant digits of a time in a sentence."""
 
 _FEWEST_RUNS = 3
 """Fewest whole runs from which a chip's length is estimated."""
@@ -77,6 +81,29 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
     DecodeResult
         With every step that was reached; the caller adds the region.
     """
+    result = _read(signal, scene)
+    if result.failure is None or _knows_length(scene) or not has_short_chips(scene):
+        return result
+    chip, column = scene.transmitter.switching_period, scene.camera.readout_time
+    return replace(
+        result,
+        failure=f"A chip of {SECOND.format(chip, _DIGITS)} is shorter than the "
+        f"{SECOND.format(column, _DIGITS)} from one column to the next: not every chip has a "
+        f"column of its own. {result.failure}",
+    )
+
+
+def has_short_chips(scene: Scene) -> bool:
+    """Return whether a chip ends before the next column begins, so that runs skip chips."""
+    return _nominal_length(scene) < _SHORTEST_CHIP
+
+
+def _knows_length(scene: Scene) -> bool:
+    """Return whether the decoder may know a chip's length, and names it where it is too short."""
+    return bool(scene.transmitter.pattern) or not scheme_of(scene.transmitter).is_papers
+
+
+def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:
         return result
@@ -90,8 +117,7 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
             "come closer or raise the frequency.",
         )
-    knows_length = scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers
-    if knows_length and _nominal_length(scene) < _SHORTEST_CHIP:
+    if _knows_length(scene) and has_short_chips(scene):
         return replace(
             result,
             failure=f"A chip lasts {_nominal_length(scene):.2g} columns: runs of columns cannot "
@@ -116,7 +142,7 @@ def _read_pattern(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -
 def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
     """Convert runs to chips; of the first and last run only the part in the image counts."""
     histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
-    if scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers:
+    if _knows_length(scene):
         fit = fit_pattern(whole, _nominal_length(scene))
     else:
         fit = fit_chips(whole, histograms)

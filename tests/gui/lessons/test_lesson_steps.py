@@ -1,5 +1,6 @@
 """A step of a lesson: its answer is checked, its control marked, its end reported."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,10 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.lessons.lesson_list import LessonList
 from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.lessons.step_page import StepPage
+from occ_model.teaching.lessons import lessons
 
 
 @pytest.fixture
@@ -230,3 +234,26 @@ def test_a_lab_sheet_keeps_a_photo_of_one_s_own(
     assert opened.path == photo_file
     guide.step.all.click()
     user.wait_until_idle()
+
+
+@pytest.mark.parametrize("goal", ["", "Find the null."])
+def test_a_step_without_a_goal_leaves_no_gap_for_one(qtbot: QtBot, goal: str) -> None:
+    page = StepPage()
+    qtbot.addWidget(page)
+    lesson = lessons().lessons[0]
+    step = replace(lesson.steps[0], goal=goal)
+    page.show_step(replace(lesson, steps=(step, *lesson.steps[1:])), 0, None)
+    assert page.goal.isHidden() is not bool(goal)
+
+
+@pytest.mark.parametrize(
+    ("reached", "said"), [(None, "({} steps)"), (0, "(step 1 of {})"), (1, "(step 2 of {})")]
+)
+def test_the_list_says_at_which_step_a_lesson_goes_on(
+    qtbot: QtBot, reached: int | None, said: str
+) -> None:
+    shown = LessonList()
+    qtbot.addWidget(shown)
+    lesson = lessons().lessons[0]
+    shown._add(lesson, reached)
+    assert shown.choices[-1].text().endswith(said.format(len(lesson.steps)))

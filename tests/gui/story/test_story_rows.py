@@ -5,10 +5,11 @@ from dataclasses import replace
 from fractions import Fraction
 from math import floor
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -16,7 +17,8 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.story.column_axis import GUTTER
+from occ_gui.story import code_row
+from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_values import in_words
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
@@ -336,3 +338,55 @@ def test_extreme_scenes_are_drawn(
     values = rows.values()
     assert values is not None
     assert in_words(values, snapshot.frame.scene)
+
+
+def test_where_a_picture_has_fewer_columns_the_mouse_points_at_none_beyond_it() -> None:
+    crosshair = Crosshair()
+    crosshair.set_columns(100, 10)
+    crosshair.point_at(90.0)
+    assert crosshair.pointed == 90
+    crosshair.set_columns(50, 10)
+    assert crosshair.pointed is None
+
+
+def test_a_hand_that_holds_a_row_opens_as_the_button_is_released(
+    rows: StoryRows, qtbot: QtBot
+) -> None:
+    row, place = rows.profile, place_of(rows.profile, 1400.0)
+    qtbot.mousePress(row, Qt.MouseButton.LeftButton, pos=place)
+    row.setCursor(Qt.CursorShape.ClosedHandCursor)
+    qtbot.mouseRelease(row, Qt.MouseButton.LeftButton, pos=place + QPoint(40, 0))
+    assert row.cursor().shape() != Qt.CursorShape.ClosedHandCursor
+
+
+def test_the_chips_drawn_are_those_in_view(
+    rows: StoryRows, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[int] = []
+    monkeypatch.setattr(
+        code_row, "draw_chips", lambda _painter, cells, *_: drawn.append(len(list(cells)))
+    )
+    assert rows.code.edges is not None
+    for zoom in (1.0, 0.1):
+        rows.axis.zoom(zoom, 1400.0)
+        rows.code.redraw()
+        rows.code.grab()
+        left, right = rows.code.edges[:-1], rows.code.edges[1:]
+        seen = (right > rows.axis.first) & (left < rows.axis.last)
+        assert drawn[-1] == pytest.approx(int(seen.sum()), abs=1)
+        assert drawn[-1] > 1
+
+
+def test_more_bits_than_were_sent_have_their_place_in_the_row(
+    rows: StoryRows, snapshot: Snapshot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cells: list[QRectF] = []
+    monkeypatch.setattr(code_row, "draw_field", lambda _painter, cell, *_, **__: cells.append(cell))
+    many = replace(snapshot.decoded, bits=np.ones(400, dtype=np.uint8))
+    place = QRectF(100.0, 0.0, 700.0, 20.0)
+    painter = Mock()
+    painter.fontMetrics.return_value.horizontalAdvance.return_value = 50
+    monkeypatch.setattr(rows.code, "_write", Mock())
+    rows.code._list_bits(painter, place, many)
+    assert len(cells) == 400
+    assert all(place.contains(cell) for cell in cells)

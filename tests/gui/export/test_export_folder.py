@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from occ_gui.export.export_folder import folder_aside, remove_left_behind
+from occ_gui.export.export_folder import _holds_only_files, folder_aside, remove_left_behind
 from occ_gui.export.jobs import ExportJob, export
 
 PROJECT = Path(__file__).resolve().parents[3]
@@ -64,3 +64,18 @@ def test_what_is_somebody_elses_stays(tmp_path: Path) -> None:
     before = sorted(tmp_path.rglob("*"))
     remove_left_behind(tmp_path)
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_temporary_folder_that_is_gone_already_is_no_error(tmp_path: Path) -> None:
+    with folder_aside(tmp_path) as aside:
+        aside.rmdir()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_no_folder_of_files_alone_is_not_taken_for_one_of_an_export(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "figure.png").write_bytes(b"")
+    assert _holds_only_files(tmp_path)
+    (tmp_path / "deeper").mkdir()
+    assert not _holds_only_files(tmp_path)

@@ -217,3 +217,16 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     assert application.image.before.picture.isVisible()
     grey_picture(application.image)
     assert application.learning.before.before is not None
+
+
+def test_the_line_stays_in_the_picture(
+    qtbot: QtBot, pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
+) -> None:
+    pane, wipe = pane_with_wipe
+    snapshot = snapshot_of(columns=400)
+    pane.show_picture(snapshot.frame.image)
+    wipe.show_before(snapshot)
+    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    for asked, shown in ((1e4, 399.5), (-1e4, -0.5)):
+        wipe.line.setValue(asked)
+        assert wipe.line.value() == shown

@@ -107,3 +107,19 @@ def test_the_exposure_is_held_at_its_present_value(capture: FakeCapture) -> None
     assert capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) == 3.0
     capture.refused.add(cv2.CAP_PROP_AUTO_EXPOSURE)
     assert not source.lock_exposure(True)
+
+
+@pytest.mark.parametrize(("is_linux", "kind"), [(True, cv2.CAP_V4L2), (False, cv2.CAP_ANY)])
+def test_a_camera_is_opened_the_way_its_system_has(
+    monkeypatch: pytest.MonkeyPatch, is_linux: bool, kind: int
+) -> None:
+    asked: list[tuple[int, ...]] = []
+
+    def opened(*how: int) -> FakeCapture:
+        asked.append(how)
+        return FakeCapture()
+
+    monkeypatch.setattr(camera, "_IS_LINUX", is_linux)
+    monkeypatch.setattr(cv2, "VideoCapture", opened)
+    CameraSource(CameraDevice(2, "Webcam")).open()
+    assert asked == [(2, kind)]

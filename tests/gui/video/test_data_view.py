@@ -58,3 +58,15 @@ def test_what_is_not_sure_is_said_below(view: DataView) -> None:
     assert view.sentences.text() == "One.\nTwo."
     view.show_reading(reading())
     assert not view.sentences.isVisible()
+
+
+def test_text_that_grows_is_followed_only_where_its_end_is_in_view(view: DataView) -> None:
+    text = "\n".join(map(str, range(200)))
+    view.show_reading(reading(text))
+    bar = view.text.verticalScrollBar()
+    bar.setValue(bar.maximum())
+    view.show_reading(reading(text := text + "\nmore" * 50))
+    assert bar.value() == bar.maximum()
+    bar.setValue(7)
+    view.show_reading(reading(text + "\nmore" * 50))
+    assert bar.value() == 7

@@ -85,3 +85,11 @@ def test_a_single_frame_does_not_play(player: FilmPlayer) -> None:
     player.set_film(1, None)
     player.play()
     assert not player.is_playing
+
+
+def test_another_film_does_not_play_by_itself(player: FilmPlayer) -> None:
+    player.play()
+    assert player.is_playing
+    player.set_film(10, 5.0)
+    assert not player.is_playing
+    assert (player.index, player.count) == (0, 10)

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.shared_window import SharedWindow, end, new_window
 from gui.user import PatientQtBot, User
 from numpy.typing import NDArray
 from PIL import Image
-from PySide6.QtCore import QEvent
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QApplication, QMenu, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -122,26 +122,28 @@ def bare_snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
     return lambda **changes: simulate(small_scene.replace(**changes), bare)
 
 
+@pytest.fixture(scope="module")
+def kept_window() -> Iterator[SharedWindow]:
+    """Keep a window for the tests of a file that are marked `shared_window`."""
+    shared = SharedWindow()
+    yield shared
+    shared.close()
+
+
 @pytest.fixture
-def application(qtbot: QtBot, small_scene: Scene) -> Iterator[Application]:
+def application(
+    request: pytest.FixtureRequest, qtbot: QtBot, small_scene: Scene, kept_window: SharedWindow
+) -> Iterator[Application]:
     """Show a whole application that has come to rest, and see that nothing of it is left behind."""
+    if request.node.get_closest_marker("shared_window"):
+        with kept_window.lent(qtbot, small_scene) as application:
+            yield application
+        return
+    kept_window.close()
     before = QApplication.topLevelWidgets()
-    application = Application(small_scene)
-    application.window.show()
-    qtbot.waitUntil(lambda: application.is_idle)
+    application = new_window(qtbot, small_scene)
     yield application
-    application.window.close()
-    application.stop()
-    application.window.deleteLater()
-    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    QApplication.processEvents()
-    # pyqtgraph's menus have no parent: they go when Python forgets the plot, as another test sees.
-    leaked = [
-        widget
-        for widget in QApplication.topLevelWidgets()
-        if widget not in before and not isinstance(widget, QMenu)
-    ]
-    assert not leaked, f"top-level widgets outlive the window: {leaked}"
+    end(application, before)
 
 
 @pytest.fixture

@@ -28,6 +28,8 @@ from occ_gui.app.command_line import PANES
 from occ_gui.picture.photo_overlay import MODES as OVERLAYS
 from occ_gui.window.modes.mode import MODES
 
+pytestmark = pytest.mark.shared_window
+
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
     """Walk over the menus of a menu bar, and the menus in them."""

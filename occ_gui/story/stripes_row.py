@@ -1,5 +1,7 @@
 """Row of the stripes: the picture cropped to the panel, and the whole frame as a thumbnail."""
 
+import math
+
 import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
@@ -34,7 +36,7 @@ class StripesRow(StoryRow):
     ) -> None:
         super().__init__(self.tr("Picture"), axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
-        self._step = 1
+        self._rows = self._all_rows = range(0)
         self._image: ByteArray | None = None
         self._corners: FloatArray | None = None
         self.thumbnail = FrameThumbnail(self)
@@ -43,13 +45,10 @@ class StripesRow(StoryRow):
     def show_picture(self, picture: Picture, whose: str) -> None:
         """Show this picture, the camera's or the receiver's, in place of the previous one."""
         frame = picture.frame
-        self._image, self._corners, self._step = (
-            frame.picture(whose),
-            frame.corners,
-            frame.rows_step,
-        )
+        self._image, self._corners, self._rows = frame.picture(whose), frame.corners, frame.rows
         halves = picture.halves if picture.whose == whose else ()
         camera = frame.scene.camera
+        self._all_rows = range(camera.rows)
         self.thumbnail.show_image(
             halves[-1] if halves else self._image, camera.rows, camera.columns
         )
@@ -57,22 +56,20 @@ class StripesRow(StoryRow):
         self.redraw()
 
     def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture share a pixel of the screen."""
-        first, last = self.rows_shown()
+        """Return how many rows of the picture share a pixel of the screen.
+
+        Whatever rows of it a draft has shown: so successive drafts have the same rows.
+        """
+        first, last = (0, 0) if self._corners is None else _showing(self._corners, self._all_rows)
         pixels = max(1.0, self.height() * self.devicePixelRatioF())
-        return (last - first) * self._step / pixels
+        return (last - first) / pixels
 
     def rows_shown(self) -> tuple[int, int]:
         """Return the first row of the picture that shows the panel, and the one after the last.
 
         A draft has one of so many rows of the picture, which are counted here.
         """
-        if self._image is None or self._corners is None:
-            return 0, 0
-        rows = self._image.shape[0]
-        top, bottom = (extreme / self._step for extreme in _rows_of(self._corners))
-        first, last = max(int(np.ceil(top)), 0), min(int(bottom) + 1, rows)
-        return (first, last) if first < last else (0, rows)  # the panel is out of the picture
+        return (0, 0) if self._corners is None else _showing(self._corners, self._rows)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         """Draw the columns in view, as high as the row."""
@@ -105,12 +102,19 @@ class StripesRow(StoryRow):
         self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, max(self.height() - _NAME - 3, 0))
 
     def _mark_view(self) -> None:
-        first, last = (row * self._step for row in self.rows_shown())
+        first, last = (row * self._rows.step for row in self.rows_shown())
         self.thumbnail.show_view(self.axis.first, self.axis.last, first, last)
 
 
-def _rows_of(corners: FloatArray) -> tuple[float, float]:
-    return float(corners[:, 1].min()), float(corners[:, 1].max())
+def _showing(corners: FloatArray, rows: range) -> tuple[int, int]:
+    """Return the first of some rows of a picture that the panel spans, and the one after the last.
+
+    All of them where the panel is out of the picture.
+    """
+    top, bottom = (float(extreme) for extreme in (corners[:, 1].min(), corners[:, 1].max()))
+    first = max(math.ceil((top - rows.start) / rows.step), 0)
+    last = min(math.floor((bottom - rows.start) / rows.step) + 1, len(rows))
+    return (first, last) if first < last else (0, len(rows))
 
 
 class FrameThumbnail(QAbstractButton):

@@ -115,6 +115,26 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
     assert rows.stripes.thumbnail._view.height() == pytest.approx(view.height(), abs=14)
 
 
+@pytest.mark.parametrize("step", [1, 2, 7, 11, 22])
+@pytest.mark.parametrize("changes", [{}, {"distance": 0.4}, {"pitch": 0.2}])
+def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
+    rows: StoryRows,
+    bare_snapshot_of: Callable[..., Snapshot],
+    step: int,
+    changes: dict[str, Any],
+) -> None:
+    snapshot = bare_snapshot_of(**changes)
+    rows.show_picture(Picture.of(snapshot.frame, "camera"))
+    rows_per_pixel = rows.stripes.rows_per_pixel()
+    draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=step)
+    rows.show_picture(Picture.of(draft, "camera"))
+    first, last = rows.stripes.rows_shown()
+    ends = draft.corners[:, 1].min(), draft.corners[:, 1].max()
+    wanted = [row for row in draft.rows if ends[0] <= row <= ends[1]]
+    assert list(draft.rows[first:last]) == wanted
+    assert rows.stripes.rows_per_pixel() == rows_per_pixel
+
+
 @pytest.mark.parametrize(
     "changes", [{}, {"exposure_time": 136e-6}, {"start_time": 3.3e-3, "readout_time": 11e-6}]
 )

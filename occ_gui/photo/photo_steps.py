@@ -31,6 +31,7 @@ class PhotoSteps(QWidget):
         row.setContentsMargins(0, 4, 0, 4)
         row.setSpacing(4)
         self.buttons: dict[str, QPushButton] = {}
+        self._shown: tuple[bool, str, bool] | None = None
         for name in STEPS:
             button = self.buttons[name] = QPushButton()
             button.setObjectName("step")
@@ -57,6 +58,10 @@ class PhotoSteps(QWidget):
         is_applied
             Whether the scene is the matched one.
         """
+        shown = (has_photo, match, is_applied)
+        if shown == self._shown:  # at each change of the scene, and styles are slow to apply
+            return
+        self._shown = shown
         signs = {"": "", "sure": "✓", "doubtful": "?"}  # of a match, as its verdict
         done = {
             "open": "✓" if has_photo else "",

@@ -1,7 +1,10 @@
 """Steps of a photo: each says whether it is done, is next or must wait."""
 
+from functools import partial
+
 import pytest
 from PySide6.QtGui import QAccessible
+from PySide6.QtWidgets import QCommonStyle
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_steps import STEPS, PhotoSteps
@@ -81,3 +84,18 @@ def test_the_steps_stand_as_far_from_what_is_above_as_from_what_is_below(
     margins = layout.contentsMargins()
     assert margins.top() == margins.bottom()
     assert margins.left() == margins.right()
+
+
+def test_steps_are_styled_anew_only_where_they_change(
+    steps: PhotoSteps, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At each move of a slider they are told of the scene."""
+    styled: list[str] = []
+    for name, button in steps.buttons.items():
+        monkeypatch.setattr(
+            button, "style", lambda name=name: styled.append(name) or QCommonStyle()
+        )
+    steps.show_state(has_photo=False, match="", is_applied=False)
+    assert not styled
+    steps.show_state(has_photo=True, match="", is_applied=False)
+    assert set(styled) == set(STEPS)

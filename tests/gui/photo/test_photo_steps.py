@@ -91,10 +91,13 @@ def test_steps_are_styled_anew_only_where_they_change(
 ) -> None:
     """At each move of a slider they are told of the scene."""
     styled: list[str] = []
+
+    def note(name: str) -> QCommonStyle:
+        styled.append(name)
+        return QCommonStyle()
+
     for name, button in steps.buttons.items():
-        monkeypatch.setattr(
-            button, "style", lambda name=name: styled.append(name) or QCommonStyle()
-        )
+        monkeypatch.setattr(button, "style", partial(note, name))
     steps.show_state(has_photo=False, match="", is_applied=False)
     assert not styled
     steps.show_state(has_photo=True, match="", is_applied=False)

@@ -1,5 +1,6 @@
 """Simulated films, read: the clock within its errors, the payload where all of it was in view."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -13,6 +14,8 @@ from occ_model.scene.recording import Recording
 
 _VALUES = ("switching_frequency", "readout_time", "gap")
 _EVERYDAY = (3,)
+_WHOLE = range(0, FILMS, 3)
+"""Some of each frame rate, framing and line code; tests/benchmarks/film_reading.py reads all."""
 
 SCENE = occ.load_preset("phone-68us").replace(
     rows=32,
@@ -75,20 +78,21 @@ def test_a_film_gives_its_clock_and_the_payload(number: int) -> None:
 
 
 @pytest.mark.whole
-def test_forty_films_give_their_clocks_and_payloads_with_errors_that_hold() -> None:
-    judged = [judge(film(number)) for number in range(FILMS)]
+def test_films_give_their_clocks_and_payloads_with_errors_that_hold() -> None:
+    judged = [judge(film(number)) for number in _WHOLE]
     read = [one for one in judged if one.reading.clock is not None]
     for one in read:
         assert_as_demanded(one)
     # Of packets of more than 2,000 chips hardly any frame shows the header: that is said.
     unread = [one for one in judged if one.reading.clock is None]
-    assert len(unread) <= 3
+    assert len(unread) <= 1
     for one in unread:
         assert one.film.scene.transmitter.payload_length == 1024
         assert one.reading.failure is not None
         assert not one.reading.bits.size
     ratios = [off / error for one in read for off, error in map(one.error, _VALUES)]
-    assert np.mean(np.abs(ratios) < 1.0) == pytest.approx(0.68, abs=0.07)
+    inside = float(np.mean(np.abs(ratios) < 1.0))
+    assert inside == pytest.approx(0.68, abs=2.5 * math.sqrt(0.68 * 0.32 / len(ratios)))
 
 
 def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:

@@ -102,6 +102,7 @@ class Desktop(QObject):
             parts.profile,
             parts.accuracy.plot,
             QUICK_DECODERS,
+            shown_decoder=parts.decode.decoder,
         )
         self.figures.add_map(lambda: parts.detection_map.map.full, parts.frame_rate)
         self.figures.add_bench(lambda: parts.bench.full, parts.frame_rate)

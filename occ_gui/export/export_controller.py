@@ -22,6 +22,9 @@ from occ_model.scene.provenance import ENDINGS
 _FIGURE_OF_PANE = {"profile": "profile", "accuracy": "accuracy", "map": "map", "bench": "bench"}
 """Figures by the names of their panes; for any other pane the picture is copied."""
 
+_ENDING = "export/ending"
+"""Under this key the ending of the last exported file is stored."""
+
 
 class ExportController(QObject):
     """Draws figures on a background thread, one job after another, and saves or copies them.
@@ -93,9 +96,11 @@ class ExportController(QObject):
             ".csv": self.tr("CSV table of the numbers (*.csv)"),
         }
         title = self.tr("Export: {figure}").format(figure=self._figures.titles[name])
+        kept = self._preferences.recall(_ENDING)
+        first = kept if kept in kinds else ENDINGS[0]
         chosen, kind = QFileDialog.getSaveFileName(
-            self._window, title, str(Path(self._preferences.folder, f"{name}.png")),
-            ";;".join(kinds.values()),
+            self._window, title, str(Path(self._preferences.folder, f"{name}{first}")),
+            ";;".join(kinds.values()), kinds[first],
         )  # fmt: skip
         if not chosen:
             return
@@ -103,6 +108,7 @@ class ExportController(QObject):
         if not path.suffix:
             ending = next((each for each, text in kinds.items() if text == kind), ENDINGS[0])
             path = path.with_suffix(ending)
+        self._preferences.keep(_ENDING, path.suffix.lower())
         self.export(name, path)
 
     def export(self, name: str, path: Path) -> None:
@@ -180,7 +186,9 @@ class ExportController(QObject):
         elif job.path is not None:
             self._preferences.visit(job.path)
             self.status_message.emit(
-                self.tr("Exported {name}").format(name=one_line(job.path.name))
+                self.tr("Exported {name} into {folder}").format(
+                    name=one_line(job.path.name), folder=one_line(str(job.path.absolute().parent))
+                )
             )
         else:
             self._to_clipboard(done.png)

@@ -122,6 +122,8 @@ class Figures(QObject):
         The panes that determine the content of their figures.
     decoders
         Names of the decoders.
+    shown_decoder
+        Returns the name of the decoder whose threshold is shown.
     """
 
     def __init__(
@@ -132,9 +134,11 @@ class Figures(QObject):
         profile: ProfilePane,
         accuracy: AccuracyPane,
         decoders: tuple[str, ...],
+        *,
+        shown_decoder: Callable[[], str],
     ) -> None:
         super().__init__()
-        self._settings = settings
+        self._settings, self._shown_decoder = settings, shown_decoder
         self._comparison, self._overlay = comparison, overlay
         self._profile, self._accuracy = profile, accuracy
         self._photo: Photo | None = None
@@ -255,16 +259,18 @@ class Figures(QObject):
 
     def _of_profile(self, shown: Snapshot) -> FigureRequest:
         comparison = self._comparison()
-        first, last = self._profile.columns_in_view()
+        columns = slice(*self._profile.columns_in_view())
         enhanced = self._profile.is_enhanced
         band = shown.enhanced_band if enhanced else shown.band
+        decoded = _read_by(self._shown_decoder(), shown)
 
         def draw() -> "Drawing":
             from occ_model.figures.window_panes import profile_drawing
 
             return profile_drawing(
-                shown.frame, band, shown.band_undefined, comparison, first, last, enhanced=enhanced
-            )
+                shown.frame, band, shown.band_undefined, comparison, columns,
+                enhanced=enhanced, decoded=decoded,
+            )  # fmt: skip
 
         return self.request(shown.frame.scene, draw)
 

@@ -32,6 +32,7 @@ class Preferences(QObject):
     def __init__(self, settings: QSettings | None = None) -> None:
         super().__init__()
         self._settings = settings
+        self._unstored: dict[str, str | list[str]] = {}
         self._files = _paths(self._value(_FILES))
         folders = _paths(self._value(_FOLDER))
         self._folder = folders[0] if folders else None
@@ -96,12 +97,15 @@ class Preferences(QObject):
 
     def _value(self, key: str) -> object:
         try:
-            return None if self._settings is None else self._settings.value(key)
+            unstored = self._unstored.get(key)
+            return unstored if self._settings is None else self._settings.value(key)
         except RuntimeError:  # a type of Qt that Python cannot represent
             return None
 
     def _write(self, key: str, value: str | list[str]) -> None:
-        if self._settings is not None:
+        if self._settings is None:
+            self._unstored[key] = value
+        else:
             self._settings.setValue(key, value)
 
 

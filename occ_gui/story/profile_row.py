@@ -204,9 +204,12 @@ class ProfileRow(StoryRow):
         painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
-        """Write the numbers of the levels."""
+        """Write what the levels are, and their numbers."""
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        unit = QRectF(4, 3 + painter.fontMetrics().lineSpacing(), area.left(), self.height())
+        left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
+        painter.drawText(unit, left, self.tr("grey\nlevel"))
         for level in self._ticks(area):
             place = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
             painter.drawText(place, flags, f"{level:g}")

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import one_line, printable
-from occ_model.figures.drawing import Drawing
+from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
@@ -21,7 +21,6 @@ _LONGEST_PAYLOAD = 40
 
 _SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
 _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
-_THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "linewidth": 0.9}
 
 
 def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
@@ -73,7 +72,7 @@ def _draw_signal(ax: Axes, result: DecodeResult) -> None:
         return
     ax.plot(result.signal, linewidth=0.8, label="signal", **_SIGNAL)
     if result.threshold is not None:
-        ax.axhline(result.threshold, label="threshold", **_THRESHOLD)
+        ax.axhline(result.threshold, label="threshold", **THRESHOLD)
     if result.chip_starts is not None and result.chip_length is not None:
         lit = result.chip_starts[result.chips.astype(bool)].tolist()
         bars = [(start, result.chip_length) for start in lit]
@@ -112,5 +111,5 @@ def _draw_runs(ax: Axes, result: DecodeResult) -> None:
             linewidth=0.4, color=("0.6", colours.SIMULATION)[value],
         )  # fmt: skip
         if histogram.split is not None:
-            ax.axvline(histogram.split + (0.5 if value else 0.4), **_THRESHOLD)
+            ax.axvline(histogram.split + (0.5 if value else 0.4), **THRESHOLD)
     _legend(ax, 2)

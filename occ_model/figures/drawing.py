@@ -21,6 +21,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
 BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
+THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "linewidth": 0.9}
 
 FORMATS = ("png", "svg", "pdf")
 """The file formats of a figure."""

@@ -12,12 +12,13 @@ from matplotlib.patches import Rectangle
 
 from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, Drawing
+from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, THRESHOLD, Drawing
 from occ_model.figures.overlay import Difference, PhotoLayer, lay_over
-from occ_model.results import Comparison, Frame, Region
+from occ_model.results import Comparison, DecodeResult, Frame, Region
 from occ_model.results.frame import PICTURES
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.teaching.packet_fields import threshold_levels
 
 MOST_CELLS = 900
 """Cells on each side of a printed picture: more are no finer on paper."""
@@ -155,10 +156,10 @@ def profile_drawing(
     band: FloatArray | None,
     undefined: str = "",
     comparison: Comparison | None = None,
-    first: int = 0,
-    last: int | None = None,
+    columns: slice = slice(None),
     *,
     enhanced: bool = False,
+    decoded: DecodeResult | None = None,
 ) -> Drawing:
     """Draw the column profiles, and the photo's residual under them.
 
@@ -172,11 +173,13 @@ def profile_drawing(
         Why it is undefined, a sentence; empty where it is defined.
     comparison
         The photo's profile beside the simulated one, if there is a photo.
-    first, last
-        The columns to draw, from ``first`` to before ``last``; by default all. The table holds all.
+    columns
+        The columns to draw, by default all. The table holds all.
     enhanced
         Whether the profiles are those after the receiver's enhancement; ``band`` and ``comparison``
         then are so already.
+    decoded
+        The result of a decoder whose threshold is drawn, None for none.
     """
     simulated = frame.signal if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {
@@ -185,9 +188,10 @@ def profile_drawing(
         "photo": None if comparison is None else _placed(comparison, len(frame.profile)),
     }
     shown = {name: values for name, values in lines.items() if values is not None}
+    threshold = None if decoded is None else _threshold_among(simulated, decoded, enhanced)
 
     def draw() -> Figure:
-        figure = _profile_figure(shown, undefined, comparison, slice(first, last), enhanced)
+        figure = _profile_figure(shown, undefined, comparison, columns, enhanced, threshold)
         write_caption(figure, frame.scene)
         return figure
 
@@ -200,12 +204,21 @@ def profile_drawing(
     return Drawing("profile", f"{what}: {caption(frame.scene)}", draw, header, rows)
 
 
+def _threshold_among(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:
+    """Give the level of a decoder's threshold in a profile, None where it has none there."""
+    between = threshold_levels(simulated, decoded)
+    if between is None or decoded.threshold is None:
+        return None
+    return decoded.threshold if enhanced else sum(between) / 2.0
+
+
 def _profile_figure(
     lines: Mapping[str, FloatArray],
     undefined: str,
     comparison: Comparison | None,
     part: slice,
     enhanced: bool,
+    threshold: float | None,
 ) -> Figure:
     """Draw some columns of profiles, and the residual of the photo's under them."""
     styles = {"simulation": SIMULATION, "band model": BAND, "photo": PHOTO}
@@ -217,6 +230,8 @@ def _profile_figure(
     column = np.arange(len(lines["simulation"]))[part]
     for name, values in lines.items():
         axes[0].plot(column, values[part], label=name, linewidth=1.1, **styles[name])
+    if threshold is not None:
+        axes[0].axhline(threshold, label="threshold", **THRESHOLD)
     axes[0].set_ylabel("enhanced level" if enhanced else "grey level")
     axes[0].set_ylim(bottom=0)
     if undefined:
@@ -229,7 +244,7 @@ def _profile_figure(
         message = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
         axes[1].set_title(message, fontsize=8)
     axes[-1].set_xlabel("column")
-    figure.legend(loc="outside upper center", ncols=len(lines), frameon=False)
+    figure.legend(loc="outside upper center", ncols=len(lines) + 1, frameon=False)
     return figure
 
 

@@ -34,7 +34,7 @@ def test_an_export_holds_its_scene_settings_version_and_date(
     for name in ("picture", "profile", "decoding-threshold", "decoding-matched"):
         for ending in ENDINGS:
             path = tmp_path / f"{name}{ending}"
-            assert export(application, user, name, path) == f"Exported {path.name}"
+            assert export(application, user, name, path) == f"Exported {path.name} into {tmp_path}"
             assert scene_inside(path) == application.store.scene
         text = (tmp_path / f"{name}.csv").read_text(encoding="utf-8")
         for messages in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
@@ -52,7 +52,7 @@ def test_the_accuracy_plot_is_exported_once_it_is_measured(
     plot.show_study_begun()
     plot.show_point(AccuracyPoint("noise", "exact", 0.125, 0.25, current=True), 1, 1)
     plot.show_study_finished()
-    assert export(application, user, "accuracy", path) == "Exported accuracy.csv"
+    assert export(application, user, "accuracy", path) == f"Exported accuracy.csv into {tmp_path}"
     assert "noise,exact,125.0,0.25,1" in path.read_text(encoding="utf-8")
     user.enter("iso", "200")
     assert "not measured yet" in export(application, user, "accuracy", path)
@@ -70,12 +70,15 @@ def test_the_map_is_exported_once_it_is_complete(
     asked = MapRequest(scene, x, y, settings, with_image_effects=False)
     map_pane = type(application.detection_map.map)
     monkeypatch.setattr(map_pane, "full", property(lambda _: (rates, asked)))
-    assert export(application, user, "map", path) == "Exported map.csv"
+    assert export(application, user, "map", path) == f"Exported map.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
     assert len(lines) == 1 + rates.images.size
     assert lines[1].startswith("500.0,0.2,threshold,4,10,40.0,")
     assert scene_inside(path) == scene
-    assert export(application, user, "map", tmp_path / "map.png") == "Exported map.png"
+    assert (
+        export(application, user, "map", tmp_path / "map.png")
+        == f"Exported map.png into {tmp_path}"
+    )
 
 
 def test_the_photo_is_drawn_beside_the_simulation(
@@ -99,7 +102,7 @@ def test_the_difference_is_exported_as_it_is_seen(
     user.wait_until_idle()
     application.show_mode("difference")
     path = tmp_path / "difference.csv"
-    assert export(application, user, "picture", path) == "Exported difference.csv"
+    assert export(application, user, "picture", path) == f"Exported difference.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
     photo = application.photo_wiring.matching.photo
     assert photo is not None
@@ -237,7 +240,10 @@ def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
         patched.setattr("occ_gui.export.export_controller.export", broken)
         messages = export(application, user, "profile", tmp_path / "a.png")
     assert messages == "The export failed: ZeroDivisionError: a mistake."
-    assert export(application, user, "profile", tmp_path / "a.png") == "Exported a.png"
+    assert (
+        export(application, user, "profile", tmp_path / "a.png")
+        == f"Exported a.png into {tmp_path}"
+    )
 
 
 def test_exports_that_come_quickly_are_all_written(
@@ -270,6 +276,27 @@ def test_the_ending_comes_from_the_name_or_the_chosen_format(
     if written.endswith(".png"):
         with Image.open(tmp_path / written) as image:
             assert image.width > 500
+
+
+def test_the_dialog_begins_with_the_format_of_the_last_export(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    application.desktop.export.export("profile", tmp_path / "other.csv")  # not chosen there
+    user.wait_until_idle()
+    begun: list[tuple[str, str]] = []
+
+    def choose(_window: object, _title: str, path: str, _kinds: str, kind: str) -> tuple[str, str]:
+        begun.append((Path(path).name, kind))
+        return str(tmp_path / "figure"), "PDF document (*.pdf)"
+
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", choose)
+    for _ in range(2):
+        application.window.actions_by_name["export_profile"].trigger()
+        user.wait_until_idle()
+    assert begun == [
+        ("profile.png", "PNG picture (*.png)"),
+        ("profile.pdf", "PDF document (*.pdf)"),
+    ]
 
 
 def test_the_drawing_is_done_off_the_windows_thread(

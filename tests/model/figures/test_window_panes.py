@@ -112,6 +112,32 @@ def test_the_reason_stands_where_there_is_no_band_model(tmp_path: Path) -> None:
     assert "band model (grey level)" not in drawing.header
 
 
+@pytest.mark.parametrize("enhanced", [False, True])
+def test_a_profile_has_the_threshold_of_its_decoder(enhanced: bool) -> None:
+    found = occ.decode(FRAME.image, SCENE)
+    with house_style():
+        figure = profile_drawing(FRAME, None, decoded=found, enhanced=enhanced).draw()
+    (line,) = [item for item in figure.axes[0].lines if item.get_label() == "threshold"]
+    (level,) = set(np.asarray(line.get_ydata(), dtype=float).tolist())
+    assert found.region is not None
+    assert found.threshold is not None
+    profile = FRAME.signal if enhanced else FRAME.profile
+    inside = profile[found.region.first_column : found.region.last_column]
+    # It parts the columns that are drawn as the decoder parts those that it reads.
+    assert found.signal is not None
+    ones = (found.signal > found.threshold) == (inside > level)
+    assert np.mean(ones) > 0.95
+    assert "threshold" in [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_a_profile_has_no_threshold_of_a_decoder_without_one() -> None:
+    found = occ.decode(FRAME.image, SCENE, "matched")
+    for decoded in (None, found):
+        with house_style():
+            figure = profile_drawing(FRAME, None, decoded=decoded).draw()
+        assert "threshold" not in [line.get_label() for line in figure.axes[0].lines]
+
+
 def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None:
     drawing = drawings()[0]
     with pytest.raises(occ.OutputError, match=r"figure\.doc has no ending"):

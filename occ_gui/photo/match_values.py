@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
@@ -23,6 +23,14 @@ _DIGITS = 4
 def known_of(match: Match) -> str:
     """Return which of readout time and switching frequency was given."""
     return next(name for name in KNOWN if name not in match.uncertainties)
+
+
+def label_of(name: str) -> str:
+    """Return the label of an estimate; the readout time is that of a line, not of the frame."""
+    label = quantity(name).label
+    if name != "readout_time":
+        return label
+    return QCoreApplication.translate("MatchValues", "{label} a line").format(label=label)
 
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
@@ -65,7 +73,7 @@ class MatchValues(QWidget):
         self.labels["pattern"].setFont(fixed)
 
     def _titles(self) -> dict[str, str]:
-        estimates = {name: quantity(name).label for name in _ESTIMATES}
+        estimates = {name: label_of(name) for name in _ESTIMATES}
         return {
             **estimates,
             "others": self.tr("or exposed for"),

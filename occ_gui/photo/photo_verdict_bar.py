@@ -121,6 +121,8 @@ class PhotoVerdictBar(StateBar):
         for name in (estimated, "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)
             value = with_uncertainty(declared, getattr(match, name), spread)
+            if name == "readout_time":
+                value = self.tr("{time} a line").format(time=value)
             parts.append(f"{declared.label.lower()} {value}")
         found = condition_of(match, self._certain) + ", ".join(parts)
         return f"{found[0].upper()}{found[1:]}."

@@ -42,7 +42,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     known = assumption(table.known, float(table.scene.value(table.known)), options)
     paste = [f"{program}: {known}{line}" for program, line in lines_to_paste(table).items()]
     if options.out:
-        write_whole(options.out, csv_text(table, paste).encode("utf-8"))
+        write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))
     for line in [*_report(table, known), *paste]:
         print(line)
     if options.out:

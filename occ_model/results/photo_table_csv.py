@@ -6,6 +6,7 @@ from io import StringIO
 
 from occ_model.errors import one_line, printable
 from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoTable
+from occ_model.scene.parameters import quantity
 from occ_model.version import __version__
 
 _LONGEST = 10_000
@@ -14,11 +15,11 @@ _LONGEST = 10_000
 _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",
     "switching frequency (Hz)", "its error (Hz)", "exposure time (s)", "its error (s)",
-    "noted exposure time (s)", "correlation", "chips", "lines", "camera", "note",
+    "rests on", "noted exposure time (s)", "correlation", "chips", "lines", "camera", "note",
 )  # fmt: skip
 
 
-def csv_text(table: PhotoTable, more: Sequence[str] = ()) -> str:
+def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -> str:
     """Write a table.
 
     Parameters
@@ -27,6 +28,9 @@ def csv_text(table: PhotoTable, more: Sequence[str] = ()) -> str:
         The table.
     more
         Further comment lines.
+    condition
+        The value that the estimates rest on where it is only assumed, as ``"if f = 10 kHz: "``;
+        empty where it is known.
     """
     counts = ", ".join(
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
@@ -35,23 +39,27 @@ def csv_text(table: PhotoTable, more: Sequence[str] = ()) -> str:
         f"# Match of {len(table.rows)} photos: {counts}",
         f"# occ_model {__version__}",
         f"# measured: {table.estimate}",
-        *_mean(table.estimate, table.estimated),
-        *_mean("exposure_time", table.exposure_time),
+        *_mean(table.estimate, table.estimated, condition),
+        *_mean("exposure_time", table.exposure_time, condition),
         *(f"# {printable(note)}" for note in (*table.notes, *more)),
         "#",
         "# scene at hand:",
         *(f"# {line}".rstrip() for line in table.scene.to_toml().splitlines()),
     ]
-    return "\n".join(lines) + "\n" + _row(_COLUMNS) + "".join(_photo_rows(table))
+    return "\n".join(lines) + "\n" + _row(_COLUMNS) + "".join(_photo_rows(table, condition))
 
 
-def _photo_rows(table: PhotoTable) -> list[str]:
+def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
     texts = []
+    known = quantity(table.known)
+    given = f"{known.symbol} = {known.format(float(table.scene.value(table.known)))}, given"
+    rests_on = condition.removesuffix(": ") or given
     for place, row in enumerate(table.rows):
         kept = "outlier" if table.is_outlier(place) else "yes" if table.is_counted(place) else "no"
         estimates: list[object] = []
         for name in ("readout_time", "switching_frequency", "exposure_time"):
-            estimates += [getattr(row, name), row.uncertainty(name)]
+            estimates += [getattr(row, name), _error(row.uncertainty(name))]
+        estimates.append(None if row.exposure_time is None else rests_on)
         texts.append(
             _row(
                 [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
@@ -62,15 +70,31 @@ def _photo_rows(table: PhotoTable) -> list[str]:
     return texts
 
 
-def _mean(name: str, found: CombinedEstimate | None) -> list[str]:
+def _mean(name: str, found: CombinedEstimate | None, condition: str) -> list[str]:
     if found is None:
         return [f"# no mean of {name}"]
-    return [
-        f"# mean of {name}: {found.value!r} +- {found.uncertainty!r}, from {found.count} {SURE} "
-        f"photos, {len(found.outliers)} outliers",
-        f"# chi-square of {name}: {found.chi_square:.4g} of {found.degrees_of_freedom} degrees of "
-        f"freedom, probability {found.probability:.3g}, error widened {found.scale:.3g} times",
+    value = quantity(name).unit.rounded_estimate(found.value, found.uncertainty)
+    photos, left_out = _counted(found.count, f"{SURE} photo"), len(found.outliers)
+    lines = [
+        f"# mean of {name}: {condition}{value!r} +- {_error(found.uncertainty)}, from "
+        f"{photos}, {_counted(left_out, 'outlier')}"
     ]
+    if found.count > 1:
+        lines.append(
+            f"# chi-square of {name}: {found.chi_square:.4g} of "
+            f"{_counted(found.degrees_of_freedom, 'degree')} of freedom, probability "
+            f"{found.probability:.3g}, error widened {found.scale:.3g} times"
+        )
+    return lines
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+
+
+def _error(deviation: float | None) -> str | None:
+    """Write a standard deviation to two digits, as in the window."""
+    return None if deviation is None else f"{deviation:.1e}"
 
 
 _FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"

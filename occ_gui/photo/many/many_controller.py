@@ -108,7 +108,7 @@ class ManyPhotosController(QObject):
             channel=reading.channel,
         )
         self._done, self.table = 0, None
-        self._view.show_begun(choice.estimate)
+        self._view.show_begun(choice.estimate, scene)
         self.runner.start(ManyRequest(self._paths, settings, self._jobs))
 
     def cancel(self) -> None:

@@ -18,8 +18,9 @@ from PySide6.QtWidgets import (
 
 from occ_gui.photo.assumption import condition
 from occ_gui.photo.many.paste_lines import PasteLines
-from occ_gui.photo.many.rows_model import PhotoRowsModel
-from occ_gui.photo.match_values import with_uncertainty
+from occ_gui.photo.many.rows_model import NOTE, PHOTO, PhotoRowsModel
+from occ_gui.photo.match_choice import KNOWN
+from occ_gui.photo.match_values import label_of, with_uncertainty
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
@@ -30,6 +31,9 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 _ROWS_SEEN = 6
+
+_WIDEST = {PHOTO: 140, NOTE: 280}
+"""Widths in pixels at most, so that the times stay in view; the whole text is in the tooltip."""
 
 
 class ManyPhotosView(QWidget):
@@ -71,6 +75,8 @@ class ManyPhotosView(QWidget):
         self.paste = PasteLines()
         self.stale = _text(self.tr("Whether the table still belongs to the known value"))
         self._found: PhotoTable | None = None
+        self._asked: tuple[str, Scene] | None = None
+        self._counts = ""
         self._scene: Scene | None = None
         self._given = math.nan
         self._certain: Mapping[str, float] = {}
@@ -121,12 +127,18 @@ class ManyPhotosView(QWidget):
         self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 6)
-        self.table.horizontalHeader().setStretchLastSection(True)
         self.table.horizontalHeader().setHighlightSections(False)
         row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader().sizeHint()
         self.table.setMinimumHeight(header.height() + _ROWS_SEEN * row)
         self.table.clicked.connect(self._choose)
         self.table.activated.connect(self._choose)
+
+    def _fit_columns(self) -> None:
+        """Give the columns the width of their texts, long texts less, and show the first."""
+        self.table.resizeColumnsToContents()
+        for column, widest in _WIDEST.items():
+            self.table.setColumnWidth(column, min(self.table.columnWidth(column), widest))
+        self.table.horizontalScrollBar().setValue(0)
 
     def _choose(self, index: QModelIndex) -> None:
         self.photo_chosen.emit(self.rows.paths[index.row()])
@@ -136,33 +148,53 @@ class ManyPhotosView(QWidget):
         self.rows.show_files(paths)
         self._show_found(None)
         self.work.end()
-        self.title.setText(
-            self.tr("{count} photos, not matched yet: say below what is known.").format(
-                count=len(paths)
-            )
-        )
-        self.table.resizeColumnsToContents()
+        self._asked = None
+        self._show_title()
+        self._fit_columns()
         self.setVisible(bool(paths))
         self.files_shown.emit()
 
-    def show_begun(self, estimate: str) -> None:
-        """Show that the photos are being matched, to find this parameter."""
+    def show_begun(self, estimate: str, scene: Scene) -> None:
+        """Show that the photos are being matched with this scene, to find this parameter."""
         self.rows.show_begun(estimate)
         self._show_found(None)
+        self._asked, self._counts = (estimate, scene), ""
+        self._show_title()
         self.start.setEnabled(False)
-        self.title.setText(self.tr("{count} photos").format(count=len(self.rows.paths)))
+        self._show_done(0)
         self.work.begin()
+        self.table.horizontalScrollBar().setValue(0)
+
+    def _show_done(self, done: int) -> None:
+        count = len(self.rows.paths)
+        self.work.progress.setFormat(self.tr("{done} of {count}").format(done=done, count=count))
+        self.work.show_progress(done / count)
+
+    def _show_title(self) -> None:
+        """Show how many photos there are, their verdicts, and what their times rest on."""
+        text = self.tr("{count} photos").format(count=len(self.rows.paths))
+        if self._asked is None:
+            text += self.tr(", not matched yet: say below what is known.")
+        else:
+            text += f": {self._counts}" if self._counts else ""
+            rests_on = self._rests_on(*self._asked)
+            self.rows.show_condition(rests_on)
+            if rests_on:
+                text += self.tr(". What is measured holds only {condition}.").format(
+                    condition=rests_on.removesuffix(": ")
+                )
+        self.title.setText(text)
 
     def show_row(self, place: int, row: PhotoRow, done: int) -> None:
         """Show what was found in a photo, and how many are done."""
         self.rows.show_row(place, row)
-        self.work.show_progress(done / len(self.rows.paths))
+        self._show_done(done)
 
     def show_ended(self) -> None:
         """Show that no more photos are matched."""
         self.work.end()
         self.start.setEnabled(True)
-        self.table.resizeColumnsToContents()
+        self._fit_columns()
 
     def show_failed(self, sentence: str) -> None:
         """Show why the photos could not be matched."""
@@ -174,15 +206,15 @@ class ManyPhotosView(QWidget):
         """Show the complete table, and the mean."""
         self.rows.show_table(table)
         self.show_ended()
-        counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
-        self.title.setText(
-            self.tr("{count} photos: {counts}").format(count=len(table.rows), counts=counts)
-        )
+        self._asked = (table.estimate, table.scene)
+        self._counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
+        self._show_title()
         self._show_found(table)
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
+        self._show_title()
         self._show_found(self._found)
 
     def show_scene(self, scene: Scene) -> None:
@@ -204,11 +236,11 @@ class ManyPhotosView(QWidget):
         )
         self.stale.setVisible(now not in {then, self._given})
 
-    def _condition(self, table: PhotoTable) -> str:
-        """Name the value that the times rest on, unless the user is certain of it."""
-        value = float(table.scene.value(table.known))
-        chips = len(sent_chips(table.scene.transmitter))
-        return condition(table.known, value, self._certain, chips)
+    def _rests_on(self, estimate: str, scene: Scene) -> str:
+        """Name the value that an estimate rests on, unless the user is certain of it."""
+        known = next(name for name in KNOWN if name != estimate)
+        chips = len(sent_chips(scene.transmitter))
+        return condition(known, float(scene.value(known)), self._certain, chips)
 
     def _show_found(self, table: PhotoTable | None) -> None:
         """Show the mean, the notes and the lines to paste of a table, or none."""
@@ -221,20 +253,22 @@ class ManyPhotosView(QWidget):
             button.setEnabled(table is not None)
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
         if table is not None:
-            condition = self._condition(table)
-            texts[self.mean] = self._mean(table.estimate, table.estimated, condition)
-            texts[self.exposure] = self._mean("exposure_time", table.exposure_time, condition)
+            rests_on = self._rests_on(table.estimate, table.scene)
+            texts[self.mean] = self._mean(table.estimate, table.estimated, rests_on)
+            texts[self.exposure] = self._mean("exposure_time", table.exposure_time, rests_on)
             frame = frame_readout_time(table)
             if frame is not None:
                 time = with_uncertainty(quantity("readout_time"), *frame)
                 texts[self.frame] = self.tr("Readout of the whole frame: {time}").format(
-                    time=condition + time
+                    time=rests_on + time
                 )
             texts[self.notes] = "\n".join(table.notes)
+            self.paste.show_lines_if(rests_on, lines_to_paste(table))
+        else:
+            self.paste.show_lines({})
         for label, text in texts.items():
             label.setText(text)
             label.setVisible(bool(text))
-        self.paste.show_lines({} if table is None else lines_to_paste(table))
 
     def _mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
         if found is None:
@@ -242,7 +276,7 @@ class ManyPhotosView(QWidget):
         declared = quantity(name)
         value = with_uncertainty(declared, found.value, found.uncertainty)
         text = self.tr("{label}: {value}, mean of {count}").format(
-            label=declared.label, value=condition + value, count=found.count
+            label=label_of(name), value=condition + value, count=found.count
         )
         if found.count > 1:
             how = self.tr("they agree") if found.agrees else self.tr("they do not agree")
@@ -258,9 +292,10 @@ class ManyPhotosView(QWidget):
         table = self._found
         if table is None:
             return ""
-        condition = self._condition(table)
+        rests_on = self._rests_on(table.estimate, table.scene)
         lines = lines_to_paste(table).items()
-        return csv_text(table, [f"{program}: {condition}{line}" for program, line in lines])
+        paste = [f"{program}: {rests_on}{line}" for program, line in lines]
+        return csv_text(table, paste, rests_on)
 
 
 def _text(name: str) -> QLabel:

@@ -2,8 +2,15 @@
 
 from collections.abc import Mapping
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QLabel,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 
 class PasteLines(QWidget):
@@ -11,31 +18,66 @@ class PasteLines(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.lines: dict[str, QLineEdit] = {}
-        self._form = QFormLayout(self)
-        self._form.setContentsMargins(0, 0, 0, 0)
-        self._form.setVerticalSpacing(2)
+        self.lines: dict[str, QLabel] = {}
+        self.why_none = QLabel()
+        self.why_none.setWordWrap(True)
+        self.why_none.setTextFormat(Qt.TextFormat.PlainText)
+        self.why_none.setAccessibleName(self.tr("Why there is no line for other programs"))
+        # A grid: a form would not give lines that wrap their height.
+        self._grid = QGridLayout()
+        self._grid.setVerticalSpacing(2)
+        self._grid.setColumnStretch(1, 1)
+        self._parts: list[QWidget] = []
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.why_none)
+        layout.addLayout(self._grid)
+        self.show_lines({})
 
-    def show_lines(self, lines: Mapping[str, str]) -> None:
-        """Show these lines, by their programs, in place of the previous ones."""
-        while self._form.rowCount():
-            self._form.removeRow(0)
-        self.lines = {}
+    def show_lines(self, lines: Mapping[str, str], why_none: str = "") -> None:
+        """Show these lines, by their programs, in place of the previous ones.
+
+        Parameters
+        ----------
+        lines
+            The lines.
+        why_none
+            In place of lines: a sentence that says why there are none. A line that is pasted
+            elsewhere leaves behind what it rests on.
+        """
+        for part in self._parts:
+            part.setParent(None)
+            part.deleteLater()
+        self._parts, self.lines = [], {}
+        self.why_none.setText(why_none)
+        self.why_none.setVisible(bool(why_none))
         for program, line in lines.items():
-            field = QLineEdit(line)
-            field.setReadOnly(True)
-            field.setCursorPosition(0)
+            field = QLabel(line)
+            field.setTextFormat(Qt.TextFormat.PlainText)
+            field.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            field.setWordWrap(True)  # the number stands at the end
             field.setAccessibleName(self.tr("Line for {program}").format(program=program))
-            field.setToolTip(line)
             copy = QToolButton()
             copy.setText(self.tr("Copy"))
             copy.setToolTip(self.tr("Copy the line for {program}.").format(program=program))
             copy.clicked.connect(
                 lambda _checked=False, text=line: QGuiApplication.clipboard().setText(text)
             )
-            both = QHBoxLayout()
-            both.addWidget(field)
-            both.addWidget(copy)
-            self._form.addRow(program, both)
+            row, parts = len(self.lines), (QLabel(program), field, copy)
+            for place, part in enumerate(parts):
+                self._grid.addWidget(part, row, place)
+            self._parts += parts
             self.lines[program] = field
-        self.setVisible(bool(lines))
+        self.setVisible(bool(lines or why_none))
+
+    def show_lines_if(self, condition: str, lines: Mapping[str, str]) -> None:
+        """Show these lines where they rest on no assumption, else what has to be confirmed."""
+        if not condition or not lines:
+            self.show_lines(lines)
+            return
+        text = self.tr(
+            "Lines for {programs} hold only {condition}. They are given once this is confirmed: "
+            "enter the value, or tick “certain”."
+        )
+        programs = self.tr(" and ").join(lines)
+        self.show_lines({}, text.format(programs=programs, condition=condition.removesuffix(": ")))

@@ -6,9 +6,9 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 
-from occ_gui.photo.match_values import with_uncertainty
+from occ_gui.photo.match_values import label_of, with_uncertainty
 from occ_gui.photo.verdict_view import SIGNS
-from occ_gui.widgets.plain_text import in_tool_tip
+from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.results import PhotoRow, PhotoTable
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
@@ -31,6 +31,7 @@ class PhotoRowsModel(QAbstractTableModel):
         self._rows: dict[int, PhotoRow] = {}
         self._table: PhotoTable | None = None
         self._estimate = "readout_time"
+        self._condition = ""
 
     def show_files(self, paths: Sequence[Path]) -> None:
         """Show these files, none of which is matched yet."""
@@ -55,6 +56,10 @@ class PhotoRowsModel(QAbstractTableModel):
         self._rows, self._table = dict(enumerate(table.rows)), table
         self.dataChanged.emit(self.index(0, PHOTO), self.index(len(table.rows) - 1, NOTE))
 
+    def show_condition(self, condition: str) -> None:
+        """Show the value that the times rest on where it is assumed; empty where it is certain."""
+        self._condition = condition
+
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
         """Count the photos."""
         return 0 if parent.isValid() else len(self.paths)
@@ -77,8 +82,8 @@ class PhotoRowsModel(QAbstractTableModel):
         return (
             self.tr("Photo"),
             self.tr("Verdict"),
-            quantity(self._estimate).label,
-            quantity("exposure_time").label,
+            label_of(self._estimate),
+            label_of("exposure_time"),
             self.tr("As noted"),
             self.tr("Correlation"),
             self.tr("Why"),
@@ -91,12 +96,20 @@ class PhotoRowsModel(QAbstractTableModel):
             case Qt.ItemDataRole.DisplayRole:
                 return self.text(place, column)
             case Qt.ItemDataRole.ToolTipRole:
-                row = self._rows.get(place)
-                path = str(self.paths[place])
-                return in_tool_tip(f"{path}\n{row.note}" if row and row.note else path)
+                return in_tool_tip(self._tip(place, column))
             case Qt.ItemDataRole.TextAlignmentRole:
                 return _alignment(column)
         return None
+
+    def _tip(self, place: int, column: int) -> str:
+        """Return what a cell rests on, or why the photo is not sure."""
+        row = self._rows.get(place)
+        text = self.text(place, column)
+        if column in (ESTIMATE, EXPOSURE) and text:
+            return f"{self._condition}{text}"
+        if column == NOTE and row is not None and row.note:
+            return one_line(row.note, LONGEST)
+        return str(self.paths[place])
 
     def text(self, place: int, column: int) -> str:
         """Return the text of a cell."""

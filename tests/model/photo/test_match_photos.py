@@ -202,6 +202,29 @@ def test_the_file_holds_every_row_and_the_scene(table: PhotoTable) -> None:
     assert float(rows[0]["readout time (s)"]) == table.rows[0].readout_time
 
 
+def test_the_file_names_what_is_only_assumed_beside_each_number_that_rests_on_it() -> None:
+    import csv
+
+    table = made(row(7e-6, 1.234567e-9), row(7.0005e-6, 1.3e-9), PhotoRow(Path("x"), "refused"))
+    for condition, rests_on in (("if f = 2 kHz: ", "if f = 2 kHz"), ("", "given")):
+        text = csv_text(table, condition=condition)
+        for name in ("readout_time", "exposure_time"):
+            assert f"# mean of {name}: {condition}" in text
+        rows = list(csv.DictReader(line for line in text.splitlines() if line[0] != "#"))
+        assert all(one["rests on"].endswith(rests_on) for one in rows[:2])
+        assert rows[2]["rests on"] == ""
+        assert rows[0]["its error (s)"] in text
+        assert "1.2e-09" in text
+        assert "1.234" not in text
+
+
+def test_the_mean_of_one_photo_is_tested_against_nothing() -> None:
+    text = csv_text(made(row(7e-6)))
+    assert "from 1 sure photo, 0 outliers" in text
+    assert "chi-square" not in text
+    assert "chi-square" in csv_text(made(row(7e-6), row(7e-6)))
+
+
 @pytest.mark.parametrize("photos", [[], ()])
 def test_no_photos_are_refused(photos: list[Path]) -> None:
     with pytest.raises(occ.ParameterError, match="There are no photos to match"):

@@ -19,6 +19,7 @@ from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.photo.many import match_photos
+from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results import PhotoRow, PhotoTable
@@ -59,6 +60,13 @@ def view(qtbot: QtBot) -> ManyPhotosView:
     return view
 
 
+CERTAIN = {"switching_frequency": occ.Scene().transmitter.switching_frequency}
+
+
+def tip(view: ManyPhotosView, place: int, which: int) -> str:
+    return str(view.rows.data(view.rows.index(place, which), Qt.ItemDataRole.ToolTipRole))
+
+
 def column(view: ManyPhotosView, which: int) -> list[str]:
     return [view.rows.text(place, which) for place in range(len(PATHS))]
 
@@ -87,7 +95,7 @@ def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     found = table().estimated
     assert found is not None
     assert view.mean.text() == (
-        "Readout time: 7.0000 ± 0.0018 µs, mean of 3; χ² 0.5 of 2: they agree; 1 left out"
+        "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3; χ² 0.5 of 2: they agree; 1 left out"
     )
     assert found.value == pytest.approx(7e-6)
     assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.40 µs, mean of 3")
@@ -118,12 +126,13 @@ def test_another_known_value_asks_to_match_again(view: ManyPhotosView) -> None:
 
 
 def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:
+    view.show_certain(CERTAIN)
     view.show_table(table())
     assert list(view.paste.lines) == ["OpenDroneMap", "Gyroflow"]
     for button in view.findChildren(QToolButton):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
         assert QGuiApplication.clipboard().text() in {f.text() for f in view.paste.lines.values()}
-    view.show_begun("readout_time")
+    view.show_begun("readout_time", occ.Scene())
     assert view.paste.lines == {}
     assert view.mean.isHidden()
 
@@ -134,15 +143,62 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
     for button in (view.copy, view.save):
         assert not button.isEnabled()
     view.show_table(table())
-    paste = [f"{program}: if f = 10 kHz: {f.text()}" for program, f in view.paste.lines.items()]
-    assert len(paste) == 2
-    qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)
-    assert QGuiApplication.clipboard().text() == csv_text(table(), paste)
-    with qtbot.waitSignal(view.save_asked) as saved:
-        qtbot.mouseClick(view.save, Qt.MouseButton.LeftButton)
-    assert saved.args == [csv_text(table(), paste)]
-    view.show_certain({"switching_frequency": 1e4})
-    assert "if f = " not in view.csv()
+    lines = lines_to_paste(table()).items()
+    for condition in ("if f = 10 kHz: ", ""):
+        paste = [f"{program}: {condition}{line}" for program, line in lines]
+        assert len(paste) == 2
+        qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)
+        assert QGuiApplication.clipboard().text() == csv_text(table(), paste, condition)
+        with qtbot.waitSignal(view.save_asked) as saved:
+            qtbot.mouseClick(view.save, Qt.MouseButton.LeftButton)
+        assert saved.args == [csv_text(table(), paste, condition)]
+        view.show_certain(CERTAIN)
+
+
+def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(
+    view: ManyPhotosView,
+) -> None:
+    view.show_table(table())
+    assert not view.findChildren(QToolButton)
+    assert "hold only if f = 10 kHz" in view.paste.why_none.text()
+    assert "holds only if f = 10 kHz" in view.title.text()
+    assert all("if f = 10 kHz" in tip(view, 0, column) for column in (ESTIMATE, EXPOSURE))
+    view.show_certain(CERTAIN)
+    assert len(view.findChildren(QToolButton)) == 2
+    assert view.paste.why_none.isHidden()
+    assert "if f" not in view.title.text() + tip(view, 0, ESTIMATE)
+
+
+def test_rows_of_a_running_match_name_the_frequency_that_they_rest_on(
+    view: ManyPhotosView,
+) -> None:
+    view.show_begun("readout_time", occ.Scene())
+    view.show_row(0, ROWS[0], 1)
+    assert "if f = 10 kHz" in view.title.text()
+    assert view.work.progress.text() == "1 of 6"
+
+
+def test_a_long_reason_leaves_the_times_in_view(view: ManyPhotosView) -> None:
+    view.show()
+    reason = "The stripes are smooth: a curve without any code explains them as well. " * 9
+    rows = (*ROWS[:3], replace(ROWS[3], note=reason), *ROWS[4:])
+    view.show_table(table_of(MatchSettings(occ.Scene()), rows))
+    assert view.table.columnWidth(NOTE) <= 280
+    bar = view.table.horizontalScrollBar()
+    bar.setValue(bar.maximum())
+    view.show_begun("readout_time", occ.Scene())
+    assert bar.value() == 0
+
+
+def test_a_line_to_paste_is_seen_to_its_end(view: ManyPhotosView, qtbot: QtBot) -> None:
+    view.show_certain(CERTAIN)
+    view.resize(300, 700)
+    view.show()
+    view.show_table(table())
+    qtbot.waitUntil(lambda: view.paste.height() > 0)
+    for field in view.paste.lines.values():
+        assert field.wordWrap()
+        assert field.heightForWidth(field.width()) <= field.height()
 
 
 def test_a_click_on_a_row_opens_its_photo(view: ManyPhotosView, qtbot: QtBot) -> None:

@@ -49,7 +49,10 @@ class LampForm(QWidget):
         self.by_hand = QPushButton(self.tr("Re&gion by hand"))
         self.by_hand.setCheckable(True)
         self.by_hand.setToolTip(
-            self.tr("Match only a rectangle: drag it, and its corners, on the photo.")
+            self.tr(
+                "Match only a rectangle: drag its middle on the photo to move it, and the diamonds "
+                "at its corners to make it larger or smaller."
+            )
         )
         self.by_hand.toggled.connect(self.by_hand_chosen)
         self.whole = QPushButton(self.tr("&Whole photo"))
@@ -130,14 +133,17 @@ class LampForm(QWidget):
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
         self.whole.setEnabled(region is not None)
         if region is None:
-            self.place.setText(self.tr("The whole photo is matched."))
+            self.place.setText(self.tr("The whole photo will be matched."))
             return
         what = (
             self.tr("A region by hand") if lamp is None
             else self.tr("Lamp {number}").format(number=lamp + 1)
         )  # fmt: skip
+        words = self.tr(
+            "{what} will be matched: columns {left} to {right}, rows {top} to {bottom}."
+        )
         self.place.setText(
-            self.tr("{what} is matched: columns {left} to {right}, rows {top} to {bottom}.").format(
+            words.format(
                 what=what, left=region.first_column, right=region.last_column - 1,
                 top=region.first_row, bottom=region.last_row - 1,
             )

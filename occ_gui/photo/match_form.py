@@ -18,7 +18,6 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -90,7 +89,7 @@ class MatchForm(QWidget):
         self._make_notices()
         self._make_run()
         self._lay_out()
-        self.sent.chosen.connect(self._show_known)
+        self.sent.chosen.connect(self._take_sent)
         self.estimate.chosen.connect(self._show_known)
         self.square.edited.connect(self._confirm_square)
         self._show_known()
@@ -105,7 +104,9 @@ class MatchForm(QWidget):
             note = self.tr("A known value of the photo; entering it changes the scene.")
             field.setToolTip(f"{note}\n\n{explain(declared)}")
             field.edited.connect(lambda value, name=name: self._edit(name, value))
-        self.hint = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.hint = QLabel()
+        self.hint.setTextFormat(Qt.TextFormat.PlainText)
+        self.hint.setWordWrap(True)
         self.certain = QCheckBox(self.tr("certain"))
         self.certain.setToolTip(
             self.tr(
@@ -134,6 +135,11 @@ class MatchForm(QWidget):
     def _edit(self, name: str, value: float) -> None:
         self._set_certain(name, value)
         self.edited.emit(name, value, new_gesture())
+
+    def _take_sent(self, sent: str) -> None:
+        self._show_known()
+        if sent == "square":  # who chooses it says that its frequency is that of the lamp
+            self._confirm_square(self.square.value())
 
     def _confirm_square(self, cycles: float) -> None:
         self._set_certain(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
@@ -185,12 +191,13 @@ class MatchForm(QWidget):
         known = QHBoxLayout()
         for field in self.known.values():
             known.addWidget(field)
-        known.addWidget(self.hint, 1)
         known.addWidget(self.certain)
+        known.addStretch()
         grid.addWidget(QLabel(self.tr("Known")), 3, 0)
         grid.addLayout(known, 3, 1, 1, 2)
+        grid.addWidget(self.hint, 4, 1, 1, 2)
         for place, field in enumerate(self.known.values()):
-            grid.addWidget(self.notices[field], 4 + place, 1, 1, 2)
+            grid.addWidget(self.notices[field], 5 + place, 1, 1, 2)
         grid.setColumnStretch(1, 1)
         run = QHBoxLayout()
         run.addWidget(self.gamma)
@@ -255,8 +262,7 @@ class MatchForm(QWidget):
         name = self._known_name()
         self.certain.setChecked(is_certain(name, self.known[name].value(), self._certain))
         blinking = self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE
-        self.hint.set_full_text(
+        self.hint.setText(
             self.tr("chips: a blinking LED of {cycles}").format(cycles=HERTZ.format(blinking, 4))
-            if of_frequency
-            else ""
         )
+        self.hint.setVisible(of_frequency)

@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from occ_gui.photo.match_values import MatchValues, known_of
+from occ_gui.photo.match_values import MatchValues, condition_of, known_of
+from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
+from occ_model.photo.many.other_programs import lines_of_match
 from occ_model.results import Match
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -31,6 +33,8 @@ class MatchResult(QWidget):
         self._given = math.nan
         self._certain: Mapping[str, float] = {}
         self.verdict, self.figures = VerdictView(), MatchValues()
+        self.paste = PasteLines()
+        self._turned = False
         self.mark = OutdatedMark(self.figures)
         self.stale = QLabel()
         self.stale.setWordWrap(True)
@@ -45,7 +49,7 @@ class MatchResult(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        for part in (self.verdict, self.stale, self.figures):
+        for part in (self.verdict, self.stale, self.figures, self.paste):
             layout.addWidget(part)
         layout.addLayout(buttons)
         layout.addStretch()
@@ -73,21 +77,36 @@ class MatchResult(QWidget):
         """The labels of the figures, by name."""
         return self.figures.labels
 
-    def show_match(self, match: Match, noted: float | None) -> None:
-        """Show a match, and the exposure time in seconds that the camera noted, if it did."""
-        self._match, self._noted = match, noted
+    def show_match(self, match: Match, noted: float | None, *, turned: bool = False) -> None:
+        """Show a match.
+
+        Parameters
+        ----------
+        match
+            The match.
+        noted
+            The exposure time in seconds that the camera noted, if it did.
+        turned
+            Whether the photo's columns are the file's lines.
+        """
+        self._match, self._noted, self._turned = match, noted, turned
         if self._scene is not None:
             self._given = float(self._scene.value(known_of(match)))
         self._show_stale()
         self.verdict.show_verdict(match.verdict, match.reasons)
-        self.figures.show_match(match, self._certain, noted)
+        self._show_figures(match)
         self.show_outdated("", usable=True)
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
         if self._match is not None:
-            self.figures.show_match(self._match, certain, self._noted)
+            self._show_figures(self._match)
+
+    def _show_figures(self, match: Match) -> None:
+        self.figures.show_match(match, self._certain, self._noted)
+        lines = lines_of_match(match, turned=self._turned)
+        self.paste.show_lines_if(condition_of(match, self._certain), lines)
 
     def show_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""
@@ -95,6 +114,7 @@ class MatchResult(QWidget):
             return
         self.verdict.show_outdated(bool(why))
         self.mark.show_age(DELAY if why else 0.0, why)  # at once
+        self.paste.setEnabled(usable and not why)
         for button in (self.apply, self.save):
             button.setEnabled(usable)
 

@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 from occ_gui.photo.assumption import condition
 from occ_gui.photo.match_choice import KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_model.photo.estimate_text import estimate_text
+from occ_model.photo.many.other_programs import frame_of_match
 from occ_model.results import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -41,7 +43,18 @@ def condition_of(match: Match, certain: Mapping[str, float]) -> str:
 
 def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> str:
     """Format a value with its standard deviation, to the digits that are significant."""
-    return quantity.unit.format_estimate(value, spread)
+    return estimate_text(quantity, value, spread)
+
+
+def what_errors_mean() -> str:
+    """Say what ± and the verdict mean."""
+    return QCoreApplication.translate(
+        "MatchValues",
+        "± is one standard deviation, of the fit alone: the error of the value that is known comes "
+        "on top.\nA limit, as in “below 36 µs”, lies two standard deviations above the value.\n"
+        "“Sure” means that no check found a reason to doubt the match; the reasons of a "
+        "doubtful one are listed.",
+    )
 
 
 class MatchValues(QWidget):
@@ -65,6 +78,8 @@ class MatchValues(QWidget):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(name != "pattern")
             label.setAccessibleName(title)
+            if name in (*_ESTIMATES, "frame"):
+                label.setToolTip(what_errors_mean())
             self.labels[name] = label
             self._titled[name] = QLabel(title)
             grid.addWidget(self._titled[name], row, 0, Qt.AlignmentFlag.AlignTop)
@@ -75,6 +90,8 @@ class MatchValues(QWidget):
     def _titles(self) -> dict[str, str]:
         estimates = {name: label_of(name) for name in _ESTIMATES}
         return {
+            "readout_time": estimates.pop("readout_time"),
+            "frame": self.tr("Readout of the whole frame"),
             **estimates,
             "others": self.tr("or exposed for"),
             "chip": self.tr("Chip length"),
@@ -125,6 +142,10 @@ class MatchValues(QWidget):
                 texts[name] = given.get(name, "").format(value=texts[name])
             elif name != "gamma":  # of the shape of the stripes, not of their timing
                 texts[name] = condition + texts[name]
+        frame = frame_of_match(match)
+        texts["frame"] = (
+            "" if frame is None else condition + with_uncertainty(quantity("readout_time"), *frame)
+        )
         if len(match.pattern) == CHIPS_OF_A_CYCLE:
             # A blinking LED is specified by its cycles, not by its chips.
             cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, _DIGITS)

@@ -9,8 +9,8 @@ from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
-from occ_model.results.photo_table import SURE
+from occ_model.results import Match, PhotoRow
+from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 from occ_model.scene.parameters import quantity
 
 
@@ -25,6 +25,7 @@ class PhotoVerdictBar(StateBar):
         self.setAccessibleName(self.tr("Verdict on the photo"))
         self._photo: Photo | None = None
         self._match: Match | None = None
+        self._row: PhotoRow | None = None
         self._is_running = False
         self._why_not = self._outdated = ""
         self._is_applied = True
@@ -36,6 +37,11 @@ class PhotoVerdictBar(StateBar):
         """Show how far this photo is explained, or that none is open."""
         self._photo, self._match = photo, None
         self._why_not = self._outdated = ""
+        self._write()
+
+    def show_row(self, row: PhotoRow | None) -> None:
+        """Show what the table of several photos has found in this one, which is not matched yet."""
+        self._row = row
         self._write()
 
     def show_begun(self) -> None:
@@ -93,6 +99,8 @@ class PhotoVerdictBar(StateBar):
             return State.NEUTRAL, (self.tr("No photo is open"), sentence)
         if self._why_not:
             return State.BAD, (self.tr("Photo: not matched"), self._why_not)
+        if self._match is None and self._row is not None:
+            return self._listed(self._row)
         if self._match is None:
             sentence = self.tr("Say what was sent as far as you know, and match it.")
             return State.NEUTRAL, (self.tr("Photo: not matched yet"), sentence)
@@ -112,6 +120,18 @@ class PhotoVerdictBar(StateBar):
             reason += self.tr(" And {count} more.").format(count=more)
         title = self.tr("Photo: the match is doubtful")
         return State.DOUBTFUL, (title, f"{reason} {found}", reason)
+
+    def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
+        """Return what the table has found, whose numbers stand in its row."""
+        titles = {
+            SURE: (State.GOOD, self.tr("Photo: sure in the table")),
+            DOUBTFUL: (State.DOUBTFUL, self.tr("Photo: doubtful in the table")),
+            REFUSED: (State.BAD, self.tr("Photo: refused in the table")),
+            UNREADABLE: (State.BAD, self.tr("Photo: unreadable in the table")),
+        }
+        state, title = titles[row.verdict]
+        here = self.tr("Match it by itself to see its curves and to apply what is found.")
+        return state, (title, f"{row.note} {here}".lstrip(), row.note or here)
 
     def _found(self, match: Match) -> str:
         """Return what was found, in one sentence."""

@@ -74,12 +74,15 @@ class PhotoView(QWidget):
         self._hide_failure()
         self.result.hide()
         self._noted: float | None = None
+        self._turned = False
         self._path: Path | None = None
         self.form.certain_changed.connect(self.result.show_certain)
         self.form.certain_changed.connect(self.many.show_certain)
         self.form.certain_changed.connect(self.verdict.show_certain)
         self._has_photo = False
         self.many.files_shown.connect(self._show_page)
+        self.many.files_shown.connect(self._forget_certain)
+        self.many.rows_changed.connect(self._show_row)
         for form in (self.form, self.placement):
             form.refused.connect(self.refused)
             form.mended.connect(self.mended)
@@ -131,12 +134,24 @@ class PhotoView(QWidget):
         self._show_steps()
         self._hide_failure()
         self._noted = None if photo is None else photo.exposure_time
+        self._turned = photo is not None and photo.turned
         path = None if photo is None else photo.path
-        if path != self._path:  # else the same photo is read in another way
-            self._path = path
+        before, self._path = self._path, path
+        listed = self.many.rows.paths
+        if path != before and not (path in listed and before in (None, *listed)):
+            # Not the same photo, read in another way, nor another one of the table.
             self.form.forget_certain()
+        self._show_row()
         if photo is not None:
             self.facts.show_photo(photo)
+
+    def _forget_certain(self) -> None:
+        if self.many.rows.paths:
+            self.form.forget_certain()
+
+    def _show_row(self) -> None:
+        """Show in the verdict what the table has found in the open photo."""
+        self.verdict.show_row(None if self._path is None else self.many.rows.row_of(self._path))
 
     @property
     def has_photo(self) -> bool:
@@ -202,7 +217,7 @@ class PhotoView(QWidget):
         self.verdict.show_match(match)
         self._show_steps()
         if match is not None:
-            self.result.show_match(match, self._noted)
+            self.result.show_match(match, self._noted, turned=self._turned)
             self._bring_into_view(self.result)
 
     def show_match_refused(self, reasons: Sequence[str]) -> None:

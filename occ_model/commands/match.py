@@ -12,6 +12,7 @@ from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import MatchError, ParameterError, one_line
 from occ_model.photo.chips.read import read_chips
+from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
@@ -210,6 +211,6 @@ def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
     if deviation is None:
         how = "assumed" if assumption and name in ESTIMATES else "known"
         return f"{declared.format(value)} ({how})"
-    text = declared.unit.format_estimate(value, deviation)
+    text = estimate_text(declared, value, deviation)
     # Gamma is found from the shape of the stripes, not from their timing.
     return text if name == "gamma" else assumption + text

@@ -9,6 +9,7 @@ from occ_model.commands.files import SCENE_FILE, TABLE, Written
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
@@ -125,7 +126,7 @@ def _mean(name: str, found: CombinedEstimate | None, known: str) -> list[str]:
 
 
 def _with_error(name: str, value: float, error: float) -> str:
-    return quantity(name).unit.format_estimate(value, error)
+    return estimate_text(quantity(name), value, error)
 
 
 def _cut(text: str, width: int) -> str:

@@ -17,10 +17,10 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.photo.assumption import condition
-from occ_gui.photo.many.paste_lines import PasteLines
 from occ_gui.photo.many.rows_model import NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_choice import KNOWN
-from occ_gui.photo.match_values import label_of, with_uncertainty
+from occ_gui.photo.match_values import label_of, what_errors_mean, with_uncertainty
+from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
@@ -52,12 +52,17 @@ class ManyPhotosView(QWidget):
     files_shown = Signal()
     """Other files are shown, or none."""
 
+    rows_changed = Signal()
+    """Something else is known of a photo."""
+
     photo_chosen = Signal(Path)
     """The user opens one of the photos."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.rows = PhotoRowsModel(self)
+        self.rows.modelReset.connect(self.rows_changed)
+        self.rows.dataChanged.connect(self.rows_changed)
         self.title = _text(self.tr("How many photos"))
         self._make_buttons()
         self._make_table()
@@ -73,6 +78,8 @@ class ManyPhotosView(QWidget):
             )
         )
         self.paste = PasteLines()
+        for label in (self.mean, self.exposure, self.frame):
+            label.setToolTip(what_errors_mean())
         self.stale = _text(self.tr("Whether the table still belongs to the known value"))
         self._found: PhotoTable | None = None
         self._asked: tuple[str, Scene] | None = None

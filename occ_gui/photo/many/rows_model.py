@@ -60,6 +60,10 @@ class PhotoRowsModel(QAbstractTableModel):
         """Show the value that the times rest on where it is assumed; empty where it is certain."""
         self._condition = condition
 
+    def row_of(self, path: Path) -> PhotoRow | None:
+        """Return what was found in the photo of a file, None where nothing was found so far."""
+        return next((row for row in self._rows.values() if row.path == path), None)
+
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
         """Count the photos."""
         return 0 if parent.isValid() else len(self.paths)

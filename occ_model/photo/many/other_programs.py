@@ -14,7 +14,8 @@ the sensor is read out, but not from which end; most are read from the top.
 
 import math
 
-from occ_model.results.photo_table import PhotoRow, PhotoTable
+from occ_model.results import Match
+from occ_model.results.photo_table import SURE, PhotoRow, PhotoTable
 
 _DIRECTIONS = {"lines": "TopToBottom", "columns": "LeftToRight"}
 """Gyroflow's usual direction by the axis of the upright picture that is scanned."""
@@ -62,11 +63,54 @@ def lines_to_paste(table: PhotoTable) -> dict[str, str]:
         return {}
     if not table.estimated.agrees and frame[1] > _PRECISE * frame[0]:
         return {}
-    written = _milliseconds(*frame)
-    lines = {"OpenDroneMap": f"--rolling-shutter --rolling-shutter-readout {written}"}
     axes = {row.scanned_along for row in _counted(table)}
-    if len(axes) == 1:
-        direction = _DIRECTIONS[axes.pop()]
+    return lines_of_frame(*frame, axes.pop() if len(axes) == 1 else "")
+
+
+def lines_of_match(match: Match, *, turned: bool) -> dict[str, str]:
+    """Write the readout time of one photo as other programs take it.
+
+    Parameters
+    ----------
+    match
+        Its match, with the size of the photo in its scene.
+    turned
+        Whether the photo's columns are the file's lines.
+
+    Returns
+    -------
+    dict
+        As of :func:`lines_to_paste`; empty where the match is doubtful.
+    """
+    frame = frame_of_match(match)
+    if frame is None or match.verdict != SURE:
+        return {}
+    return lines_of_frame(*frame, "lines" if turned else "columns")
+
+
+def frame_of_match(match: Match) -> tuple[float, float] | None:
+    """Give the readout time of one photo's whole frame and its standard deviation in seconds."""
+    deviation = match.uncertainties.get("readout_time")
+    if deviation is None:
+        return None
+    lines = match.scene.camera.columns
+    return match.readout_time * lines, deviation * lines
+
+
+def lines_of_frame(seconds: float, deviation: float, scanned_along: str) -> dict[str, str]:
+    """Write the readout time of a frame as other programs take it.
+
+    Parameters
+    ----------
+    seconds, deviation
+        The readout time of the whole frame, and its standard deviation.
+    scanned_along
+        ``"lines"`` or ``"columns"`` of the upright picture; empty where it is not one of them.
+    """
+    written = _milliseconds(seconds, deviation)
+    lines = {"OpenDroneMap": f"--rolling-shutter --rolling-shutter-readout {written}"}
+    if scanned_along:
+        direction = _DIRECTIONS[scanned_along]
         lines["Gyroflow"] = (
             f'"frame_readout_time": {written}, "frame_readout_direction": "{direction}"'
         )

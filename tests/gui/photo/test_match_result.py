@@ -33,6 +33,35 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     assert view.result.values["pattern"].toolTip() == "1001 (read)"
 
 
+def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    match = replace(match, scene=match.scene.replace(columns=1000))
+    view.show_match(match)
+    paste = view.result.paste
+    assert view.result.values["frame"].text() == "if f = 2 kHz: 14.57770 ± 0.00027 ms"
+    assert (paste.lines, paste.why_none.isVisible()) == ({}, True)
+    view.result.show_certain({"switching_frequency": 2e3})
+    assert view.result.values["frame"].text() == "14.57770 ± 0.00027 ms"
+    texts = {program: field.text() for program, field in paste.lines.items()}
+    assert texts["OpenDroneMap"].endswith("--rolling-shutter-readout 14.57770")
+    assert "LeftToRight" in texts["Gyroflow"]
+    view.show_match(replace(match, reasons=("Few periods.",)))
+    assert paste.lines == {}
+
+
+def test_an_exposure_that_is_hardly_known_has_an_upper_limit(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.result.show_certain({"switching_frequency": 2e3})
+    spreads = {**match.uncertainties, "exposure_time": 15e-6}
+    view.show_match(replace(match, exposure_time=6e-6, uncertainties=spreads))
+    assert view.result.values["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
+    assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
+
+
 def test_a_blinking_led_is_described_by_its_cycles_too(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:

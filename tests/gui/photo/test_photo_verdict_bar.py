@@ -9,7 +9,7 @@ from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.widgets.state_look import State
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
+from occ_model.results import Match, PhotoRow
 
 REASONS = ("Only 2 periods of 24 chips are in view.", "The correlation is 0.85.")
 
@@ -76,6 +76,36 @@ def test_a_blinking_lamp_is_named_by_its_own_frequency(
     view.show_photo(photo)
     view.show_match(replace(match, pattern="10"))
     assert "If it is a lamp of 1 kHz (2 kHz chips): readout" in bar.accessibleDescription()
+
+
+def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.many.show_files((photo.path,))
+    view.show_photo(photo)
+    assert bar.heading == "Photo: not matched yet"
+    view.form.certain_changed.emit({"switching_frequency": 2e3})
+    for verdict, state in (("refused", State.BAD), ("sure", State.GOOD)):
+        view.many.show_row(0, PhotoRow(photo.path, verdict, REASONS[1]), 1)
+        view.show_photo(photo)
+        assert (bar.state, bar.heading) == (state, f"Photo: {verdict} in the table")
+        assert REASONS[1] in bar.accessibleDescription()
+    view.show_match(match)
+    assert bar.heading == "Photo: the match is sure"
+    view.show_photo(photo)
+    view.many.show_begun("readout_time", occ.Scene())
+    assert bar.heading == "Photo: not matched yet"
+
+
+def test_another_photo_of_the_table_keeps_what_is_certain(view: PhotoView, photo: Photo) -> None:
+    other = replace(photo, path=photo.path.with_name("other.png"))
+    view.many.show_files((photo.path, other.path))
+    view.show_photo(photo)
+    view.form.certain.click()
+    view.show_photo(other)
+    assert view.form.certain.isChecked()
+    view.show_photo(replace(photo, path=photo.path.with_name("alone.png")))
+    assert not view.form.certain.isChecked()
 
 
 def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(

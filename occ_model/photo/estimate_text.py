@@ -1,0 +1,28 @@
+"""An estimate with its error in words, and an upper limit where the error is large."""
+
+from occ_model.scene.parameter_kinds import Quantity
+
+_UNCERTAIN = 0.5
+"""Relative standard deviation above which a time is told by an upper limit."""
+
+_DEVIATIONS = 2.0
+"""Standard deviations by which the limit lies above the estimate."""
+
+
+def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
+    """Write an estimate with its standard deviation, to the digits that are significant.
+
+    An exposure time that is hardly known is told by what it is below: no time is negative, as the
+    value less its error would be.
+
+    Parameters
+    ----------
+    quantity
+        What was estimated.
+    value, deviation
+        In SI units; without a deviation the value alone is written.
+    """
+    text = quantity.unit.format_estimate(value, deviation)
+    if quantity.name != "exposure_time" or deviation is None or deviation <= _UNCERTAIN * value:
+        return text
+    return f"below {quantity.format(value + _DEVIATIONS * deviation, 2)} ({text})"

@@ -7,7 +7,9 @@ import sys
 import time
 from contextlib import suppress
 
-MOMENTS = int(os.environ.get("OCC_INTERRUPTS", "8"))
+from amount import amount
+
+MOMENTS = int(os.environ.get("OCC_INTERRUPTS", amount(4, 8)))
 """Moments at which each command is interrupted."""
 
 # The interpreter's own start answers Ctrl-C in its own way: we begin when ours is in place.

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import bits_of
 
-CODES = range(0, 1024, amount(7, 1))
+CODES = range(0, 1024, amount(13, 1))
 
 
 @pytest.fixture(scope="module")

@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.picture.placement import Placement
+from occ_model.results import Match
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
@@ -36,8 +37,30 @@ def taken(tmp_path: Path, camera_scene: Scene) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def found() -> dict[tuple[object, ...], Match]:
+    """Keep what was found, so that tests which begin after a match wait for the first only."""
+    return {}
+
+
 @pytest.fixture
-def matched(application: Application, user: User, taken: Path) -> Application:
+def matched(
+    application: Application,
+    user: User,
+    taken: Path,
+    found: dict[tuple[object, ...], Match],
+    monkeypatch: pytest.MonkeyPatch,
+) -> Application:
+    find = occ.match_photo
+
+    def remembered(photo: occ.Photo, scene: Scene, **how: Any) -> Match:
+        known = [how[name] for name in sorted(how) if name != "progress"]
+        asked = (photo.samples.tobytes(), scene, *known)
+        if asked not in found:
+            found[asked] = find(photo, scene, **how)
+        return found[asked]
+
+    monkeypatch.setattr(occ, "match_photo", remembered)
     application.open_photo(taken)
     user.wait_until_idle()
     application.photo.form.sent.show_key("square")

@@ -20,6 +20,8 @@ class PhotoVerdictBar(StateBar):
     The verdict on the simulated picture, which may be another, is a chip beside it.
     """
 
+    MOST_LINES = 4  # a refusal says its remedy last
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.tr("Verdict on the photo"))

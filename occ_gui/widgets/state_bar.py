@@ -1,10 +1,11 @@
 """State bar: a state in large letters, why it is so below, and chips at the right."""
 
+import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from occ_gui.widgets.chip_row import Chip, ChipRow
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -19,6 +20,9 @@ _PADDING, _MARGIN = 12, 5
 
 class StateBar(QWidget):
     """A title in the colours and with the icon of its state, a sentence, and a row of chips."""
+
+    MOST_LINES = 1
+    """Lines that a sentence may take where it does not fit into one."""
 
     changed = Signal()
     """It shows something else."""
@@ -35,9 +39,14 @@ class StateBar(QWidget):
         font.setPointSizeF(_LARGER * font.pointSizeF())
         self.title.setFont(font)
         self.sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.wrapped = QLabel()
+        self.wrapped.setTextFormat(Qt.TextFormat.PlainText)
+        self.wrapped.setWordWrap(True)
+        self.wrapped.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._lines = 1
         self.chips = ChipRow()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        for part in (self.icon, self.title, self.sentence, self.chips):
+        for part in (self.icon, self.title, self.sentence, self.wrapped, self.chips):
             part.setParent(self)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -50,13 +59,16 @@ class StateBar(QWidget):
 
     def _heights(self) -> tuple[int, int]:
         title = max(self.title.fontMetrics().height(), self.chips.sizeHint().height()) + 2
-        return title, self.sentence.fontMetrics().height() + 2
+        metrics = self.sentence.fontMetrics()
+        return title, metrics.height() + (self._lines - 1) * metrics.lineSpacing() + 2
 
     def _place(self) -> None:
         """Give the title the width that it needs, and the chips what is left."""
-        first, second = self._heights()
         left = 2 * _PADDING + _ICON
         room = max(0, self.width() - left - _PADDING)
+        text = self._fitting(room)
+        self._take_lines(text, room)
+        first, second = self._heights()
         wanted = self.title.fontMetrics().horizontalAdvance(self._title) + 4
         chips = self.chips.minimumSizeHint().width() if self.chips.chips else 0
         title = max(0, min(wanted, room - _PADDING - chips))
@@ -66,10 +78,25 @@ class StateBar(QWidget):
         height = self.chips.sizeHint().height()
         top = _MARGIN + (first - height) // 2
         self.chips.setGeometry(beside, top, max(0, left + room - beside), height)
-        self.sentence.setGeometry(left, _MARGIN + first, room, second)
+        for label in (self.sentence, self.wrapped):
+            label.setGeometry(left, _MARGIN + first, room, second)
         # A widget that is not shown yet is not told of its size.
         self.title.set_full_text(self._title)
-        self.sentence.set_full_text(self._fitting(room))
+        self.sentence.set_full_text(text)
+        self.wrapped.setText(text)
+        self.wrapped.setVisible(self._lines > 1)
+        self.sentence.setVisible(self._lines == 1)
+
+    def _take_lines(self, text: str, room: int) -> None:
+        """Count the lines that a text takes, as far as it may."""
+        metrics, lines = self.sentence.fontMetrics(), 1
+        if self.MOST_LINES > 1 and room > 0 and metrics.horizontalAdvance(text) > room:
+            box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
+            lines = math.ceil(box.height() / metrics.lineSpacing())
+            lines = lines if lines <= self.MOST_LINES else 1  # then shortened, with a tooltip
+        if lines != self._lines:
+            self._lines = lines
+            self.updateGeometry()
 
     def _fitting(self, room: int) -> str:
         """Return the longest of the sentences that fits, else the shortest."""
@@ -123,7 +150,7 @@ class StateBar(QWidget):
 
     def _take_colours(self) -> None:
         ink = colours_of(self.state, self.palette()).ink
-        for label in (self.title, self.sentence):
+        for label in (self.title, self.sentence, self.wrapped):
             palette = QPalette()  # in which all other colours stay those of the theme
             palette.setColor(QPalette.ColorRole.WindowText, ink)
             label.setPalette(palette)

@@ -32,7 +32,7 @@ from occ_model.transmitter.packet import sent_chips
 
 _ROWS_SEEN = 6
 
-_WIDEST = {PHOTO: 140, NOTE: 280}
+_WIDEST = {PHOTO: 90, NOTE: 280}
 """Widths in pixels at most, so that the times stay in view; the whole text is in the tooltip."""
 
 

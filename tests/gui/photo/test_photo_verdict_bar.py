@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
@@ -106,6 +107,25 @@ def test_another_photo_of_the_table_keeps_what_is_certain(view: PhotoView, photo
     assert view.form.certain.isChecked()
     view.show_photo(replace(photo, path=photo.path.with_name("alone.png")))
     assert not view.form.certain.isChecked()
+
+
+def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
+) -> None:
+    bar.setParent(None)
+    qtbot.addWidget(bar)
+    bar.resize(600, 60)
+    bar.show()
+    view.show_photo(photo)
+    low = bar.minimumSizeHint().height()
+    reason = "A plain pulse repeats in the photo, as behind a blind: say that a lamp blinks so."
+    view.show_match_refused([reason, reason.upper()])
+    assert bar.wrapped.isVisible()
+    assert bar.wrapped.text().endswith(reason.upper())
+    assert bar.minimumSizeHint().height() > low
+    assert bar.wrapped.heightForWidth(bar.wrapped.width()) <= bar.wrapped.height() + 2
+    view.show_photo(photo)
+    assert bar.minimumSizeHint().height() == low
 
 
 def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(

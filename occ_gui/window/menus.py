@@ -92,8 +92,6 @@ class Menus(QObject):
         self._make_export_menu(menu)
         self._add(menu, "transmitter", self.tr("&Transmitter…"))
         menu.addSeparator()
-        self._add(menu, "delete_preset", self.tr("&Delete preset…"))
-        menu.addSeparator()
         self._add(menu, "quit", self.tr("&Quit"), self.tr("Ctrl+Q")).triggered.connect(window.close)
 
     def _make_export_menu(self, file: QMenu) -> None:
@@ -147,6 +145,7 @@ class Menus(QObject):
         self._add(menu, "match", self.tr("&Match photo"), self.tr("Ctrl+M"))
         self._add(menu, "apply_match", self.tr("&Apply to the scene"), self.tr("Ctrl+Shift+M"))
         self._add(menu, "save_match", self.tr("Save match as &preset…"))
+        self._add(menu, "delete_preset", self.tr("Delete p&reset…"))
         self._add(menu, "use_settings", self.tr("&Use this photo's settings"))
         menu.addSeparator()
         words = {

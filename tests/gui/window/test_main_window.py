@@ -48,6 +48,18 @@ def listeners(action: QAction) -> int:
     return sum(action.receivers(SIGNAL(s)) for s in ("triggered(bool)", "toggled(bool)"))
 
 
+def test_nothing_is_deleted_beside_quit_and_presets_are_deleted_where_they_are_saved(
+    application: Application,
+) -> None:
+    actions = application.window.actions_by_name
+    (file,) = [menu for menu in menus(application.window.menuBar()) if menu.title() == "&File"]
+    assert actions["quit"] in file.actions()
+    assert actions["delete_preset"] not in file.actions()
+    found = [entries(menu) for menu in menus(application.window.menuBar())]
+    (photo,) = [each for each in found if actions["delete_preset"] in each]
+    assert photo.index(actions["delete_preset"]) == photo.index(actions["save_match"]) + 1
+
+
 def test_every_menu_entry_is_connected(application: Application) -> None:
     found = list(menus(application.window.menuBar()))
     assert len(found) >= 9

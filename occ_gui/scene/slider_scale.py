@@ -1,6 +1,7 @@
 """Scale under a slider: its end values, and marks where the picture changes in kind."""
 
 from collections.abc import Sequence
+from itertools import combinations, product
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QPen
@@ -13,6 +14,9 @@ from occ_model.scene.parameter_kinds import Quantity
 
 _SMALLER = 0.85
 _TICK, _GAP = 4.0, 4.0
+_OVER = 3.0
+"""Pixels by which a name at one side of its mark reaches to the other side."""
+
 _DIGITS = 4
 _NEAR = 6.0
 """Pixels from a mark within which its tooltip is shown."""
@@ -93,15 +97,34 @@ class SliderScale(QWidget):
         for mark in self.marks:
             x = self._x(mark.value)
             painter.drawLine(QPointF(x, 0.0), QPointF(x, _TICK))
-        for mark in self.marks:
-            text = mark.label.replace("t_LED", "1 chip")
-            width = metrics.horizontalAdvance(text)
-            left = min(max(self._x(mark.value) - width / 2, 0.0), self.width() - width)
-            box = QRectF(left, _TICK + 1.0, width, metrics.height())
-            if not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in taken):
-                painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-                taken.append(box)
+        for text, box in self._names(metrics, taken):
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
         painter.end()
+
+    def _names(self, metrics: QFontMetricsF, taken: Sequence[QRectF]) -> list[tuple[str, QRectF]]:
+        """Return the marks' names with their places: as many as there is space for.
+
+        A name stands in the middle under its mark, or to one side, where that leaves more space.
+        """
+        places: list[list[tuple[str, QRectF] | None]] = []
+        for mark in self.marks:
+            text, x = mark.label.replace("t_LED", "1 chip"), self._x(mark.value)
+            width = metrics.horizontalAdvance(text)
+            most = max(self.width() - width, 0.0)
+            lefts = [x - width * share for share in (0.5, 0.75, 0.25)]
+            lefts += [x - width + _OVER, x - _OVER]
+            boxes = [
+                QRectF(min(max(left, 0.0), most), _TICK + 1.0, width, metrics.height())
+                for left in lefts
+            ]
+            places.append([*((text, box) for box in boxes if _is_free(box, taken)), None])
+        best: list[tuple[str, QRectF]] = []
+        for chosen in product(*places):
+            named = [name for name in chosen if name is not None]
+            apart = all(_is_free(one[1], [other[1]]) for one, other in combinations(named, 2))
+            if apart and len(named) > len(best):
+                best = named
+        return best
 
     def _draw_ends(self, painter: QPainter, metrics: QFontMetricsF) -> list[QRectF]:
         """Draw the values at both ends, and return where they stand."""
@@ -116,3 +139,7 @@ class SliderScale(QWidget):
         for box, text in zip(boxes, (low, high), strict=True):
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
         return boxes
+
+
+def _is_free(box: QRectF, taken: Sequence[QRectF]) -> bool:
+    return not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in taken)

@@ -1,11 +1,12 @@
 """Names of marks under a slider are drawn where there is space for them, and apart."""
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFontMetricsF
 from PySide6.QtWidgets import QSlider, QWidget
 from pytestqt.qtbot import QtBot
@@ -15,9 +16,11 @@ from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameters import quantity
 
 
-@pytest.mark.parametrize(("apart", "is_named"), [(12.0, True), (5.0, True), (3.0, False)])
-def test_a_name_stands_four_pixels_from_the_one_before_or_is_left_out(
-    qtbot: QtBot, grey_picture: Callable[[QWidget], Any], apart: float, is_named: bool
+@pytest.mark.parametrize(
+    ("widths", "is_named"), [(1.4, True), (1.1, True), (0.6, True), (0.05, False)]
+)
+def test_two_names_give_way_to_each_other_or_the_second_is_left_out(
+    qtbot: QtBot, grey_picture: Callable[[QWidget], Any], widths: float, is_named: bool
 ) -> None:
     whole = QWidget()
     qtbot.addWidget(whole)
@@ -31,10 +34,34 @@ def test_a_name_stands_four_pixels_from_the_one_before_or_is_left_out(
     low, high = declared.slider
     first = low + 0.4 * (high - low)
     a_pixel = (high - low) / (scale._x(high) - scale._x(low))
-    second = first + a_pixel * (width + apart)
+    second = first + a_pixel * width * widths
 
     def drawn(name: str) -> Any:
         scale.show_marks([MarkedValue(first, "mark", ""), MarkedValue(second, name, "")])
         return grey_picture(scale)
 
     assert bool(np.any(drawn("mark") != drawn(""))) == is_named
+    drawn("mark")
+    boxes = [box for _, box in scale._names(QFontMetricsF(scale._font()), [])]
+    for box, value in zip(boxes, (first, second), strict=False):
+        assert box.left() <= scale._x(value) <= box.right()
+    for one, other in pairwise(boxes):
+        assert other.left() - one.right() >= 4.0
+
+
+def test_no_name_stands_over_the_value_of_an_end(qtbot: QtBot) -> None:
+    whole = QWidget()
+    qtbot.addWidget(whole)
+    declared = quantity("gamma")
+    slider = QSlider(Qt.Orientation.Horizontal, whole)
+    scale = SliderScale(slider, declared, whole)
+    for part in (slider, scale):
+        part.setGeometry(0, 0, 300, 30)
+    metrics = QFontMetricsF(scale._font())
+    low, high = declared.slider
+    ends = [QRectF(0, 5, 40, 14), QRectF(260, 5, 40, 14)]
+    for share in (0.0, 0.02, 0.2, 0.5, 0.8, 0.98, 1.0):
+        scale.show_marks([MarkedValue(low + share * (high - low), "a long name", "")])
+        for _, box in scale._names(metrics, ends):
+            assert not any(box.intersects(end) for end in ends)
+        assert bool(scale._names(metrics, ends)) == (share in {0.2, 0.5, 0.8})

@@ -22,7 +22,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
-from occ_model.study.success_rate import right_bits_of_images
+from occ_model.study.success_rate import images_read
 from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
@@ -204,11 +204,11 @@ def _first_read(
 def _read(
     sent: Scene, settings: RateSettings, pictures: int, heartbeat: Heartbeat
 ) -> Iterator[bool]:
-    """Yield whether all bits of each picture are right."""
+    """Yield whether all bits of each picture are right, and accepted."""
     length = sent.transmitter.payload_length
     random = np.random.default_rng(settings.seed)
     for _ in range(pictures):
         scene = with_payload(sent, random.integers(0, 2, length).tolist())
         own = RateSettings(1, settings.decoders, int(random.integers(2**32)))
-        ((right,),) = right_bits_of_images(scene, own, heartbeat)
-        yield right == length
+        ((image,),) = images_read(scene, own, heartbeat)
+        yield image.is_whole

@@ -4,9 +4,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
+from occ_model.arrays import ByteArray
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
@@ -32,6 +34,21 @@ from occ_model.transmitter.packet import sent_chips
 _SEEDS = 2**32
 
 _NO_PANEL = "No panel found: the rows that were simulated have one grey level."
+
+
+class ImageRead(NamedTuple):
+    """What a decoder reads of an image.
+
+    Parameters
+    ----------
+    right_bits
+        The bits that are right, also of a payload that is not accepted.
+    is_whole
+        Whether all are right, and accepted.
+    """
+
+    right_bits: int
+    is_whole: bool
 
 
 def success_rate(
@@ -119,16 +136,16 @@ def right_bits(
 def right_and_whole(
     scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Count the bits that each decoder reads rightly, and the images of which it reads all.
+    """Count the bits that each decoder reads rightly, and the images whose payload it reads.
 
-    The arguments and errors are those of :func:`right_bits`.
+    A payload is read if all its bits are right and the decoder accepts them. The arguments and
+    errors are those of :func:`right_bits`.
     """
-    length = scene.transmitter.payload_length
     correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
-    for counts in right_bits_of_images(scene, settings, heartbeat):
-        for place, count in enumerate(counts):
-            correct[place] += count
-            whole[place] += count == length
+    for images in images_read(scene, settings, heartbeat):
+        for place, image in enumerate(images):
+            correct[place] += image.right_bits
+            whole[place] += image.is_whole
     return tuple(correct), tuple(whole)
 
 
@@ -140,8 +157,19 @@ def right_bits_of_images(
     The arguments and errors are those of :func:`right_bits`; an image does not depend on how many
     follow it.
     """
+    for images in images_read(scene, settings, heartbeat):
+        yield tuple(image.right_bits for image in images)
+
+
+def images_read(
+    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
+) -> Iterator[tuple[ImageRead, ...]]:
+    """Give what each decoder reads, one image after the other.
+
+    The arguments and errors are those of :func:`right_bits`.
+    """
     transmitter = scene.transmitter
-    sent = np.array(transmitter.payload_bits)
+    sent = np.array(transmitter.payload_bits, dtype=np.uint8)
     duration = len(sent_chips(transmitter)) * transmitter.switching_period
     span = panel_span(scene) if settings.path in ("auto", "profile") else None
     for image in range(settings.images):
@@ -151,10 +179,14 @@ def right_bits_of_images(
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
             changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
         read = _read(scene.replace(**changes), settings, span, stream)
-        yield tuple(
-            int(np.count_nonzero(seen.bits == sent)) if seen.bits.size == sent.size else 0
-            for seen in read
-        )
+        yield tuple(_image_read(seen, sent) for seen in read)
+
+
+def _image_read(seen: DecodeResult, sent: ByteArray) -> ImageRead:
+    right = int(np.count_nonzero(seen.bits == sent)) if seen.bits.size == sent.size else 0
+    # Bits can be given with a failure, such as that they are not certain enough: then the receiver
+    # has them and does not accept them.
+    return ImageRead(right, right == sent.size and seen.failure is None)
 
 
 @lru_cache(maxsize=256)

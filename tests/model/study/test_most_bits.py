@@ -1,10 +1,14 @@
 """The scheme that carries most is read, and what carries more is not."""
 
+import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import ParameterError
+from occ_model.results import DecodeResult
+from occ_model.scene.scene import Scene
+from occ_model.study import success_rate
 from occ_model.study.most_bits import VARIED, _candidates, example_of, unvaried
 
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
@@ -30,7 +34,24 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     assert example is not None
     assert example.transmitter.payload_length == length
     read = occ.decode(occ.render(example).image, example, decoder="threshold")
+    assert read.failure is None
     assert f"bits:{''.join(map(str, read.bits))}" == example.transmitter.payload
+
+
+def test_bits_that_the_decoder_does_not_accept_carry_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (found,) = occ.most_bits(FAR, ("threshold",), pictures=1)
+
+    def refused(scene: Scene, *_: object) -> list[DecodeResult]:
+        bits = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+        return [DecodeResult("threshold", bits=bits, failure="The chips are not certain enough.")]
+
+    monkeypatch.setattr(success_rate, "_read", refused)
+    (nothing,) = occ.most_bits(FAR, ("threshold",), pictures=1)
+    assert found.scene is not None
+    assert nothing.scene is None
+    assert nothing.bits_a_second == 0.0
 
 
 def test_more_bits_are_not_read() -> None:

@@ -5,6 +5,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.receiver.locate import locate
+from occ_model.results import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.observation import decode_profile
 
@@ -42,6 +43,25 @@ def test_rate_is_the_share_of_right_bits_in_percent(
     )
     monkeypatch.setattr(module, "_read", lambda *_: [next(results)])
     assert occ.success_rate(scene.replace(code=718), images=4) == pytest.approx(100 * 17 / 40)
+
+
+def test_a_payload_that_the_decoder_does_not_accept_is_not_read(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from occ_model.results import DecodeResult
+    from occ_model.study import success_rate as module
+
+    sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
+    results = iter(
+        [
+            DecodeResult("x", bits=sent, code=718),
+            DecodeResult("x", bits=sent, failure="The chips are not certain enough."),
+        ]
+    )
+    monkeypatch.setattr(module, "_read", lambda *_: [next(results)])
+    right, whole = module.right_and_whole(scene.replace(code=718), RateSettings(2, ("x",)))
+    assert right == (20,)
+    assert whole == (1,)
 
 
 @pytest.mark.parametrize("decoder", ["threshold", "matched"])

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.help import help_menu
+from occ_gui.help import help_menu, page_style
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import CONTENTS, GUIDE, PAGE_OF_PANE, docs_folder, heading_id, pages
@@ -239,3 +239,35 @@ def test_the_start_does_not_import_the_window_of_the_manual() -> None:
     loaded = run(program, ROOT).split()
     assert "occ_gui.help.help_menu" in loaded
     assert {"occ_gui.help.help_window", "occ_gui.help.help_browser"}.isdisjoint(loaded)
+
+
+def test_a_search_for_nothing_finds_nothing_and_stays_where_it_is(manual: HelpWindow) -> None:
+    manual.browser.moveCursor(QTextCursor.MoveOperation.End)
+    place = manual.browser.textCursor().position()
+    manual.search.clear()
+    manual.browser.moveCursor(QTextCursor.MoveOperation.End)
+    assert not manual.find_next()
+    assert manual.browser.textCursor().position() == place > 0
+
+
+def test_pictures_are_fitted_anew_where_the_width_changes_only(
+    manual: HelpWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    browser, fitted = manual.browser, []
+    assert browser._pictures
+    monkeypatch.setattr(browser, "_fitted", lambda picture: fitted.append(picture) or picture)
+    width = browser.width()
+    browser.resize(width, browser.height() + 30)
+    assert not fitted
+    browser.resize(width + 30, browser.height())
+    assert len(fitted) == len(browser._pictures)
+
+
+def test_code_stands_as_far_from_the_text_below_as_from_that_above(manual: HelpWindow) -> None:
+    block, tops, bottoms = manual.browser.document().begin(), [], []
+    while block.isValid():
+        if block.blockFormat().hasProperty(page_style._CODE):
+            tops.append(block.blockFormat().topMargin())
+            bottoms.append(block.blockFormat().bottomMargin())
+        block = block.next()
+    assert 0.0 < max(tops) <= max(bottoms)

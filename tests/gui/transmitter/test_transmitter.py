@@ -14,11 +14,12 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.transmitter import transmitter_controller
+from occ_gui.transmitter import transmitter_controller, transmitter_jobs
 from occ_gui.transmitter.transmitter_controller import TransmitterController
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
-from occ_gui.transmitter.transmitter_jobs import Drawn
+from occ_gui.transmitter.transmitter_jobs import Drawn, new_folder
 from occ_model.boards.transmission import Transmission
+from occ_model.errors import OutputError
 from occ_model.figures import transmitter_files
 
 
@@ -184,3 +185,28 @@ def test_a_closed_dialog_tells_of_saving_in_the_status_line(
 def test_each_control_has_a_name_and_says_what_it_does(dialog: TransmitterDialog) -> None:
     assert dialog.board.accessibleName() == "Board"
     assert all(control.toolTip() for control in (dialog.save, dialog.take, dialog.board))
+
+
+def test_folders_of_one_name_are_numbered_up_to_a_limit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(transmitter_jobs, "_MOST_FOLDERS", 4)
+    made = [new_folder(tmp_path, "uno") for _ in range(3)]
+    assert made == [tmp_path / name for name in ("uno", "uno-2", "uno-3")]
+    assert all(folder.is_dir() for folder in made)
+    with pytest.raises(OutputError, match="has 3 folders uno already; choose another"):
+        new_folder(tmp_path, "uno")
+
+
+@pytest.mark.parametrize("size", [(1400, 400), (400, 1400), (2800, 2212)])
+def test_the_whole_figure_of_the_wiring_is_seen(
+    dialog: TransmitterDialog, size: tuple[int, int]
+) -> None:
+    png = BytesIO()
+    Image.new("L", size).save(png, "png")
+    dialog.show_wiring(png.getvalue(), "wires")
+    shown = dialog.wiring.pixmap().deviceIndependentSize()
+    place = dialog.wiring.size()
+    assert shown.width() <= place.width() + 1e-6
+    assert shown.height() <= place.height() + 1e-6
+    assert shown.width() > place.width() - 1 or shown.height() > place.height() - 1

@@ -8,6 +8,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.start import Start
 from occ_gui.files.session import Session
+from occ_gui.welcome.door import Door
 from occ_gui.welcome.welcome_dialog import WelcomeDialog
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -82,3 +83,15 @@ def test_each_door_says_what_is_behind_it(doors: WelcomeDialog) -> None:
         assert door.accessibleName()
         assert door.accessibleDescription().endswith(".")
         assert not door.grab().isNull()
+
+
+def test_the_title_of_a_door_stands_out_and_its_texts_fit(doors: WelcomeDialog) -> None:
+    for door in doors.findChildren(Door):
+        title, sentence = door._title.font(), door._sentence.font()
+        assert title.bold()
+        assert not sentence.bold()
+        assert title.pointSizeF() > sentence.pointSizeF()
+        for label in (door._title, door._sentence):
+            assert label.wordWrap()
+            assert door.rect().contains(label.geometry())
+            assert label.heightForWidth(label.width()) <= label.height()

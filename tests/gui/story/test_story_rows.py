@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.story import code_row
+from occ_gui.story import code_row, stripes_row
 from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_values import in_words
 from occ_gui.story.story_row import StoryRow
@@ -410,3 +410,30 @@ def test_more_bits_than_were_sent_have_their_place_in_the_row(
     rows.code._list_bits(painter, place, many)
     assert len(cells) == 400
     assert all(place.contains(cell) for cell in cells)
+
+
+def test_before_any_reading_the_profile_is_empty(qtbot: QtBot) -> None:
+    rows, painter = StoryRows(), Mock()
+    qtbot.addWidget(rows)
+    rows.profile.draw(painter, QRectF(100.0, 0.0, 700.0, 100.0))
+    assert painter.mock_calls == []
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.0])
+def test_the_stripes_have_the_screens_own_pixels(
+    rows: StoryRows, monkeypatch: pytest.MonkeyPatch, ratio: float
+) -> None:
+    asked: list[tuple[int, int]] = []
+    resampled = stripes_row.resampled
+
+    def noting(part: Grey, edges: Any, height: int) -> Any:
+        asked.append((len(edges) - 1, height))
+        return resampled(part, edges, height)
+
+    monkeypatch.setattr(stripes_row, "resampled", noting)
+    monkeypatch.setattr(rows.stripes, "devicePixelRatioF", lambda: ratio)
+    area = rows.stripes.plot_area()
+    rows.stripes.draw(Mock(), area)
+    ((width, height),) = asked
+    assert height == round(area.height() * ratio)
+    assert width <= np.ceil(area.width() * ratio) + 1

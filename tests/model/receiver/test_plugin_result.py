@@ -25,3 +25,22 @@ def test_headers_elsewhere_are_refused(headers: object) -> None:
     said = with_headers(headers)
     assert said is not None
     assert said.endswith("which are no places among its chips")
+
+
+@pytest.mark.parametrize(
+    ("code", "bits", "failure", "is_refused"),
+    [
+        (1, [1], None, False),
+        (None, [1], None, True),
+        (1, [], None, True),
+        (None, [], None, True),
+        (None, [], "Nothing was read.", False),
+        (-1, [1], None, True),
+        (0, [0], None, False),
+    ],
+)
+def test_a_result_has_a_code_with_its_bits_or_says_why_not(
+    code: int | None, bits: list[int], failure: str | None, is_refused: bool
+) -> None:
+    result = occ.DecodeResult("own", code=code, bits=np.array(bits, np.uint8), failure=failure)
+    assert (problem_of(result, columns=10) is not None) is is_refused

@@ -65,3 +65,14 @@ def test_drawing_noise_counts_to_the_last_kind_of_noise(monkeypatch: pytest.Monk
     bands = list(exposure._drawn(1, SlowNoise))
     assert bands
     assert all(band.timer.timings == {"sensor-noise": 1.0} for band in bands)
+
+
+def test_stages_that_took_no_time_share_what_has_passed_alike(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    timer, thread = timer_at(monkeypatch, 0.0), timer_at(monkeypatch, 0.0)
+    for stage in ("light", "noise"):
+        thread.stage_ended(stage)
+    monkeypatch.setattr(stage_timer, "perf_counter", lambda: 6.0)
+    timer.parallel_stages_ended([thread])
+    assert timer.timings == {"light": 3.0, "noise": 3.0}

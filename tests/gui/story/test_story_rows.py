@@ -19,6 +19,7 @@ from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story import code_row, stripes_row
 from occ_gui.story.column_axis import GUTTER, Crosshair
+from occ_gui.story.column_means import resampled
 from occ_gui.story.column_values import in_words
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
@@ -424,7 +425,6 @@ def test_the_stripes_have_the_screens_own_pixels(
     rows: StoryRows, monkeypatch: pytest.MonkeyPatch, ratio: float
 ) -> None:
     asked: list[tuple[int, int]] = []
-    resampled = stripes_row.resampled
 
     def noting(part: Grey, edges: Any, height: int) -> Any:
         asked.append((len(edges) - 1, height))

@@ -12,6 +12,7 @@ import pytest
 import occ_model as occ
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.projection import panel_corners
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
@@ -150,3 +151,17 @@ def test_what_is_no_tolerance_or_seed_is_refused(
 ) -> None:
     with pytest.raises(occ.ParameterError, match=words):
         occ.render(scene, **arguments)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("method", ["equalization", "none"])
+def test_the_signal_is_the_mean_of_the_panels_pixels_in_the_receivers_picture(method: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        rows=400, columns=600, iso=3200.0, enhancement=method
+    )
+    frame = occ.render(scene, tolerance=0.0, force={"sensor-noise": True})
+    assert "sensor-noise" in frame.plan.included
+    region = paper_view_of(scene).region
+    rows = slice(region.first_row, region.last_row)
+    columns = slice(region.first_column, region.last_column)
+    means = frame.image[rows, columns].mean(axis=0)
+    np.testing.assert_allclose(frame.signal[columns], means, atol=1e-9)

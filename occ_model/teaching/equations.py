@@ -19,6 +19,11 @@ _ON = (
 
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign
 
+_TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
+
+_DIGITS = 4
+"""Significant digits of a time that follows from others."""
+
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
     """Give the equations that determine a scene's stripes, with its numbers in them.
@@ -31,14 +36,16 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
     Returns
     -------
     tuple of Equation
-        The paper's equations (1) to (3), the band model's lengths, the columns of a chip, and the
-        frequency at which an alternating pattern has no stripes.
+        The paper's equations (1) to (3), the band model's lengths, the columns of a chip, the time
+        in which a picture is read out, and the frequency at which an alternating pattern has no
+        stripes.
     """
     return (
         *_pixel_values(scene),
         _column_value(scene),
         *_band_lengths(scene),
         _chip_columns(scene),
+        _frame_time(scene),
         _null(scene),
     )
 
@@ -162,6 +169,19 @@ def _chip_columns(scene: Scene) -> Equation:
             _shown(scene, "readout_time"),
         ),
         f"{period / readout:.2f} columns",
+    )
+
+
+def _frame_time(scene: Scene) -> Equation:
+    camera = scene.camera
+    columns = Term(f"{camera.columns} columns", ("columns",))
+    return Equation(
+        "frame-time",
+        "readout",
+        "Time to read out a whole picture",
+        (Term("columns", ("columns",)), _TIMES, Term("t<sub>r</sub>", ("readout_time",))),
+        (columns, _TIMES, _shown(scene, "readout_time")),
+        SECOND.format(camera.columns * camera.readout_time, _DIGITS),
     )
 
 

@@ -25,7 +25,8 @@ PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map
 """The panes that a step can show."""
 
 EQUATIONS = (
-    "lit-panel", "dark-panel", "column", "one-state", "transition", "chip-columns", "null",
+    "lit-panel", "dark-panel", "column", "one-state", "transition", "chip-columns",
+    "frame-time", "null",
 )  # fmt: skip
 """The equations that a step can show."""
 

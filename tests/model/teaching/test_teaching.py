@@ -13,6 +13,7 @@ from occ_model.errors import ParameterError
 from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
 from occ_model.teaching.equations import equations
 from occ_model.teaching.exposure_window import exposure_window
 from occ_model.teaching.lessons import EQUATIONS
@@ -43,6 +44,7 @@ def by_meaning(scene: Scene) -> dict[str, Equation]:
         "one state",
         "a transition",
         "of a chip",
+        "whole picture",
         "no str",
     )
     found = equations(scene)
@@ -53,7 +55,7 @@ def by_meaning(scene: Scene) -> dict[str, Equation]:
 @given(scenes)
 def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> None:
     found = by_meaning(scene)
-    assert len(found) == len(equations(scene)) == 7
+    assert len(found) == len(equations(scene)) == 8
     low, high = level_values(scene).tolist()
     assert numbers_in(found["lit panel"].result)[0] == pytest.approx(high, abs=0.051)
     assert numbers_in(found["dark panel"].result)[0] == pytest.approx(low, abs=0.051)
@@ -64,6 +66,9 @@ def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> No
     assert span[0] - 0.06 <= profile.min() <= profile.max() <= span[1] + 0.06
     chip = scene.transmitter.switching_period / scene.camera.readout_time
     assert numbers_in(found["of a chip"].result)[0] == pytest.approx(chip, abs=0.0051)
+    whole = scene.camera.columns * scene.camera.readout_time
+    stated = SECOND.parse(found["whole picture"].result, 1.0)
+    assert stated == pytest.approx(whole, rel=1e-3)
     try:
         lengths = occ.band_lengths(scene)
     except occ.BandModelUndefined:

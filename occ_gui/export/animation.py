@@ -58,7 +58,7 @@ class AnimationExport(QObject):
         self.writer: FileWriter[_Film] = FileWriter(
             _write, "animation", bar, self.tr("The animation was given up.")
         )
-        self.writer.written.connect(preferences.visit)
+        self.writer.written.connect(preferences.visit_export)
 
     def ask(self, name: str) -> None:
         """Let the user choose a file, and write the run of a parameter's slider into it."""
@@ -67,7 +67,7 @@ class AnimationExport(QObject):
             self.tr("MP4 film (*.mp4)"),
             self.tr("Animated PNG (*.png)"),
         )
-        start = Path(self._preferences.folder, f"{name}.gif")
+        start = Path(self._preferences.export_folder, f"{name}.gif")
         chosen, kind = QFileDialog.getSaveFileName(
             self._window, self.tr("Save as animation"), str(start), ";;".join(kinds)
         )

@@ -99,7 +99,7 @@ class ExportController(QObject):
         kept = self._preferences.recall(_ENDING)
         first = kept if kept in kinds else ENDINGS[0]
         chosen, kind = QFileDialog.getSaveFileName(
-            self._window, title, str(Path(self._preferences.folder, f"{name}{first}")),
+            self._window, title, str(Path(self._preferences.export_folder, f"{name}{first}")),
             ";;".join(kinds.values()), kinds[first],
         )  # fmt: skip
         if not chosen:
@@ -118,7 +118,9 @@ class ExportController(QObject):
     def ask_for_folder(self) -> None:
         """Let the user choose the folder that all figures are written to."""
         folder = QFileDialog.getExistingDirectory(
-            self._window, self.tr("Export all figures into a folder"), self._preferences.folder
+            self._window,
+            self.tr("Export all figures into a folder"),
+            self._preferences.export_folder,
         )
         if folder:
             self.export_all(Path(folder))
@@ -177,14 +179,14 @@ class ExportController(QObject):
     def _report(self, done: Exported) -> None:
         job = done.job
         if job.folder is not None:
-            self._preferences.visit(job.folder / "figure")
+            self._preferences.visit_export(job.folder / "figure")
             message = self.tr("Exported {count} files into {folder}.").format(
                 count=len(done.files), folder=one_line(job.folder.name)
             )
             left_out = self.tr("Left out: {what}").format(what=self._left_out)
             self.status_message.emit(f"{message} {left_out}" if self._left_out else message)
         elif job.path is not None:
-            self._preferences.visit(job.path)
+            self._preferences.visit_export(job.path)
             self.status_message.emit(
                 self.tr("Exported {name} into {folder}").format(
                     name=one_line(job.path.name), folder=one_line(str(job.path.absolute().parent))

@@ -8,6 +8,8 @@ MOST_RECENT = 8
 """Most recent files in the list."""
 
 _FILES, _FOLDER = "files/recent", "files/folder"
+_EXPORTS = "files/exports"
+_FOLDERS = (_FOLDER, _EXPORTS)
 _MARGINS, _NO = "view/margins", "no"
 
 _LONGEST = 1_000_000
@@ -34,8 +36,7 @@ class Preferences(QObject):
         self._settings = settings
         self._unstored: dict[str, str | list[str]] = {}
         self._files = _paths(self._value(_FILES))
-        folders = _paths(self._value(_FOLDER))
-        self._folder = folders[0] if folders else None
+        self._folders = {key: next(iter(_paths(self._value(key))), None) for key in _FOLDERS}
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -44,12 +45,21 @@ class Preferences(QObject):
 
     @property
     def folder(self) -> str:
-        """The first folder of a dialog; empty for that of the system."""
+        """The first folder of a dialog that opens files; empty for that of the system."""
+        return self._there(_FOLDER)
+
+    @property
+    def export_folder(self) -> str:
+        """The first folder of a dialog that writes figures: at first that of the opened files."""
+        return self._there(_EXPORTS) or self.folder
+
+    def _there(self, key: str) -> str:
+        folder = self._folders[key]
         try:
-            is_there = self._folder is not None and self._folder.is_dir()
+            is_there = folder is not None and folder.is_dir()
         except OSError:  # such as a name that is too long for the file system
             is_there = False
-        return str(self._folder) if is_there else ""
+        return str(folder) if is_there else ""
 
     @property
     def slider_strips(self) -> bool:
@@ -77,8 +87,15 @@ class Preferences(QObject):
 
     def visit(self, path: Path) -> None:
         """Store the folder of a file."""
-        self._folder = path.absolute().parent
-        self._write(_FOLDER, text_of(self._folder))
+        self._visit(_FOLDER, path)
+
+    def visit_export(self, path: Path) -> None:
+        """Store the folder of a figure that was written."""
+        self._visit(_EXPORTS, path)
+
+    def _visit(self, key: str, path: Path) -> None:
+        folder = self._folders[key] = path.absolute().parent
+        self._write(key, text_of(folder))
 
     def _keep(self, files: tuple[Path, ...]) -> None:
         if files != self._files:

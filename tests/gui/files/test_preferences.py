@@ -96,3 +96,19 @@ def test_a_file_that_holds_no_settings_is_as_good_as_none(file: Path, tmp_path: 
 def test_without_settings_nothing_is_kept(tmp_path: Path) -> None:
     Preferences().add(tmp_path / "a")
     assert Preferences().files == ()
+
+
+def test_exports_have_a_folder_of_their_own(file: Path, tmp_path: Path) -> None:
+    photos, figures = tmp_path / "photos", tmp_path / "figures"
+    for folder in (photos, figures):
+        folder.mkdir()
+    kept = settings(file)
+    preferences = Preferences(kept)
+    preferences.add(photos / "a.png")
+    assert preferences.export_folder == str(photos)  # nothing was exported yet
+    preferences.visit_export(figures / "picture.png")
+    assert (preferences.folder, preferences.export_folder) == (str(photos), str(figures))
+    preferences.add(photos / "b.png")
+    kept.sync()
+    again = Preferences(settings(file))
+    assert (again.folder, again.export_folder) == (str(photos), str(figures))

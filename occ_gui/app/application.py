@@ -200,6 +200,10 @@ class Application(QObject):
             "save_picture": self.files.ask_to_save_picture,
             "delete_preset": self.presets.ask_to_delete,
             "match": self._match,
+            "match_all": self.photo_wiring.match_all,
+            "find_lamps": self.photo_wiring.lamps.find,
+            "region_by_hand": self.photo.lamps.by_hand.toggle,
+            "whole_photo": self.photo_wiring.lamps.match_whole,
             "apply_match": self.photo_wiring.matching.apply,
             "save_match": self.presets.ask_to_save_match,
             "use_settings": self.photo_wiring.matching.use_notes,
@@ -208,6 +212,8 @@ class Application(QObject):
         }.items():
             self.window.actions_by_name[name].triggered.connect(slot)
         menus = self.window.menus
+        self.photo.many.files_shown.connect(self._show_listed)
+        self._show_listed()
         menus.scan_axes.triggered.connect(lambda action: self.photos.scan_along(action.data()))
         self.photos.reading_changed.connect(self._show_scan_axis)
         menus.overlays.triggered.connect(lambda action: self.image.set_mode(action.data()))
@@ -251,6 +257,10 @@ class Application(QObject):
     def _show_several(self, paths: list[Path]) -> None:
         self.photo_wiring.many.show_files(paths)
         self.window.bring_to_front("photo")
+
+    def _show_listed(self) -> None:
+        paths = self.photo.many.rows.paths
+        self.window.actions_by_name["match_all"].setEnabled(bool(paths))
 
     def show_mode(self, mode: str) -> None:
         """Show the photo beside the simulated picture or over it, by one of MODES."""

@@ -147,6 +147,7 @@ class LampForm(QWidget):
                 what=what, left=region.first_column, right=region.last_column - 1,
                 top=region.first_row, bottom=region.last_row - 1,
             )
+            + (self.tr(" Drag its corners or its middle on the photo.") if lamp is None else "")
         )  # fmt: skip
 
     def show_by_hand(self, by_hand: bool) -> None:

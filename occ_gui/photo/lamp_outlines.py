@@ -13,6 +13,9 @@ from occ_model.results import Lamp, Region
 _THIN, _THICK = 2, 4
 _ABOVE = 20
 
+_HANDLE = 9
+"""Half the size of a corner's handle in pixels: large enough to be hit."""
+
 
 class LampOutlines(QObject):
     """Draws on the view of a photo, whose first pixel's centre is at (0, 0).
@@ -36,8 +39,10 @@ class LampOutlines(QObject):
         self._lamps: Sequence[Lamp] = ()
         self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
         self._updating = False
-        self.rectangle = pg.RectROI((0, 0), (1, 1), pen=pg.mkPen(REGION, width=_THIN))
-        self.rectangle.addScaleHandle((0, 0), (1, 1))
+        self.rectangle = pg.ROI((0, 0), (1, 1), pen=pg.mkPen(REGION, width=_THIN))
+        self.rectangle.handleSize = _HANDLE
+        for corner in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            self.rectangle.addScaleHandle(corner, (1 - corner[0], 1 - corner[1]))
         self.rectangle.setZValue(_ABOVE + 1)
         self.rectangle.hide()
         self.rectangle.sigRegionChangeFinished.connect(self._follow)

@@ -91,13 +91,15 @@ class PhotoView(QWidget):
         page = QWidget()
         text = QLabel(
             self.tr(
-                "No photo is open. Drop one on the window, or open one, to lay it over the "
-                "simulation and find the settings that explain its stripes."
+                "No photo is open. Drop one or several on the window, or open them, to lay one "
+                "over the simulation and find the settings that explain its stripes."
             )
         )
         text.setWordWrap(True)
-        button = QPushButton(self.tr("&Open photo…"))
-        button.setToolTip(self.tr("Choose a photo of a rolling-shutter camera."))
+        button = QPushButton(self.tr("&Open photos…"))
+        button.setToolTip(
+            self.tr("Choose a photo of a rolling-shutter camera, or several together.")
+        )
         button.clicked.connect(self.open_asked)
         layout = QVBoxLayout(page)
         layout.addWidget(text)

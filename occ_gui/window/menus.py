@@ -15,7 +15,9 @@ from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 
-_WITH_PHOTO = ("close_photo", "match", "use_settings")
+_WITH_PHOTO = (
+    "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
+)  # fmt: skip
 """Entries that are enabled while a photo is open."""
 
 _WITH_MATCH = ("apply_match", "save_match")
@@ -74,7 +76,7 @@ class Menus(QObject):
     def _make_file_menu(self, window: QMainWindow) -> None:
         keys = QKeySequence.StandardKey
         menu = self._top("file", self.tr("&File"))
-        self._add(menu, "open_photo", self.tr("Open &photo…"), keys.Open)
+        self._add(menu, "open_photo", self.tr("Open &photos…"), keys.Open)
         self.recent = menu.addMenu(self.tr("Open &recent"))
         self.samples = menu.addMenu(self.tr("Open sa&mple photo"))
         for submenu in (self.recent, self.samples):
@@ -143,6 +145,10 @@ class Menus(QObject):
     def _make_photo_menu(self) -> None:
         menu = self._top("photo", self.tr("&Photo"))
         self._add(menu, "match", self.tr("&Match photo"), self.tr("Ctrl+M"))
+        self._add(menu, "match_all", self.tr("Ma&tch all photos"))
+        self._add(menu, "find_lamps", self.tr("&Find lamps"))
+        self._add(menu, "region_by_hand", self.tr("&Region by hand"))
+        self._add(menu, "whole_photo", self.tr("&Whole photo"))
         self._add(menu, "apply_match", self.tr("&Apply to the scene"), self.tr("Ctrl+Shift+M"))
         self._add(menu, "save_match", self.tr("Save match as &preset…"))
         self._add(menu, "delete_preset", self.tr("Delete p&reset…"))

@@ -120,6 +120,7 @@ def test_photos_dropped_together_become_a_table_and_the_first_opens(
     application.window.dropped.emit([photo_file, taken])
     user.wait_until_idle()
     assert application.photo.many.rows.paths == (photo_file, taken)
+    assert application.window.actions_by_name["match_all"].isEnabled()
     assert application.window.windowTitle().startswith("stripes.png")
 
 

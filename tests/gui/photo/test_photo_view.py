@@ -18,7 +18,7 @@ def test_without_a_photo_all_a_user_can_press_opens_one(view: PhotoView, qtbot: 
     assert not view.form.isVisible()
     visible = [b for b in view.findChildren(type(view.form.start)) if b.isVisible()]
     able = [button for button in visible if button.isEnabled()]
-    assert {button.text() for button in able} == {"1 Open", "&Open photo…"}
+    assert {button.text() for button in able} == {"1 Open", "&Open photos…"}
     for button in able:
         with qtbot.waitSignal(view.open_asked, timeout=1000):
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)

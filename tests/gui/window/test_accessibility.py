@@ -81,7 +81,7 @@ def test_the_parts_of_the_first_screen_are_found_by_name(
     user.wait_until_idle()
     names = {face.text(NAME) for face in faces_in(face_of(application.window))}
     wanted = {
-        "Explore", "Photo", "Limits", "Effects", "Lessons", "Open photo", "Undo", "Export",
+        "Explore", "Photo", "Limits", "Effects", "Lessons", "Open photos", "Undo", "Export",
         "Theme", "Measure", "Verdict on the code", "Light", "Picture", "Profile", "Code",
         "Exposure time", "Distance", "Play: Exposure time", "Preset", "Code as bits",
     }  # fmt: skip

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from occ_model.camera.projection import panel_corners
+from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
 from occ_model.files.resources import resource_path
 from occ_model.results.match import Match
@@ -87,7 +89,9 @@ def _bit_rate(scene: Scene, _photo: str | Match = "") -> float:
 
 def _share_seen(scene: Scene, _photo: str | Match = "") -> float:
     camera = scene.camera
-    return min(1.0, FRAME_RATE * camera.columns * camera.readout_time)
+    panel = region_of(panel_corners(scene), camera.rows, camera.columns)
+    columns = 0 if panel is None else panel.columns
+    return min(1.0, FRAME_RATE * columns * camera.readout_time)
 
 
 QUANTITIES: dict[str, LessonQuantity] = {
@@ -152,7 +156,7 @@ QUANTITIES: dict[str, LessonQuantity] = {
         _bit_rate,
     ),
     "share-seen": LessonQuantity(
-        f"share of the time that a film of {FRAME_RATE:g} frames a second sees",
+        f"share of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
         _PERCENT,
         "%",
         _share_seen,

@@ -12,9 +12,10 @@ from occ_model.results.lessons import CheckedAnswer, Lesson
 
 
 class EndPage(QWidget):
-    """The answers of a lesson that is done, and a button for the report."""
+    """The answers of a lesson that is done, with buttons for the next one and the report."""
 
     report_asked = Signal()
+    next_asked = Signal()
     list_asked = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -27,6 +28,8 @@ class EndPage(QWidget):
         self.all = button(
             self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")
         )
+        self.next = button("", self.tr("Begin the lesson that follows in the list."))
+        self.next.clicked.connect(self.next_asked)
         self.report.clicked.connect(self.report_asked)
         self.all.clicked.connect(self.list_asked)
         content = QWidget()
@@ -39,15 +42,34 @@ class EndPage(QWidget):
         row = QHBoxLayout()
         row.setContentsMargins(8, 0, 8, 4)
         row.setSpacing(8)
-        row.addWidget(self.all, 1)
+        # Where the button was that ended the lesson stands one that a second click may press.
         row.addWidget(self.report, 1)
+        row.addWidget(self.all, 1)
+        above = QHBoxLayout()
+        above.setContentsMargins(8, 0, 8, 4)
+        above.addWidget(self.next)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(ScrollPane(content, LEAST), 1)
+        layout.addLayout(above)
         layout.addLayout(row)
 
-    def show_answers(self, lesson: Lesson, answers: Sequence[CheckedAnswer | None]) -> None:
-        """Show the answers to the steps of a lesson; None where there is none."""
+    def show_answers(
+        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
+    ) -> None:
+        """Show the answers to the steps of a lesson, None where there is none, and what follows.
+
+        Parameters
+        ----------
+        lesson
+            The lesson that is done.
+        answers
+            The answers to its steps.
+        following
+            The title of the lesson that follows in the list; empty after the last one.
+        """
+        self.next.setText(self.tr("Next lesson: {title}").format(title=following))
+        self.next.setVisible(bool(following))
         self.title.setText(self.tr("Done: {title}").format(title=lesson.title))
         lines = []
         for place, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):

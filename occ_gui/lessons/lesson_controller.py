@@ -92,6 +92,7 @@ class LessonController(QObject):
         pane.step.answer_given.connect(self._check)
         pane.step.action_asked.connect(self._ask_action)
         pane.end.report_asked.connect(self._ask_report)
+        pane.end.next_asked.connect(self._go_to_following)
 
     def use_match(self, match: Callable[[], Match | None]) -> None:
         """Compare answers about a photo with the match that this function gives."""
@@ -141,7 +142,23 @@ class LessonController(QObject):
         self.control_wanted.emit("")
         self.restore_user()
         given = [each.answer for each in self._answers.all_of(self._last)]
-        self._pane.show_end(self._last, given)
+        following = self._following()
+        self._pane.show_end(self._last, given, "" if following is None else following.title)
+
+    def _following(self) -> Lesson | None:
+        """Return the lesson that follows in the list on the one that is done, None after the last.
+
+        A file that has been removed or renamed meanwhile has none after it.
+        """
+        if self._last is not None and self._last in self._all.lessons:
+            rest = self._all.lessons[self._all.lessons.index(self._last) + 1 :]
+            return next(iter(rest), None)
+        return None
+
+    def _go_to_following(self) -> None:
+        following = self._following()
+        if following is not None:
+            self.choose(following.name)
 
     def leave(self) -> None:
         """End the lesson and return to the list; the step reached is kept."""

@@ -48,9 +48,11 @@ class LessonView(QWidget):
         self.step.show_step(lesson, place, before)
         self._pages.setCurrentIndex(1)
 
-    def show_end(self, lesson: Lesson, answers: Sequence[CheckedAnswer | None]) -> None:
-        """Show that a lesson is done."""
-        self.end.show_answers(lesson, answers)
+    def show_end(
+        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
+    ) -> None:
+        """Show that a lesson is done, and the title of the one that follows."""
+        self.end.show_answers(lesson, answers, following)
         self._pages.setCurrentIndex(2)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from gui.user import User
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 from pytestqt.qtbot import QtBot
@@ -148,6 +148,30 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     user.wait_until_idle()
     assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
     assert user.message == "Saved report.pdf"
+
+
+def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
+    guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    guide.list.choices[0].click()
+    for _ in range(2):
+        guide.step.next.click()
+    done = guide.step.next
+    spot = done.mapTo(guide, done.rect().center())
+    qtbot.mouseClick(done, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(guide.end.isVisible)
+    report = guide.end.report
+    assert not QRect(report.mapTo(guide, QPoint()), report.size()).contains(spot)
+    assert guide.end.next.text() == "Next lesson: Past the shutter speed"
+    guide.end.next.click()
+    assert guide.step.place.text().startswith("Past the shutter speed, step 1")
+    guide.step.all.click()
+    guide.list.choices[-1].click()
+    while guide.step.next.text() != "Done":
+        guide.step.next.click()
+    guide.step.next.click()
+    assert not guide.end.next.isVisible()
+    user.wait_until_idle()
 
 
 def test_a_report_that_is_not_wanted_writes_nothing(

@@ -22,6 +22,12 @@ class Found:
     readout: float = np.inf
     exposure: float = np.inf
     deviations: tuple[float, ...] = ()
+    doubts: tuple[str, ...] = ()
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether there is a match without any doubt."""
+        return not self.failure and not self.doubts
 
 
 def round_trip(seed: int) -> Found:
@@ -47,6 +53,7 @@ def round_trip(seed: int) -> Found:
         readout=abs(off["readout_time"]) / camera.readout_time,
         exposure=abs(off["exposure_time"]) / camera.exposure_time,
         deviations=tuple(abs(off[name]) / match.uncertainties[name] for name in off),
+        doubts=match.reasons,
     )
 
 

@@ -44,6 +44,13 @@ def report(found: list[Found]) -> list[str]:
         line("exposure of more than half a chip", [one.exposure for one in long], 0.05),
         line("exposure of less", [one.exposure for one in short], 0.05),
     ]
+    sure = [one.readout for one in found if one.is_sure]
+    lines.append(f"sure: {len(sure)} of {len(found)} ({100.0 * len(sure) / len(found):.1f} %)")
+    if sure:
+        lines.append(line("readout time of what is sure", sure, 0.002))
+    lines += [
+        f"  doubtful, photo {one.seed}: {' '.join(one.doubts)}" for one in found if one.doubts
+    ]
     failures = [one for one in found if one.failure]
     lines.append(f"not explained: {len(failures)}")
     lines += [f"  photo {one.seed}: {one.failure}" for one in failures]

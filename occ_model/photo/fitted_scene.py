@@ -26,8 +26,9 @@ from occ_model.transmitter.scheme import scheme_of
 ESTIMATES = ("readout_time", "switching_frequency")
 """The parameters of which one is estimated and the other one is known."""
 
-_TOO_FAR = 3.0
-"""Standard deviations from which two exposure times contradict each other."""
+_TOO_FAR = 2.0
+"""Standard deviations from which two exposure times contradict each other: that far off are one of
+twenty."""
 
 _NOMINAL = 0.012
 """Relative standard deviation of a noted exposure time: 1/500 stands for 1/512 s."""

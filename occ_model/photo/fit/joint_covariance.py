@@ -18,7 +18,7 @@ def covariance_of(
 
     Of two estimates the larger one is taken: the inverse of the information, and the sandwich with
     the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and West,
-    Econometrica 55:703, 1987), times n/(n-1) for n blocks. For the step it is the sandwich and the
+    Econometrica 55:703, 1987), times n/(n-1) for n blocks. For the step the information is that of
     noise alone, as if every column counted: what repeats with the stripes makes the edges wider or
     narrower, and leaves their distances as they are. Added is what one standard deviation of the
     blur's tails changes (a parameter that is considered, and not estimated: Jazwinski, Stochastic
@@ -45,6 +45,6 @@ def covariance_of(
     prior = slopes[data:].T @ slopes[data:]
     sandwich = inverse @ (scores.T @ scores + prior) @ inverse * (blocks / max(1, blocks - 1))
     ratio = np.diag(sandwich) / np.diag(inverse)
-    ratio = np.append(ratio[0] + 1.0 / TRUSTED, np.maximum(ratio[1:], 1.0))
+    ratio = np.maximum(ratio, np.append(1.0 / TRUSTED, np.ones(len(ratio) - 1)))
     moved = inverse @ (slopes.T @ tails)
     return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)) + np.outer(moved, moved))

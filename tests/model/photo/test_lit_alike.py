@@ -36,7 +36,7 @@ def fit_of(exposure: float, misfit: float, deviation: float = 0.01) -> JointFit:
 
 @pytest.mark.parametrize("misfit", [200.0, 400.0])
 def test_explanations_that_fit_nearly_alike_are_all_within_the_stated_error(misfit: float) -> None:
-    """Misfits that differ by less than a tenth do not tell which blur it is."""
+    """Misfits that differ by a twentieth do not tell which blur it is."""
     both = averaged([fit_of(0.5, misfit), fit_of(0.6, 1.05 * misfit)])
     assert both.exposure == 0.5
     assert 0.03 < both.deviation < 0.1

@@ -104,6 +104,7 @@ class Desktop(QObject):
             QUICK_DECODERS,
             shown_decoder=parts.decode.decoder,
         )
+        self.figures.describe_photo_by(parts.photo_wiring.verdict.about)
         self.figures.add_map(lambda: parts.detection_map.map.full, parts.frame_rate)
         self.figures.add_bench(lambda: parts.bench.full, parts.frame_rate)
         window.menus.add_figures(self.figures.titles)

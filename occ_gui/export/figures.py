@@ -142,6 +142,7 @@ class Figures(QObject):
         self._comparison, self._overlay = comparison, overlay
         self._profile, self._accuracy = profile, accuracy
         self._photo: Photo | None = None
+        self._about_photo: Callable[[], str] = str
         self._whose = PICTURES[0]
         self._sources: dict[str, Source] = {
             "picture": self._of_picture,
@@ -218,6 +219,10 @@ class Figures(QObject):
         """Draw the picture of the camera or of the receiver from now on."""
         self._whose = whose
 
+    def describe_photo_by(self, about: Callable[[], str]) -> None:
+        """Write under pictures and profiles of a photo what this function tells of it."""
+        self._about_photo = about
+
     def show_photo(self, photo: Photo | None) -> None:
         """Draw this photo beside the picture from now on, or none."""
         self._photo = photo
@@ -234,6 +239,7 @@ class Figures(QObject):
         opacities = {"blend": (over.opacity, None), "split": (1.0, over.split_row)}
         laid, times = opacities.get(over.mode), over.times
         compared = photo if over.mode == "difference" else None
+        about = "" if photo is None else self._about_photo()
 
         def draw() -> "Drawing":
             from occ_model.figures.overlay import Difference, PhotoLayer
@@ -253,12 +259,13 @@ class Figures(QObject):
                 levels, grid = found
                 edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
                 layer = Difference(levels, edges, times)
-            return picture_drawing(frame, region, photo, whose, layer)
+            return picture_drawing(frame, region, photo, whose, layer, about)
 
         return self.request(frame.scene, draw)
 
     def _of_profile(self, shown: Snapshot) -> FigureRequest:
         comparison = self._comparison()
+        about = "" if comparison is None else self._about_photo()
         columns = slice(*self._profile.columns_in_view())
         enhanced = self._profile.is_enhanced
         band = shown.enhanced_band if enhanced else shown.band
@@ -269,7 +276,7 @@ class Figures(QObject):
 
             return profile_drawing(
                 shown.frame, band, shown.band_undefined, comparison, columns,
-                enhanced=enhanced, decoded=decoded,
+                enhanced=enhanced, decoded=decoded, about=about,
             )  # fmt: skip
 
         return self.request(shown.frame.scene, draw)

@@ -8,6 +8,7 @@ from occ_gui.photo.match_values import condition_of, known_of, with_uncertainty
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
+from occ_model.errors import one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, PhotoRow
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
@@ -122,6 +123,17 @@ class PhotoVerdictBar(StateBar):
             reason += self.tr(" And {count} more.").format(count=more)
         title = self.tr("Photo: the match is doubtful")
         return State.DOUBTFUL, (title, f"{reason} {found}", reason)
+
+    def about(self) -> str:
+        """Return the photo's name, and what its match is worth and has found, for a figure."""
+        if self._photo is None:
+            return ""
+        name = self.tr("photo {name}").format(name=one_line(self._photo.path.name))
+        if self._match is None or self._outdated or self._why_not:
+            return self.tr("{photo}, not matched").format(photo=name)
+        return self.tr("{photo}, the match is {verdict}. {found}").format(
+            photo=name, verdict=self._match.verdict, found=self._found(self._match)
+        )
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return what the table has found, whose numbers stand in its row."""

@@ -36,6 +36,7 @@ class PhotoWiring(QObject):
         super().__init__()
         self._image = image
         self._pane = pane
+        self.verdict = pane.verdict
         self.placements = PlacementStore()
         self.comparison = ComparisonController(self.placements, profile)
         self.matching = MatchController(scenes, pane)

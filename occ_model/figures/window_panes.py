@@ -42,13 +42,30 @@ def caption(scene: Scene) -> str:
     return ", ".join(parts)
 
 
-def write_caption(figure: Figure, scene: Scene) -> None:
-    """Write the scene under a figure, in as many lines as its width needs."""
+def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
+    """Write the scene under a figure, in as many lines as its width needs, and what is told of it.
+
+    Parameters
+    ----------
+    figure
+        The figure.
+    scene
+        The scene.
+    about
+        A sentence on the photo in it; empty without one.
+    """
     most = int(figure.get_figwidth() / _WIDTH_OF_A_LETTER)
     # Spaces that may not break, so that lines end after a comma only.
     parts = [part.replace(" ", "\xa0") for part in caption(scene).split(", ")]
     text = fill(", ".join(parts), most).replace("\xa0", " ")
-    figure.supxlabel(text, fontsize=_CAPTION_SIZE)
+    if about:
+        text += f"\n{fill(about, most)}"
+    # A file's name may hold what would be read as a formula.
+    figure.supxlabel(text, fontsize=_CAPTION_SIZE, parse_math=False)
+
+
+def _told(scene: Scene, about: str) -> str:
+    return f"{caption(scene)}; {about}" if about else caption(scene)
 
 
 def picture_drawing(
@@ -57,6 +74,7 @@ def picture_drawing(
     photo: ByteArray | None = None,
     whose: str = PICTURES[0],
     layer: PhotoLayer | Difference | None = None,
+    about: str = "",
 ) -> Drawing:
     """Draw a simulated picture, with the decoder's region and a photo beside it or over it.
 
@@ -74,6 +92,8 @@ def picture_drawing(
         Whose picture is drawn, the ``"camera"``'s or the ``"receiver"``'s.
     layer
         How the photo lies over the picture, or their difference; None for a photo beside it.
+    about
+        What is known of the photo: its name, and what its match has found.
     """
     image, name = frame.picture(whose), frame.picture_title(whose)
     cells, size = _cells(image)
@@ -101,14 +121,14 @@ def picture_drawing(
             corner = (region.first_column - 0.5, region.first_row - 0.5)
             style: dict[str, Any] = {"fill": False, "linewidth": 1.0, "color": colours.REGION}
             axes[0].add_patch(Rectangle(corner, region.columns, region.rows, **style))
-        write_caption(figure, frame.scene)
+        write_caption(figure, frame.scene, about)
         return figure
 
     if difference is not None:
-        title = f"{name}; its difference from the photo in levels: {caption(frame.scene)}"
+        title = f"{name}; its difference from the photo in levels: {_told(frame.scene, about)}"
         return _of_cells(title, draw, difference.levels, *difference.centres())
     down, across = (size * (np.arange(float(count)) + 0.5) - 0.5 for count in cells.shape)
-    return _of_cells(f"{name}: {caption(frame.scene)}", draw, cells, down, across)
+    return _of_cells(f"{name}: {_told(frame.scene, about)}", draw, cells, down, across)
 
 
 def _of_cells(
@@ -151,7 +171,7 @@ def _label(ax: Axes) -> None:
     ax.tick_params(labelsize=7)
 
 
-def profile_drawing(
+def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
     frame: Frame,
     band: FloatArray | None,
     undefined: str = "",
@@ -160,6 +180,7 @@ def profile_drawing(
     *,
     enhanced: bool = False,
     decoded: DecodeResult | None = None,
+    about: str = "",
 ) -> Drawing:
     """Draw the column profiles, and the photo's residual under them.
 
@@ -180,6 +201,8 @@ def profile_drawing(
         then are so already.
     decoded
         The result of a decoder whose threshold is drawn, None for none.
+    about
+        What is known of the photo: its name, and what its match has found.
     """
     simulated = frame.signal if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {
@@ -192,7 +215,7 @@ def profile_drawing(
 
     def draw() -> Figure:
         figure = _profile_figure(shown, undefined, comparison, columns, enhanced, threshold)
-        write_caption(figure, frame.scene)
+        write_caption(figure, frame.scene, about)
         return figure
 
     def rows() -> Iterable[tuple[object, ...]]:
@@ -201,7 +224,7 @@ def profile_drawing(
 
     header = ("column", *(f"{name} (grey level)" for name in shown))
     what = "Column profile after the receiver's enhancement" if enhanced else "Column profile"
-    return Drawing("profile", f"{what}: {caption(frame.scene)}", draw, header, rows)
+    return Drawing("profile", f"{what}: {_told(frame.scene, about)}", draw, header, rows)
 
 
 def _threshold_among(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:

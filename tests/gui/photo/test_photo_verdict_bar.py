@@ -165,3 +165,16 @@ def test_the_verdict_on_the_simulation_is_a_chip_beside_it(bar: PhotoVerdictBar)
     (chip,) = bar.chips.chips
     assert (chip.state, chip.text) == (State.BAD, "Simulation: no code: no header found")
     assert bar.state is State.NEUTRAL
+
+
+def test_a_figure_is_told_the_photo_and_what_its_match_is_worth(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    assert bar.about() == ""
+    view.show_photo(photo)
+    assert bar.about() == "photo stripes.png, not matched"
+    view.show_match(match)
+    assert bar.about().startswith("photo stripes.png, the match is sure. If f = 2 kHz: readout")
+    assert "exposure time 62.50 ± 0.21 µs" in bar.about()
+    view.show_match_outdated("of another part of the photo: match again", usable=False)
+    assert bar.about() == "photo stripes.png, not matched"

@@ -8,7 +8,8 @@ import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.figures.drawing import Drawing
 from occ_model.figures.overlay import Difference, PhotoLayer
-from occ_model.figures.window_panes import picture_drawing
+from occ_model.figures.window_panes import picture_drawing, profile_drawing
+from occ_model.results import Comparison
 
 SCENE = occ.load_preset("phone-68us").replace(rows=300, columns=400, panel_height=0.01)
 FRAME = occ.render(SCENE, tolerance=np.inf)
@@ -71,3 +72,16 @@ def test_a_difference_is_printed_times_its_gain_where_both_lie_and_listed_as_it_
     assert "difference from the photo × 4" in axes.get_title()  # noqa: RUF001
     assert drawing.header == ("row", "column 24.5", "column 34.5")
     assert list(drawing.rows()) == [(14.5, 0.0, 20.0), (24.5, 40.0, 100.0)]
+
+
+def test_what_is_known_of_the_photo_stands_under_it_and_in_the_table() -> None:
+    about = "photo of $10.png, the match is sure. If f = 2 kHz: readout time 7.00 ± 0.02 µs a line."
+    profile = Comparison(0, FRAME.profile, FRAME.profile, 1.0)
+    drawings = (
+        picture_drawing(FRAME, None, PHOTO, about=about),
+        profile_drawing(FRAME, None, comparison=profile, about=about),
+    )
+    for drawing in drawings:
+        written = drawing.draw()._supxlabel.get_text()  # type: ignore[attr-defined]
+        assert about in " ".join(written.split())
+        assert about in drawing.title

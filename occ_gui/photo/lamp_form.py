@@ -133,7 +133,7 @@ class LampForm(QWidget):
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
         self.whole.setEnabled(region is not None)
         if region is None:
-            self.place.setText(self.tr("The whole photo will be matched."))
+            self.place.setText(self.tr("The whole photo will be searched for stripes."))
             return
         what = (
             self.tr("A region by hand") if lamp is None

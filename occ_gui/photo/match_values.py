@@ -98,6 +98,7 @@ class MatchValues(QWidget):
             "periods": self.tr("Periods in view"),
             "exposed": self.tr("Exposure in chips"),
             "correlation": self.tr("Correlation of fit"),
+            "region": self.tr("Matched"),
             "saturated": self.tr("Saturated"),
             "duty": self.tr("Duty"),
             "pattern": self.tr("Pattern"),
@@ -164,7 +165,12 @@ class MatchValues(QWidget):
 
     def _quality(self, match: Match) -> dict[str, str]:
         how = self.tr("read") if match.pattern_was_read else self.tr("given")
+        region = match.region
         return {
+            "region": self.tr(
+                "columns {first} to {last}, between the first edge of a stripe and the last; the "
+                "applied scene is dark outside them"
+            ).format(first=region.first_column, last=region.last_column - 1),
             "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
                 columns=match.columns_per_chip, chips=len(match.pattern)
             ),

@@ -79,6 +79,8 @@ QAbstractSpinBox::up-arrow { image: url("{icons}/up.svg"); width: 10px; height: 
 QAbstractSpinBox::down-arrow { image: url("{icons}/down.svg"); width: 10px; height: 10px; }
 QComboBox::drop-down { border: none; width: 20px; }
 QComboBox::down-arrow { image: url("{icons}/down.svg"); width: 12px; height: 12px; }
+QComboBox { combobox-popup: 0; }
+QComboBox QAbstractItemView::item { min-height: 20px; padding: 0px 4px; }
 QAbstractItemView QComboBox { padding: 0px 4px; min-height: 14px; border-radius: 2px; }
 
 QCheckBox { spacing: 8px; }

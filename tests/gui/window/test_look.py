@@ -5,7 +5,14 @@ import re
 import pytest
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtGui import QFont, QImage, QPainter, QPalette
-from PySide6.QtWidgets import QPushButton, QStyle, QStyleOptionButton
+from PySide6.QtWidgets import (
+    QApplication,
+    QComboBox,
+    QMainWindow,
+    QPushButton,
+    QStyle,
+    QStyleOptionButton,
+)
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -86,6 +93,26 @@ def test_a_button_can_be_read_in_every_state(
     painter.end()
     text = ROLE.HighlightedText if checked else ROLE.ButtonText
     assert contrast(palette.color(text), image.pixelColor(40, 12)) >= 4.5
+
+
+@pytest.mark.qt_log_ignore("This plugin does not support")
+@pytest.mark.parametrize("count", [2, 4])
+def test_a_list_shows_all_its_entries(qtbot: QtBot, count: int) -> None:
+    window = QMainWindow()
+    qtbot.addWidget(window)
+    window.setStyleSheet(style_sheet(palette_of("light")))
+    box = QComboBox()
+    box.addItems([f"Decoder: number {place}" for place in range(count)])
+    window.setCentralWidget(box)
+    window.show()
+    QApplication.processEvents()
+    box.showPopup()
+    QApplication.processEvents()
+    view = box.view()
+    last = view.visualRect(box.model().index(count - 1, 0))
+    assert last.height() >= 20
+    assert view.viewport().rect().bottom() >= last.bottom()
+    box.hidePopup()
 
 
 def test_plots_are_white_or_nearly_black() -> None:

@@ -50,8 +50,8 @@ class LampForm(QWidget):
         self.by_hand.setCheckable(True)
         self.by_hand.setToolTip(
             self.tr(
-                "Match only a rectangle: drag its middle on the photo to move it, and the diamonds "
-                "at its corners to make it larger or smaller."
+                "Match only a rectangle: drag on the photo beside it to draw another one, its "
+                "middle to move it, and its corners to make it larger or smaller."
             )
         )
         self.by_hand.toggled.connect(self.by_hand_chosen)
@@ -147,7 +147,7 @@ class LampForm(QWidget):
                 what=what, left=region.first_column, right=region.last_column - 1,
                 top=region.first_row, bottom=region.last_row - 1,
             )
-            + (self.tr(" Drag its corners or its middle on the photo.") if lamp is None else "")
+            + ("" if lamp is not None else self.tr(" Drag on the photo to draw another one."))
         )  # fmt: skip
 
     def show_by_hand(self, by_hand: bool) -> None:

@@ -4,6 +4,7 @@ import weakref
 from collections.abc import Sequence
 
 import pyqtgraph as pg
+from pyqtgraph.GraphicsScene.mouseEvents import MouseDragEvent
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPen, QPolygonF
 
@@ -13,8 +14,34 @@ from occ_model.results import Lamp, Region
 _THIN, _THICK = 2, 4
 _ABOVE = 20
 
+_FAR = 1e6
+"""Half the side of the area for drawing, in pixels."""
+
 _HANDLE = 9
 """Half the size of a corner's handle in pixels: large enough to be hit."""
+
+
+class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
+    """Takes drags of the left button anywhere on a photo: each draws a rectangle."""
+
+    dragged = Signal(object, bool)
+    """The rectangle from where the button was pressed, and whether the drag has ended."""
+
+    def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
+        """Return an area larger than any photo."""
+        return QRectF(-_FAR, -_FAR, 2.0 * _FAR, 2.0 * _FAR)
+
+    def paint(self, *_arguments: object) -> None:
+        """Draw nothing."""
+
+    def mouseDragEvent(self, event: MouseDragEvent) -> None:  # noqa: N802 - pyqtgraph's name
+        """Draw a rectangle; other buttons move the picture."""
+        if event.button() != Qt.MouseButton.LeftButton:
+            event.ignore()
+            return
+        event.accept()
+        corners = QRectF(event.buttonDownPos(), event.pos()).normalized()
+        self.dragged.emit(corners, event.isFinish())
 
 
 class LampOutlines(QObject):
@@ -47,6 +74,12 @@ class LampOutlines(QObject):
         self.rectangle.hide()
         self.rectangle.sigRegionChangeFinished.connect(self._follow)
         box.addItem(self.rectangle, ignoreBounds=True)
+        self.area = _DrawingArea()
+        self.area.setZValue(_ABOVE)  # under the rectangle, which moves by itself
+        self.area.setCursor(Qt.CursorShape.CrossCursor)
+        self.area.hide()
+        self.area.dragged.connect(self._draw_rectangle)
+        box.addItem(self.area, ignoreBounds=True)
 
     def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
         """Draw the outlines of these lamps, that of the chosen one thicker."""
@@ -86,12 +119,21 @@ class LampOutlines(QObject):
     def show_rectangle(self, region: Region | None) -> None:
         """Draw this rectangle for the mouse, or none."""
         self.rectangle.setVisible(region is not None)
+        self.area.setVisible(region is not None)
         if region is None:
             return
         self._updating = True
         self.rectangle.setPos((region.first_column - 0.5, region.first_row - 0.5), update=False)
         self.rectangle.setSize((region.columns, region.rows))
         self._updating = False
+
+    def _draw_rectangle(self, corners: QRectF, has_ended: bool) -> None:
+        self._updating = True
+        self.rectangle.setPos(corners.topLeft(), update=False)
+        self.rectangle.setSize(corners.size())
+        self._updating = False
+        if has_ended:
+            self._follow()
 
     def _follow(self) -> None:
         if self._updating:

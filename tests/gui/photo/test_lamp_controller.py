@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.files.session import Session, SessionFile
@@ -121,6 +123,39 @@ def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
     bench.outlines.rectangle.setPos((9.5, 4.5), finish=False)
     bench.outlines.rectangle.setSize((30, 20))
     assert bench.lamps.by_hand == Region(5, 25, 10, 40)
+
+
+def test_a_drag_with_the_tool_on_draws_the_rectangle(
+    bench: Bench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(pg.CONFIG_OPTIONS, "mouseRateLimit", 0)
+    kinds, left, none = QEvent.Type, Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+
+    def drag(first: QPointF, last: QPointF) -> None:
+        port = bench.view.viewport()
+        steps = [(kinds.MouseMove, 0.0, none, none), (kinds.MouseButtonPress, 0.0, left, left)]
+        steps += [(kinds.MouseMove, share / 5, none, left) for share in range(1, 6)]
+        steps += [(kinds.MouseButtonRelease, 1.0, left, none)]
+        for kind, share, button, held in steps:
+            place = bench.box.mapViewToScene(first + (last - first) * share)
+            globally = QPointF(port.mapToGlobal(place))
+            no_key = Qt.KeyboardModifier.NoModifier
+            QApplication.sendEvent(port, QMouseEvent(kind, place, globally, button, held, no_key))
+
+    bench.view.resize(600, 400)
+    with qtbot.waitExposed(bench.view):
+        bench.view.show()
+    bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
+    drag(QPointF(10, 5), QPointF(40, 25))
+    assert bench.lamps.by_hand is None  # the tool is off: the picture moves
+    bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
+    bench.lamps.draw(Region(30, 50, 60, 90))
+    bench.outlines.show_rectangle(bench.lamps.by_hand)
+    drag(QPointF(10, 5), QPointF(40, 25))
+    found = bench.lamps.by_hand
+    assert found is not None
+    corners = (found.first_row, found.last_row, found.first_column, found.last_column)
+    assert corners == pytest.approx((5, 25, 10, 40), abs=1)
 
 
 def test_a_region_stays_when_the_channel_is_changed(bench: Bench, photo: Photo) -> None:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
 from occ_gui.picture.photo_overlay import MODES as OVERLAYS
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
+from occ_gui.window.full_screen import FullScreen
 from occ_gui.window.modes.mode import MODES
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
@@ -50,7 +51,7 @@ class Menus(QObject):
         self._make_file_menu(window)
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
-        self._make_view_menu(docks)
+        self._make_view_menu(window, docks)
         self._make_help_menu()
         self.show_photo_open(False)
         self.show_match_found(False)
@@ -151,7 +152,7 @@ class Menus(QObject):
         self._add(menu, "whole_photo", self.tr("&Whole photo"))
         self._add(menu, "apply_match", self.tr("&Apply to the scene"), self.tr("Ctrl+Shift+M"))
         self._add(menu, "save_match", self.tr("Save match as &preset…"))
-        self._add(menu, "delete_preset", self.tr("Delete p&reset…"))
+        self._add(menu, "delete_preset", self.tr("D&elete preset…"))
         self._add(menu, "use_settings", self.tr("&Use this photo's settings"))
         menu.addSeparator()
         words = {
@@ -193,7 +194,7 @@ class Menus(QObject):
             action.setShortcut(QKeySequence(f"Ctrl+{place}"))
             action.setToolTip(meaning)
 
-    def _make_view_menu(self, docks: Iterable[QDockWidget]) -> None:
+    def _make_view_menu(self, window: QMainWindow, docks: Iterable[QDockWidget]) -> None:
         menu = self._view = self._top("view", self.tr("&View"))
         self._make_mode_menu(menu)
         self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
@@ -212,6 +213,9 @@ class Menus(QObject):
         self.themes = QActionGroup(self)
         for key in THEMES:
             self._add_choice(theme, self.themes, f"theme_{key}", words[key], key)
+        full = self._add(menu, "full_screen", self.tr("Fu&ll screen"), self.tr("F11"))
+        full.setToolTip(self.tr("The window as large as the screen, as for a projector."))
+        FullScreen(window, full)
         self._add(menu, "reset_layout", self.tr("&Reset layout"))
         strips = self._add(menu, "slider_strips", self.tr("&Slider strips"))
         strips.setCheckable(True)

@@ -28,7 +28,9 @@ class EndPage(QWidget):
         self.all = button(
             self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")
         )
-        self.next = button("", self.tr("Begin the lesson that follows in the list."))
+        self.next = button(
+            self.tr("Next lesson"), self.tr("Begin the lesson that follows in the list.")
+        )
         self.next.clicked.connect(self.next_asked)
         self.report.clicked.connect(self.report_asked)
         self.all.clicked.connect(self.list_asked)

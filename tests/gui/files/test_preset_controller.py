@@ -96,7 +96,7 @@ def test_an_unreadable_preset_is_replaced_on_request_only(
     answer("rubbish", False)
     matched.photo.result.save.click()
     assert (own / "rubbish.toml").read_bytes() == b"\xff no preset"
-    user.choose("&Delete preset")
+    user.choose("D&elete preset")
     assert not (own / "rubbish.toml").exists()
     assert "rubbish: cannot be read" not in names(matched)
 
@@ -151,7 +151,7 @@ def test_a_cancelled_dialog_saves_and_deletes_nothing(
     save_preset("mine", Scene())
     answer("", False)
     matched.photo.result.save.click()
-    user.choose("&Delete preset")
+    user.choose("D&elete preset")
     assert user_presets() == ("mine",)
 
 
@@ -162,10 +162,10 @@ def test_a_deleted_preset_is_listed_no_more(
     answer("mine", False)
     matched.photo.result.save.click()
     assert "mine" in names(matched)
-    user.choose("&Delete preset")
+    user.choose("D&elete preset")
     assert "mine" not in names(matched)
     assert user.message == "Deleted the preset mine"
-    user.choose("&Delete preset")
+    user.choose("D&elete preset")
     assert user.message == "There is no preset of your own."
 
 

@@ -46,20 +46,29 @@ class Possible:
         free = self.model.fit(self.fit.values, rounds=self.rounds)
         if free.values[1] >= _BLURRED * free.values[0]:
             return [free]
-        found = [free, *self._shared(free.values)]
+        shared = {shape: self._shared(free.values, shape) for shape in _OF_BOTH}
+        found = [free, *(fit for fits in shared.values() for fit in fits)]
+        found.append(self._exchanged(shared["box"]))
         if free.covariance[7, 7] < _KNOWN_BLUR**2:
             return found
         others = [_with_blur(free.values, blur) for blur in _BLURS]
         return [*found, *(self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others)]
 
-    def _shared(self, values: FloatArray) -> list[JointFit]:
-        """Fit with other shapes of the blur, and from other shares of it in the edges' width."""
+    def _exchanged(self, boxes: Sequence[JointFit]) -> JointFit:
+        """Fit with exposure and blur exchanged: two boxes make the same edge in either order."""
+        values = min(boxes, key=lambda fit: fit.misfit).values.copy()
+        step, exposure, blur = float(values[0]), float(values[1]), float(values[7])
+        values[1] = step * max(math.sqrt(12.0) * blur, _SHORTEST)
+        values[7] = exposure / step / math.sqrt(12.0)
+        return self.model.fit(values, rounds=_LAST_ROUNDS, shape="box")
+
+    def _shared(self, values: FloatArray, shape: BlurShape | None) -> list[JointFit]:
+        """Fit with another shape of the blur, and from other shares of it in the edges' width."""
         columns = float(values[1] / values[0])
         width = columns**2 / 12.0 + float(values[7]) ** 2
         return [
             self.model.fit(_with_blur(values, math.sqrt(share * width)), rounds=4, shape=shape)
-            for shape, shares in _OF_BOTH.items()
-            for share in shares
+            for share in _OF_BOTH[shape]
         ]
 
 

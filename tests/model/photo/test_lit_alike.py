@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from photo_world.photograph import random_world
+from photo_world.trials import trial
 
 from occ_model.photo.fit.averaged_fits import averaged
 from occ_model.photo.fit.joint_fit import JointFit
@@ -59,3 +61,11 @@ def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> Non
     at_bound = fit_of(0.5, 320.0)
     at_bound.covariance[3, 3] = 1e8
     assert averaged([fit_of(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0
+
+
+def test_an_exposure_that_looks_exactly_like_a_box_of_blur_is_within_its_stated_error() -> None:
+    """Exposed for one column behind a box of three: with both exchanged the edges are the same."""
+    found = trial(random_world(121020))
+    assert not found.failure
+    assert abs(found.exposure) < 3.0 * found.exposure_deviation
+    assert found.exposure_deviation > 0.5

@@ -68,6 +68,16 @@ def test_a_word_of_either_disparity_stands_for_one_byte_only() -> None:
     assert {len(bytes_) for bytes_ in meanings.values()} == {1}
 
 
+def test_8b10b_words_begin_with_their_bits_but_for_nine() -> None:
+    """Only 0, 31, bytes with one of the five bits set, and 15 and 24 begin otherwise."""
+    changed = []
+    for low in range(32):
+        bits = f"{low:05b}"[::-1]  # A, which is the lowest bit, first
+        if encode_byte(low, -1)[0][:5] != bits:
+            changed.append(low)
+    assert changed == [0, 1, 2, 4, 8, 15, 16, 24, 31]
+
+
 @pytest.mark.parametrize(
     ("low", "high", "negative", "positive"),
     [

@@ -48,19 +48,23 @@ class Possible:
             return [free]
         shared = {shape: self._shared(free.values, shape) for shape in _OF_BOTH}
         found = [free, *(fit for fits in shared.values() for fit in fits)]
-        found.append(self._exchanged(shared["box"]))
+        found += self._exchanged(shared["box"])
         if free.covariance[7, 7] < _KNOWN_BLUR**2:
             return found
         others = [_with_blur(free.values, blur) for blur in _BLURS]
         return [*found, *(self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others)]
 
-    def _exchanged(self, boxes: Sequence[JointFit]) -> JointFit:
+    def _exchanged(self, boxes: Sequence[JointFit]) -> list[JointFit]:
         """Fit with exposure and blur exchanged: two boxes make the same edge in either order."""
-        values = min(boxes, key=lambda fit: fit.misfit).values.copy()
-        step, exposure, blur = float(values[0]), float(values[1]), float(values[7])
-        values[1] = step * max(math.sqrt(12.0) * blur, _SHORTEST)
-        values[7] = exposure / step / math.sqrt(12.0)
-        return self.model.fit(values, rounds=_LAST_ROUNDS, shape="box")
+        found = min(boxes, key=lambda fit: fit.misfit).values
+        step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
+        starts = []
+        # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
+        for box in sorted({max(math.sqrt(12.0) * blur, _SHORTEST), 1.0}):
+            values = found.copy()
+            values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
+            starts.append(values)
+        return [self.model.fit(one, rounds=_LAST_ROUNDS, shape="box") for one in starts]
 
     def _shared(self, values: FloatArray, shape: BlurShape | None) -> list[JointFit]:
         """Fit with another shape of the blur, and from other shares of it in the edges' width."""

@@ -63,9 +63,10 @@ def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> Non
     assert averaged([fit_of(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0
 
 
-def test_an_exposure_that_looks_exactly_like_a_box_of_blur_is_within_its_stated_error() -> None:
-    """Exposed for one column behind a box of three: with both exchanged the edges are the same."""
-    found = trial(random_world(121020))
+@pytest.mark.parametrize("seed", [pytest.param(121020, marks=pytest.mark.whole), 130011])
+def test_an_exposure_that_looks_like_a_box_of_blur_is_within_its_stated_error(seed: int) -> None:
+    """Exposed for a column behind a box of three or five: exchanged, they make the same edges."""
+    found = trial(random_world(seed))
     assert not found.failure
     assert abs(found.exposure) < 3.0 * found.exposure_deviation
     assert found.exposure_deviation > 0.5

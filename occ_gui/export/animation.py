@@ -1,4 +1,4 @@
-"""Export of an animation in which a slider runs from end to end."""
+"""Export of an animation in which a slider runs from end to end and back."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +17,8 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
-FRAMES = 60
+STEPS = 30
+"""Steps of the slider from end to end: back again they make a film of twice as many frames."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,11 +78,12 @@ class AnimationExport(QObject):
             self.write(path if path.suffix else path.with_suffix(ending), name)
 
     def write(self, path: Path, name: str) -> None:
-        """Write the run of a parameter's slider from its first value to its last."""
+        """Write the run of a parameter's slider from its first value to its last, and back."""
         declared = PARAMETERS[name]
         if not isinstance(declared, Quantity):
             return
-        values = tuple(declared.at(place / (FRAMES - 1)) for place in range(FRAMES))
+        out = [declared.at(place / STEPS) for place in range(STEPS + 1)]
+        values = (*out, *out[-2:0:-1])  # the film begins anew with the first value
         self.writer.start(_Film(path, self._scenes.scene, self._settings.settings, name, values))
 
 

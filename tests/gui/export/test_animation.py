@@ -11,16 +11,22 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 
 
-def test_the_run_of_a_slider_is_saved(
+def test_the_run_of_a_slider_from_end_to_end_and_back_is_saved(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("occ_gui.export.animation.FRAMES", 3)
+    monkeypatch.setattr("occ_gui.export.animation.STEPS", 2)
     chosen = (str(tmp_path / "run"), "Animated PNG (*.png)")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: chosen)
     application.desktop.animation.ask("iso")
     user.wait_until_idle()
     with Image.open(tmp_path / "run.png") as pictures:
-        assert getattr(pictures, "n_frames", 1) == 3
+        assert getattr(pictures, "n_frames", 1) == 4
+        seen = []
+        for place in range(4):
+            pictures.seek(place)
+            seen.append(pictures.convert("L").tobytes())
+    assert len(set(seen)) == 3
+    assert seen[1] == seen[3]  # on the way back
     assert user.message == "Saved run.png"
 
 

@@ -8,6 +8,7 @@ from pyqtgraph.GraphicsScene.mouseEvents import MouseDragEvent
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPen, QPolygonF
 
+from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import PHOTO, REGION
 from occ_model.results import Lamp, Region
 
@@ -31,6 +32,7 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
         """Return an area larger than any photo."""
         return QRectF(-_FAR, -_FAR, 2.0 * _FAR, 2.0 * _FAR)
 
+    @guarded
     def paint(self, *_arguments: object) -> None:
         """Draw nothing."""
 

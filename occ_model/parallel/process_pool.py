@@ -3,7 +3,6 @@
 import os
 from concurrent.futures import BrokenExecutor, CancelledError, Future, ProcessPoolExecutor
 from threading import Thread
-from time import monotonic
 from typing import Any
 
 from occ_model.parallel.job import (
@@ -96,15 +95,14 @@ class ProcessPool:
     def close(self) -> None:
         """End the processes, also in the middle of a job."""
         with interrupts_held():
-            # It returns when all processes have ended, and some of them must be killed for that.
+            # It returns when all processes have ended, and some of them must be killed for that. It
+            # waits for them alone: of two that wait for a process one misses its exit code.
             shutdown = Thread(target=self._executor.shutdown, kwargs={"cancel_futures": True})
             shutdown.start()
-            deadline = monotonic() + _GRACE
-            for process in self._started():
-                process.join(max(0.0, deadline - monotonic()))
-                if process.is_alive():
+            shutdown.join(_GRACE)
+            if shutdown.is_alive():
+                for process in self._started():
                     process.kill()
-                    process.join()
             shutdown.join()
 
 

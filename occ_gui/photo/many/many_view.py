@@ -28,7 +28,6 @@ from occ_model.results.photo_table import VERDICTS
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
 
 _ROWS_SEEN = 6
 
@@ -246,7 +245,7 @@ class ManyPhotosView(QWidget):
     def _rests_on(self, estimate: str, scene: Scene) -> str:
         """Name the value that an estimate rests on, unless the user is certain of it."""
         known = next(name for name in KNOWN if name != estimate)
-        chips = len(sent_chips(scene.transmitter))
+        chips = len(scene.transmitter.pattern)
         return condition(known, float(scene.value(known)), self._certain, chips)
 
     def _show_found(self, table: PhotoTable | None) -> None:

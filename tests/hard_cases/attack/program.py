@@ -10,7 +10,7 @@ import json
 import signal
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -67,7 +67,12 @@ def attack(door: Door, seeds: range) -> Outcomes:
     found = Outcomes()
     for seed in seeds:
         print(door.name, seed, flush=True)  # noqa: T201
-        with TemporaryDirectory(prefix="occ-attack-") as folder, _time_bound(door.patience):
+        # Also the current folder, in which a name by chance would otherwise become a file.
+        with (
+            TemporaryDirectory(prefix="occ-attack-") as folder,
+            chdir(folder),
+            _time_bound(door.patience),
+        ):
             try:
                 sentences = sentences_of(door, seed, Path(folder))
             except (Exception, OutOfTime, SystemExit) as fault:

@@ -5,8 +5,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import region_of
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
@@ -16,6 +14,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.confidence import wilson_interval
 from occ_model.study.success_rate import check_rate, right_bits_of_images
+from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.packet import code_of
 
 MOST_BITS = 100_000_000
@@ -92,7 +91,6 @@ def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
 def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors:
     """Make the result of the wrong bits of each picture."""
     length, camera = scene.transmitter.payload_length, scene.camera
-    region = region_of(panel_corners(scene), camera.rows, camera.columns)
     low, high = error_interval(wrong, length)
     whole = list(wrong).count(0)
     right_low, right_high = wilson_interval(whole, len(wrong))
@@ -106,7 +104,7 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors
         pictures_right=whole,
         right_low=right_low,
         right_high=right_high,
-        picture_time=(region.columns if region else 0) * camera.readout_time,
+        picture_time=panel_readout_time(scene),
         readout_time=camera.columns * camera.readout_time,
     )
 

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import region_of
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import decoder_named
@@ -23,6 +21,7 @@ from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
 from occ_model.study.success_rate import images_read
+from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
@@ -145,9 +144,7 @@ def _why(candidates: Sequence[_Candidate]) -> str:
 
 def _candidates(scene: Scene) -> list[_Candidate]:
     """Return what is tried, what carries most first; of equals the slowest first."""
-    camera = scene.camera
-    region = region_of(panel_corners(scene), camera.rows, camera.columns)
-    seen = 0.0 if region is None else region.columns * camera.readout_time
+    seen = panel_readout_time(scene)
     found = {
         _Candidate(line_code, frequency, bits)
         for line_code in _TRIED

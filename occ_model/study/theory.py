@@ -48,6 +48,24 @@ def null_frequency(scene: Scene) -> float:
     return 2.0 / scene.camera.exposure_time
 
 
+def panel_readout_time(scene: Scene) -> float:
+    """Give the time in which the columns that show the panel are read out: t_r times their number.
+
+    Returns
+    -------
+    float
+        Seconds; 0 where the image shows no panel.
+
+    Raises
+    ------
+    ProjectionError
+        Part of the panel is behind the camera.
+    """
+    camera = scene.camera
+    region = region_of(panel_corners(scene), camera.rows, camera.columns)
+    return 0.0 if region is None else region.columns * camera.readout_time
+
+
 def two_packets_frequency(scene: Scene) -> float | None:
     """Give the switching frequency below which no two packets fit the panel's image.
 
@@ -65,11 +83,8 @@ def two_packets_frequency(scene: Scene) -> float | None:
     ProjectionError
         Part of the panel is behind the camera.
     """
-    camera = scene.camera
-    region = region_of(panel_corners(scene), camera.rows, camera.columns)
-    if region is None:
-        return None
-    return 2.0 * len(sent_chips(scene.transmitter)) / (camera.readout_time * region.columns)
+    seen = panel_readout_time(scene)
+    return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
 
 
 def row_rate_frequency(scene: Scene) -> float:

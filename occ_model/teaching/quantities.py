@@ -3,14 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
 from occ_model.files.resources import resource_path
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, NONE, SECOND, Unit
-from occ_model.study.theory import band_model_frequency, null_frequency
+from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
 from occ_model.transmitter.packet import packet, packet_length
 
 FRAME_RATE = 30.0
@@ -88,10 +86,7 @@ def _bit_rate(scene: Scene, _photo: str | Match = "") -> float:
 
 
 def _share_seen(scene: Scene, _photo: str | Match = "") -> float:
-    camera = scene.camera
-    panel = region_of(panel_corners(scene), camera.rows, camera.columns)
-    columns = 0 if panel is None else panel.columns
-    return min(1.0, FRAME_RATE * columns * camera.readout_time)
+    return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
 QUANTITIES: dict[str, LessonQuantity] = {

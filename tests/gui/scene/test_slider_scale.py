@@ -15,6 +15,20 @@ from occ_gui.scene.slider_scale import SliderScale
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameters import quantity
 
+GAMMA = quantity("gamma")
+
+
+def scale_of(qtbot: QtBot, width: int) -> tuple[QWidget, SliderScale]:
+    """Make a scale as wide as its slider, and the widget that keeps both alive."""
+    whole = QWidget()
+    qtbot.addWidget(whole)
+    slider = QSlider(Qt.Orientation.Horizontal, whole)
+    scale = SliderScale(slider, GAMMA, whole)
+    for part in (slider, scale):
+        part.setGeometry(0, 0, width, 30)
+    whole.resize(width, 60)
+    return whole, scale
+
 
 @pytest.mark.parametrize(
     ("widths", "is_named"), [(1.4, True), (1.1, True), (0.6, True), (0.05, False)]
@@ -22,16 +36,9 @@ from occ_model.scene.parameters import quantity
 def test_two_names_give_way_to_each_other_or_the_second_is_left_out(
     qtbot: QtBot, grey_picture: Callable[[QWidget], Any], widths: float, is_named: bool
 ) -> None:
-    whole = QWidget()
-    qtbot.addWidget(whole)
-    declared = quantity("gamma")
-    slider = QSlider(Qt.Orientation.Horizontal, whole)
-    scale = SliderScale(slider, declared, whole)
-    for part in (slider, scale):
-        part.setGeometry(0, 0, 600, 30)
-    whole.resize(600, 60)
+    _whole, scale = scale_of(qtbot, 600)
     width = QFontMetricsF(scale._font()).horizontalAdvance("mark")
-    low, high = declared.slider
+    low, high = GAMMA.slider
     first = low + 0.4 * (high - low)
     a_pixel = (high - low) / (scale._x(high) - scale._x(low))
     second = first + a_pixel * width * widths
@@ -50,15 +57,9 @@ def test_two_names_give_way_to_each_other_or_the_second_is_left_out(
 
 
 def test_no_name_stands_over_the_value_of_an_end(qtbot: QtBot) -> None:
-    whole = QWidget()
-    qtbot.addWidget(whole)
-    declared = quantity("gamma")
-    slider = QSlider(Qt.Orientation.Horizontal, whole)
-    scale = SliderScale(slider, declared, whole)
-    for part in (slider, scale):
-        part.setGeometry(0, 0, 300, 30)
+    _whole, scale = scale_of(qtbot, 300)
     metrics = QFontMetricsF(scale._font())
-    low, high = declared.slider
+    low, high = GAMMA.slider
     ends = [QRectF(0, 5, 40, 14), QRectF(260, 5, 40, 14)]
     for share in (0.0, 0.02, 0.2, 0.5, 0.8, 0.98, 1.0):
         scale.show_marks([MarkedValue(low + share * (high - low), "a long name", "")])

@@ -140,9 +140,9 @@ class MapView(QWidget):
         head.addWidget(self.what, 2)
         head.addWidget(self.shown, 2)
         head.addWidget(self.frame_rate)
-        self._searches = searches = QHBoxLayout()
-        searches.addWidget(self.most_bits, 1)
-        searches.addWidget(self.advise)
+        self._searches = QHBoxLayout()
+        self._searches.addWidget(self.most_bits, 1)
+        self._searches.addWidget(self.advise)
         foot = QHBoxLayout()
         foot.addWidget(self.legend, 1)
         foot.addWidget(self.image_effects)
@@ -151,7 +151,7 @@ class MapView(QWidget):
         column.setContentsMargins(4, 2, 4, 2)
         column.setSpacing(2)
         column.addWidget(self.cards)
-        column.addLayout(searches)
+        column.addLayout(self._searches)
         column.addLayout(head)
         column.addWidget(self.plots, 1)
         column.addLayout(foot)
@@ -173,7 +173,9 @@ class MapView(QWidget):
         for card in (self.cards, self.most_bits):
             card.setVisible(with_cards)
         # In a low pane it needs no line of its own.
-        (self._searches if with_cards else self._state).addWidget(self.advise)
+        line = self._searches if with_cards else self._state
+        if line.indexOf(self.advise) < 0:
+            line.addWidget(self.advise)
 
     def _connect(self) -> None:
         self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))

@@ -60,7 +60,7 @@ class Possible:
         step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
         starts = []
         # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
-        for box in sorted({max(math.sqrt(12.0) * blur, _SHORTEST), 1.0}):
+        for box in (max(math.sqrt(12.0) * blur, _SHORTEST), 1.0):
             values = found.copy()
             values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
             starts.append(values)

@@ -34,12 +34,16 @@ _NAMED = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
 def caption(scene: Scene) -> str:
     """Describe the scene of a figure in a line."""
-    parts = []
+    return ", ".join(_named_values(scene))
+
+
+def _named_values(scene: Scene) -> list[str]:
+    values = []
     for name in _NAMED:
         declared = PARAMETERS[name]
         value = declared.format(scene.value(name))  # type: ignore[arg-type]
-        parts.append(f"{declared.label.lower()} {value}")
-    return ", ".join(parts)
+        values.append(f"{declared.label.lower()} {value}")
+    return values
 
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
@@ -56,8 +60,8 @@ def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
     """
     most = int(figure.get_figwidth() / _WIDTH_OF_A_LETTER)
     # Spaces that may not break, so that lines end after a comma only.
-    parts = [part.replace(" ", "\xa0") for part in caption(scene).split(", ")]
-    text = fill(", ".join(parts), most).replace("\xa0", " ")
+    values = [value.replace(" ", "\xa0") for value in _named_values(scene)]
+    text = fill(", ".join(values), most).replace("\xa0", " ")
     if about:
         text += f"\n{fill(about, most)}"
     # A file's name may hold what would be read as a formula.

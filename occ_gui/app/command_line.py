@@ -134,10 +134,10 @@ def _size(text: str) -> tuple[int, int]:
 def _run(options: argparse.Namespace, begin: Start) -> int:
     _prepare(options)
     qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.preferences)
-    if not options.screenshot:
-        from occ_gui.app.display import first_place
+    if not (options.screenshot or options.size):
+        from occ_gui.app.display import open_first
 
-        application.window.setGeometry(first_place(qt.primaryScreen().availableGeometry()))
+        open_first(application.window, qt.primaryScreen().availableGeometry())
     begin.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.desktop.theme.choose(options.theme)

@@ -5,16 +5,20 @@ import os
 import re
 from pathlib import Path
 
-from PySide6.QtCore import QLibraryInfo, QRect, QSize
+from PySide6.QtCore import QLibraryInfo, QRect, QSize, Qt
+from PySide6.QtWidgets import QWidget
 
 NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
 _MISSING = re.compile(r"^(\S+): cannot open shared object file")
 """What the dynamic linker says of a library that it does not find."""
 
-_LARGEST, _LEAST = QSize(1680, 1050), QSize(1000, 700)
+_LARGEST, _LEAST = QSize(1680, 1050), QSize(1280, 800)
 _SHARE = 0.92
-"""Share of the screen that the first window takes: what lies behind it stays in sight."""
+"""Share of the screen that the first window takes: what lies behind it stays in sight.
+
+Where that is less than the sliders and the story need, the window takes the whole screen.
+"""
 
 
 def reason_for_no_window() -> str:
@@ -59,14 +63,32 @@ def missing_library(names: tuple[str, ...]) -> str | None:
 
 
 def first_place(screen: QRect) -> QRect:
-    """Return where the first window opens: in the middle, whole on the screen.
+    """Return where the first window opens: in the middle, or over all of a small screen.
 
     Parameters
     ----------
     screen
         The part of the screen that is free for windows.
     """
-    wanted = (screen.size() * _SHARE).boundedTo(_LARGEST).expandedTo(_LEAST)
-    place = QRect(screen.topLeft(), wanted.boundedTo(screen.size()))
+    wanted = (screen.size() * _SHARE).boundedTo(_LARGEST)
+    if wanted != wanted.expandedTo(_LEAST):
+        return screen
+    place = QRect(screen.topLeft(), wanted)
     place.moveCenter(screen.center())
     return place
+
+
+def open_first(window: QWidget, screen: QRect) -> None:
+    """Give a window its first place; one that takes the whole screen is maximized.
+
+    Parameters
+    ----------
+    window
+        Not shown yet.
+    screen
+        The part of the screen that is free for windows.
+    """
+    place = first_place(screen)
+    window.setGeometry(place)
+    if place == screen:  # its frame too must fit
+        window.setWindowState(Qt.WindowState.WindowMaximized)

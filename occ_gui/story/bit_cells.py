@@ -1,7 +1,9 @@
 """Cells of header and bits, drawn under the columns that carry them."""
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
-from PySide6.QtGui import QPainter, QPalette, QPen
+from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
 
 from occ_gui.widgets.state_look import State, colours_of
 
@@ -12,6 +14,25 @@ def header_texts() -> tuple[str, ...]:
     return translate("BitCells", "header"), translate("BitCells", "H")
 
 
+_MARKS = {State.GOOD: " ✓", State.BAD: " ✗"}
+_PADDING = 4
+"""Pixels of a cell that no text covers."""
+
+
+def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
+    """Return whether the mark of a bit fits into each cell: in one row all have it or none.
+
+    Parameters
+    ----------
+    metrics
+        Those of the text.
+    widths
+        The widths of the row's cells with bits, in pixels.
+    """
+    needed = max(metrics.horizontalAdvance(bit + mark) for bit in "01" for mark in _MARKS.values())
+    return all(needed <= width - _PADDING for width in widths)
+
+
 def draw_field(
     painter: QPainter,
     cell: QRectF,
@@ -20,6 +41,7 @@ def draw_field(
     *,
     is_header: bool = False,
     state: State = State.NEUTRAL,
+    is_marked: bool = False,
 ) -> None:
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
 
@@ -37,6 +59,8 @@ def draw_field(
         Whether it is the header.
     state
         Good for a bit that is right, bad for one that is wrong, else neutral.
+    is_marked
+        Whether a tick or a cross follows the bit.
     """
     colours = colours_of(state, palette)
     inner = cell.adjusted(1, 0.5, -1, -0.5)
@@ -45,10 +69,10 @@ def draw_field(
     painter.setBrush(Qt.BrushStyle.NoBrush if is_header else colours.paper)
     painter.drawRoundedRect(inner, 3, 3)
     metrics = painter.fontMetrics()
-    mark = {State.GOOD: " ✓", State.BAD: " ✗"}.get(state, "")
+    mark = _MARKS.get(state, "") if is_marked else ""
     painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
     for shown in (texts[0] + mark, *texts):
-        if metrics.horizontalAdvance(shown) <= inner.width() - 2:
+        if metrics.horizontalAdvance(shown) <= inner.width() - _PADDING + 2:
             painter.drawText(inner, Qt.AlignmentFlag.AlignCenter, shown)
             break
     if state is State.BAD:

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.decoding.verdict import wrong_places
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.story.bit_cells import draw_field, header_texts
+from occ_gui.story.bit_cells import draw_field, have_room_for_marks, header_texts
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow
@@ -108,16 +108,26 @@ class CodeRow(StoryRow):
             if right > area.left() and left < area.right()
         ]
         draw_chips(painter, cells, SIMULATION, self.palette())
-        for field in self.fields:
-            cell = QRectF(edges[field.first], bits.top(), edges[field.last] - edges[field.first],
-                          bits.height())  # fmt: skip
-            if field.bit is None:
+        if self.fields:
+            self._draw_fields(painter, bits, decoded, edges)
+        else:
+            self._list_bits(painter, bits, decoded)
+
+    def _draw_fields(
+        self, painter: QPainter, place: QRectF, decoded: DecodeResult, edges: list[float]
+    ) -> None:
+        """Draw header and bits under the columns that carry them."""
+        spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
+        widths = [right - left for bit, left, right in spans if bit is not None]
+        is_marked = have_room_for_marks(painter.fontMetrics(), widths)
+        for bit, left, right in spans:
+            cell = QRectF(left, place.top(), right - left, place.height())
+            if bit is None:
                 draw_field(painter, cell, header_texts(), self.palette(), is_header=True)
             else:
-                texts = (str(int(decoded.bits[field.bit])),)
-                draw_field(painter, cell, texts, self.palette(), state=self.state_of(field.bit))
-        if not self.fields:
-            self._list_bits(painter, bits, decoded)
+                texts = (str(int(decoded.bits[bit])),)
+                draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
+                           is_marked=is_marked)  # fmt: skip
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Say why there are no chips: none were read, or the decoder reads whole packets."""
@@ -147,9 +157,11 @@ class CodeRow(StoryRow):
         left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
         count = max(len(self._sent), decoded.bits.size)
         width = min(34.0, (place.right() - left) / count)
+        is_marked = have_room_for_marks(painter.fontMetrics(), [width])
         for bit, value in enumerate(decoded.bits.tolist()):
             cell = QRectF(left + bit * width, place.top(), width, place.height())
-            draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit))
+            draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit),
+                       is_marked=is_marked)  # fmt: skip
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         """Name the lines."""

@@ -4,9 +4,11 @@ import ctypes
 
 import pytest
 from PySide6.QtCore import QRect
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
 
 from occ_gui.app import display
-from occ_gui.app.display import first_place, missing_library, reason_for_no_window
+from occ_gui.app.display import first_place, missing_library, open_first, reason_for_no_window
 
 SCREENS = [(0, 0, 800, 600), (0, 28, 1024, 740), (0, 0, 1280, 800), (60, 0, 1920, 1080),
            (0, 0, 2560, 1600), (-1920, 0, 1920, 1040)]  # fmt: skip
@@ -50,5 +52,24 @@ def test_the_first_window_is_whole_and_in_the_middle(screen: tuple[int, int, int
     place = first_place(free)
     assert free.contains(place)
     assert (place.center() - free.center()).manhattanLength() <= 2
-    assert place.width() >= min(1000, free.width())
-    assert place.height() >= min(700, free.height())
+    assert place.width() >= min(1280, free.width())
+    assert place.height() >= min(800, free.height())
+
+
+@pytest.mark.parametrize("screen", [(0, 0, 1280, 770), (0, 0, 1366, 740), (0, 0, 1920, 860)])
+def test_on_a_small_screen_the_first_window_is_maximized(
+    qtbot: QtBot, screen: tuple[int, int, int, int]
+) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    open_first(window, QRect(*screen))
+    assert window.isMaximized()
+    assert window.geometry() == QRect(*screen)
+
+
+def test_on_a_large_screen_it_leaves_sight_of_what_is_behind(qtbot: QtBot) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    open_first(window, QRect(0, 0, 1920, 1080))
+    assert not window.isMaximized()
+    assert window.width() < 1920

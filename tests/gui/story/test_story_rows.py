@@ -18,6 +18,7 @@ import occ_model as occ
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story import code_row, stripes_row
+from occ_gui.story.bit_cells import have_room_for_marks
 from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_means import resampled
 from occ_gui.story.column_values import in_words
@@ -411,6 +412,14 @@ def test_more_bits_than_were_sent_have_their_place_in_the_row(
     rows.code._list_bits(painter, place, many)
     assert len(cells) == 400
     assert all(place.contains(cell) for cell in cells)
+
+
+@pytest.mark.parametrize(("widths", "marked"), [((24.0, 25.0), False), ((24.0, 26.0), False),
+                                                ((26.0, 26.4), True)])  # fmt: skip
+def test_all_bits_of_a_row_have_their_mark_or_none(widths: tuple[float, ...], marked: bool) -> None:
+    metrics = Mock()
+    metrics.horizontalAdvance.side_effect = {"0 ✓": 22, "1 ✓": 20, "0 ✗": 21, "1 ✗": 20}.get
+    assert have_room_for_marks(metrics, widths) is marked
 
 
 def test_before_any_reading_the_profile_is_empty(qtbot: QtBot) -> None:

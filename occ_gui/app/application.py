@@ -143,6 +143,7 @@ class Application(QObject):
 
     def _connect_scene(self) -> None:
         self.controls.connect_editor(self.editor)
+        self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.editor.edit_started.connect(self.messages.end_refusal)
         self.editor.input_refused.connect(self.messages.show_refusal)
         self.messages.follow(self.accuracy, self.photo)

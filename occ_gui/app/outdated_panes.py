@@ -8,10 +8,15 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
-from occ_gui.widgets.outdated_mark import OutdatedMark
+from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
+from occ_model.scene.parameters import quantity
 
 VERDICT_DELAY = 0.06
 """Seconds for which a verdict of an earlier scene is not marked, some four frames of a screen."""
+
+
+_DIGITS = 4
+"""Significant digits of a slider's value."""
 
 
 class VerdictPane(Protocol):
@@ -19,6 +24,9 @@ class VerdictPane(Protocol):
 
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the verdict is of an earlier scene."""
+
+    def show_run(self, value: str, pictured: str) -> None:
+        """Say of which values of a slider that runs verdict and picture are; empty for none."""
 
 
 class OutdatedPanes(QObject):
@@ -28,6 +36,9 @@ class OutdatedPanes(QObject):
     within a few milliseconds where the profile path answers; one that is later than
     ``VERDICT_DELAY`` is shown as that of an earlier scene, until one of the present scene is there
     and the movement of the scene has ended: it would flicker otherwise.
+
+    A slider that runs by itself is always ahead of the picture. Picture and readings are not
+    marked then: the verdicts say of which of its values they are.
 
     Parameters
     ----------
@@ -49,6 +60,7 @@ class OutdatedPanes(QObject):
         self._read: SimulationRequest | None = None
         self._decoded: SimulationRequest | None = None
         self._is_refused = self._is_verdict_marked = False
+        self._run = ""
         self.of_picture: list[OutdatedMark] = []
         self.of_readings: list[OutdatedMark] = []
         self.of_results: list[OutdatedMark] = []
@@ -86,6 +98,11 @@ class OutdatedPanes(QObject):
         self.of_results += [OutdatedMark(pane) for pane in panes]
         self._update()
 
+    def follow_run(self, parameter: str) -> None:
+        """Mark as it is right while the slider of this parameter runs; empty for none."""
+        self._run = parameter
+        self._update()
+
     def _on_picture(self, picture: Picture) -> None:
         self._pictured, self._is_refused = picture.request, False
         self._update()
@@ -110,6 +127,8 @@ class OutdatedPanes(QObject):
             if self._is_refused
             else self.tr("computing…")
         )
+        runs = bool(self._run) and not self._is_refused
+        runs = bool(self._run) and not self._is_refused
         for request, marks in (
             (self._pictured, self.of_picture),
             (self._read, self.of_readings),
@@ -117,9 +136,36 @@ class OutdatedPanes(QObject):
         ):
             age = self._ages.age(request)
             for mark in marks:
+                if runs:
+                    age = self._age_in_run(mark, age)
                 mark.show_age(age, text)
         if self._read is not None:
-            self._mark_verdicts(self._ages.age(self._read))
+            for verdict in self._verdicts:
+                verdict.show_run(*(self._run_values() if runs else ("", "")))
+            if runs:
+                self._is_verdict_marked = False
+            self._mark_verdicts(0.0 if runs else self._ages.age(self._read))
+
+    def _age_in_run(self, mark: OutdatedMark, age: float) -> float:
+        """Return the age to mark by while a slider runs.
+
+        The verdicts tell the value of picture and readings. Any other mark that has appeared stays
+        to the end of the run: it would flicker otherwise.
+        """
+        if mark not in self.of_results:
+            return 0.0
+        return age if mark.isHidden() else max(age, DELAY)
+
+    def _run_values(self) -> tuple[str, str]:
+        """Write the values of the slider that runs, of the reading and of the picture."""
+        declared = quantity(self._run)
+        texts = [
+            ""
+            if request is None
+            else declared.format(float(request.scene.value(self._run)), _DIGITS)
+            for request in (self._read, self._pictured)
+        ]
+        return f"{declared.label} {texts[0]}", texts[1] if texts[1] != texts[0] else ""
 
     def _mark_verdicts(self, age: float) -> None:
         wait = self._ages.rest() if age == 0.0 else VERDICT_DELAY - age

@@ -33,6 +33,7 @@ class DecodeView(QWidget):
         self._early: Reading | None = None
         self._drawn: DecodeResult | None = None
         self._is_outdated = False
+        self._run = ""
         self.decoders = QTabBar()
         self.decoders.setDrawBase(False)
         self.decoders.setAccessibleName(self.tr("Decoder"))
@@ -137,6 +138,13 @@ class DecodeView(QWidget):
         self._mark_tabs(reading)
         self.verdict.setText(self._verdict(self._chosen(reading)))
 
+    def show_run(self, value: str, _pictured: str) -> None:
+        """Say of which value of a slider that runs the verdict is; empty while none runs."""
+        if value != self._run:
+            self._run = value
+            if self._reading is not None:
+                self.verdict.setText(self._verdict(self._chosen(self._reading)))
+
     def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
         """Give the result of every decoder; of one that has not read, that it will."""
         there = [result.decoder for result in reading.results]
@@ -233,7 +241,7 @@ class DecodeView(QWidget):
         text = self._in_words(decoded)
         if self._is_outdated:
             return self.tr("Earlier scene: {verdict}").format(verdict=text)
-        return text
+        return f"{self._run}: {text}" if self._run else text
 
     @property
     def _sent(self) -> tuple[int, ...]:

@@ -31,6 +31,9 @@ class Player(QObject):
     film_asked = Signal(str)
     """The parameter whose run is to be written as an animation."""
 
+    run_changed = Signal(str)
+    """The parameter whose slider runs from now on; empty for none."""
+
     def __init__(
         self,
         rows: dict[str, QuantityRow],
@@ -61,6 +64,7 @@ class Player(QObject):
         self._set = None
         row.begin_run()
         self._buttons[name].show_playing(True)
+        self.run_changed.emit(name)
         self._clock.start()
         self._turns.start()
 
@@ -71,6 +75,7 @@ class Player(QObject):
             self._rows[self.playing].end_run()
             self._buttons[self.playing].show_playing(False)
             self.playing = ""
+            self.run_changed.emit("")
 
     def heed(self, scene: Scene) -> None:
         """Stop if a scene has another value than the player has set."""

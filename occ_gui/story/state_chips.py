@@ -8,6 +8,9 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State
 
+_COMPUTING = "computing"
+"""The chip of results that are still to come."""
+
 _MOST_NAMED = 2
 """Other decoders that are named; more are counted."""
 
@@ -29,7 +32,24 @@ def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
 
 def computing() -> Chip:
     """Return the label of results that are not there yet."""
-    return Chip("computing", _tr("computing"), _tr("The results are computed."), State.WAITING)
+    return Chip(_COMPUTING, _tr("computing"), _tr("The results are computed."), State.WAITING)
+
+
+def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
+    """Say of which value the picture is, where a slider runs ahead of it.
+
+    Parameters
+    ----------
+    chips
+        What holds for the results.
+    pictured
+        The value of the picture; empty where it is that of the results.
+    """
+    rest = tuple(chip for chip in chips if chip.key != _COMPUTING)
+    if not pictured:
+        return rest
+    meaning = _tr("The slider runs ahead of the picture, which is still of this value.")
+    return (Chip(_COMPUTING, _tr("picture: {value}").format(value=pictured), meaning), *rest)
 
 
 def _followed(reading: Reading) -> list[Chip]:
@@ -37,7 +57,7 @@ def _followed(reading: Reading) -> list[Chip]:
     if reading.has_picture:
         return []
     meaning = _tr("Read from the column profile or a draft; the exact picture is computed.")
-    return [Chip("computing", _tr("picture follows"), meaning, State.WAITING)]
+    return [Chip(_COMPUTING, _tr("picture follows"), meaning, State.WAITING)]
 
 
 def _ratio(reading: Reading) -> Chip:

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.column_facts import chips_in_exposure
-from occ_gui.story.state_chips import chips_of, computing
+from occ_gui.story.state_chips import behind_run, chips_of, computing
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.scene.units import SECOND
@@ -17,7 +17,7 @@ class VerdictBar(StateBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._reading: Reading | None = None
-        self._decoder = ""
+        self._decoder = self._run = self._pictured = ""
         self._is_outdated = self._is_named = False
         self._failure = ""
         self.setAccessibleName(self.tr("Verdict on the code"))
@@ -37,6 +37,20 @@ class VerdictBar(StateBar):
         """Show whether the results are of an earlier scene; they are not the present verdict."""
         if outdated != self._is_outdated:
             self._is_outdated = outdated
+            self._write()
+
+    def show_run(self, value: str, pictured: str) -> None:
+        """Say of which value of a slider that runs the verdict is.
+
+        Parameters
+        ----------
+        value
+            The value with its label; empty while no slider runs.
+        pictured
+            The value of the picture where that is another one.
+        """
+        if (value, pictured) != (self._run, self._pictured):
+            self._run, self._pictured = value, pictured
             self._write()
 
     def show_failure(self, sentence: str) -> None:
@@ -67,6 +81,8 @@ class VerdictBar(StateBar):
         result = result_of(reading, self._decoder or reading.decoded.decoder)
         verdict = verdict_on(result, reading.sent)
         chips = chips_of(reading, result.decoder)
+        if self._run:
+            chips = behind_run(chips, self._pictured)
         state = State.WAITING if self._is_outdated else verdict.state
         if self._is_outdated:
             chips = (computing(), *chips)
@@ -75,6 +91,8 @@ class VerdictBar(StateBar):
 
     def _heading(self, verdict: str) -> str:
         """Write whose verdict it is, where that is not plain."""
+        if self._run:
+            verdict = f"{self._run}: {verdict[:1].lower()}{verdict[1:]}"
         if self._is_named:
             verdict = verdict[:1].lower() + verdict[1:]
             text = (

@@ -159,9 +159,13 @@ class Verdict:
 
     def __init__(self) -> None:
         self.outdated: list[bool] = []
+        self.runs: list[tuple[str, str]] = []
 
     def show_outdated(self, outdated: bool) -> None:
         self.outdated.append(outdated)
+
+    def show_run(self, value: str, pictured: str) -> None:
+        self.runs.append((value, pictured))
 
 
 class Drag:
@@ -180,6 +184,7 @@ class Drag:
         self.simulation, self.verdict = Simulation(self.latest), Verdict()
         self.outdated = OutdatedPanes(self.simulation, self.verdict, pane)  # type: ignore[arg-type]
         self.outdated.mark_results(pane)
+        self.outdated.mark_picture(pane)
         self.simulation.deliver(self.snapshots[0])
 
     def move(self, takes: int, milliseconds: int = 960) -> list[bool]:
@@ -236,3 +241,33 @@ def test_a_slow_verdict_is_the_present_ones_after_the_drag(drag: Drag, qtbot: Qt
     drag.simulation.deliver(drag.latest)
     drag.simulation.now += 2 * PAUSE
     qtbot.waitUntil(lambda: not drag.verdict.outdated[-1])
+
+
+def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Drag) -> None:
+    picture = drag.outdated.of_picture[0]
+    drag.outdated.follow_run("iso")
+    seen = set()
+    show = picture.show
+    picture.show = lambda: (seen.add("veil"), show())  # type: ignore[method-assign]
+    marked = drag.move(takes=round(3e3 * DELAY))
+    assert not seen
+    assert set(drag.verdict.outdated) == {False}
+    first = marked.index(True)
+    assert all(marked[first:])  # results that no verdict tells of are marked, without flicker
+    read = drag.outdated._read
+    assert read is not None
+    assert drag.verdict.runs[-1] == (f"ISO speed {read.scene.camera.iso:.4g}", "")
+    drag.outdated.follow_run("")
+    assert drag.verdict.runs[-1] == ("", "")
+    drag.simulation.now += DELAY
+    drag.simulation.submitted.emit()
+    assert not picture.isHidden()
+
+
+def test_a_picture_behind_the_reading_of_a_run_has_its_own_value(drag: Drag) -> None:
+    drag.outdated.follow_run("iso")
+    later = drag.snapshots[9]
+    drag.simulation.change(later)
+    drag.simulation.reading_shown.emit(later)
+    before, after = (s.request.scene.camera.iso for s in (drag.snapshots[0], later))
+    assert drag.verdict.runs[-1] == (f"ISO speed {after:.4g}", f"{before:.4g}")

@@ -209,3 +209,17 @@ def test_a_bar_that_is_narrow_says_the_same_in_fewer_words(
         assert "…" not in bar.sentence.text()
     assert "2 chips a column" in bar.sentence.text()
     assert bar.accessibleDescription() == whole
+
+
+def test_while_a_slider_runs_the_verdict_names_its_value_and_the_pictures(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    bar.show_reading(snapshot_of())
+    bar.show_run("Distance 1.2 m", "1.1 m")
+    assert bar.state is State.GOOD
+    assert bar.heading == "Distance 1.2 m: code 718 read, all bits right"
+    assert texts(bar)["computing"] == "picture: 1.1 m"
+    bar.show_run("Distance 1.2 m", "")
+    assert "computing" not in texts(bar)
+    bar.show_run("", "")
+    assert bar.heading == "Code 718 read, all bits right"

@@ -75,6 +75,8 @@ class EndPage(QWidget):
         self.title.setText(self.tr("Done: {title}").format(title=lesson.title))
         lines = []
         for place, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):
-            given = self.tr("no answer") if answer is None else f"{answer.text}. {answer.sentence}"
+            given = self.tr("no answer")
+            if answer is not None:
+                given = f"{step.with_unit(answer.text)}. {answer.sentence}"
             lines.append(f"{place}. {step.question}\n    {given}")
         self.answers.setText("\n\n".join(lines))

@@ -102,7 +102,7 @@ def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], a
             lines += ["*(no answer)*", ""]
         else:
             lines += [
-                f"**Answer:** {_plain(each.answer.text)}",
+                f"**Answer:** {_plain(each.step.with_unit(each.answer.text))}",
                 "",
                 _plain(each.answer.sentence),
                 "",

@@ -81,7 +81,7 @@ def draw_page(
 
 def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bottom: float) -> None:
     answer = each.answer
-    given = _NO_ANSWER if answer is None else answer.text
+    given = _NO_ANSWER if answer is None else each.step.with_unit(answer.text)
     told = "" if answer is None else answer.sentence
     matched = "" if each.match is None else "; ".join(match_lines(each.match, each.photo))
     texts = (
@@ -147,12 +147,16 @@ def draw_match(axes: Sequence[Axes], match: Match) -> None:
     shown = min(_SHOWN_COLUMNS, len(match.profile))
     above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
     above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
-    above.legend(loc="upper right", fontsize=7)
+    # Above the axes, where it covers no curve.
+    above.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=7,
+        borderaxespad=0.0,
+    )  # fmt: skip
     above.set_ylabel("grey level", fontsize=7)
     above.tick_params(labelsize=7, labelbottom=False)
     below.plot(match.residual[:shown], linewidth=0.8, color="0.3")
     below.axhline(0.0, linewidth=0.5, color="0.0")
     below.set_xlim(0, shown)
-    below.set_ylabel("residual", fontsize=7)
+    below.set_ylabel("photo − fit\n(grey levels)", fontsize=7)  # noqa: RUF001
     below.set_xlabel("column of the lamp", fontsize=7)
     below.tick_params(labelsize=7)

@@ -1,5 +1,6 @@
 """Lessons: steps with a goal, a scene, a question and its answer, and what a student found."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -9,6 +10,8 @@ from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
 Outcome = Literal["right", "near", "wrong", "unreadable"]
+
+_NUMBER = re.compile(r"[-+−]?[\d.,]+(?:[eE][-+]?\d+)?")  # noqa: RUF001
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +85,12 @@ class Step:
     animation: bool = False
     action: str = ""
     own_photo: bool = False
+
+    def with_unit(self, given: str) -> str:
+        """Return a given answer with the unit that it was asked in, where it is a number alone."""
+        unit = "" if self.check is None else self.check.asked_in
+        given = given.strip()
+        return f"{given} {unit}" if unit and _NUMBER.fullmatch(given) else given
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from PIL import Image
 import occ_model as occ
 from occ_model.errors import OutputError
 from occ_model.figures.lesson_report import write_lesson_report
-from occ_model.figures.lesson_steps import match_lines, steps_of_pages
+from occ_model.figures.lesson_steps import draw_page, match_lines, steps_of_pages
 from occ_model.files.resources import resource_path
 from occ_model.results import Match
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
@@ -104,3 +104,24 @@ def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:
     assert match_lines(match, "")[0] == "sure"
     assert match_lines(doubtful, "a.jpg")[0] == "photo a.jpg: doubtful"
     assert match_lines(doubtful, "a.jpg")[-1] == "Only 2 periods are in view."
+
+
+def test_every_axis_of_a_report_says_what_it_counts_in(match: Match) -> None:
+    for number, page in steps_of_pages(answered(SHEETS[1], match)):
+        axes = draw_page("A sheet", "A. Student", "", page, number).axes
+        assert axes
+        assert all("grey level" in ax.get_ylabel() for ax in axes)
+        below = [ax for ax in axes if ax.xaxis.get_tick_params()["labelbottom"]]
+        assert all("column" in ax.get_xlabel() for ax in below)
+        assert len(below) == len(page)
+
+
+@pytest.mark.parametrize(
+    ("given", "stated"),
+    [("62.5", "62.5 µs"), (" 1e-3 ", "1e-3 µs"), ("62.5 ns", "62.5 ns"), ("sixty", "sixty")],
+)
+def test_a_number_alone_has_the_unit_that_it_was_asked_in(given: str, stated: str) -> None:
+    step = SHEETS[1].steps[3]
+    assert step.check is not None
+    assert step.check.asked_in == "µs"
+    assert step.with_unit(given) == stated

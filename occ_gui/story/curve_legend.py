@@ -1,6 +1,7 @@
-"""Legend of the profile's curves, painted in a line that may be narrow."""
+"""Legend of the profile's curves, painted in as many lines as it needs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
@@ -13,24 +14,31 @@ _SAMPLE, _GAP, _APART = 24, 6, 16
 
 
 class CurveLegend(QWidget):
-    """Samples of lines with their names; those that do not fit are left out at the end.
+    """Samples of lines with their names, in further lines where they do not fit into one.
 
     Parameters
     ----------
     lines
         Each line's pen and name, by its key.
+    usual
+        The keys that it keeps room for, so that nothing moves when one of them comes or goes.
     parent
         The parent widget.
     """
 
     def __init__(
-        self, lines: Mapping[str, tuple[QPen, str]], parent: QWidget | None = None
+        self,
+        lines: Mapping[str, tuple[QPen, str]],
+        usual: tuple[str, ...] = (),
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._lines = dict(lines)
+        self._lines, self._usual = dict(lines), usual
         self.shown: tuple[str, ...] = ()
         self.note = ""
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
         self.setAccessibleName(self.tr("Curves of the profile"))
 
     def rename(self, key: str, name: str) -> None:
@@ -49,37 +57,61 @@ class CurveLegend(QWidget):
             self.shown, self.note = keys, note
             texts = [self._lines[key][1] for key in keys] + ([note] if note else [])
             self.setAccessibleDescription(", ".join(texts))
+            self.updateGeometry()
             self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of a line of text."""
-        return QSize(120, self.fontMetrics().height() + 2)
+        """Return the height of the lines at the present width."""
+        return QSize(120, self.heightForWidth(self.width()))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the size of the first sample."""
-        return QSize(_SAMPLE, self.sizeHint().height())
+        return QSize(_SAMPLE, self.fontMetrics().height() + 2)
+
+    def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's name
+        """Return the height of the lines at a width."""
+        usual = self._placed([self._width(key) for key in self._usual], width)
+        shown = self._placed(self._widths(), width)
+        lines = 1 + max((line for _, line in (*usual, *shown)), default=0)
+        return lines * self.fontMetrics().height() + 2
+
+    def _width(self, key: str) -> int:
+        return _SAMPLE + _GAP + self.fontMetrics().horizontalAdvance(self._lines[key][1])
+
+    def _widths(self) -> list[int]:
+        """Return the widths of the entries, that of the remark last."""
+        note = [self.fontMetrics().horizontalAdvance(self.note)] if self.note else []
+        return [*map(self._width, self.shown), *note]
+
+    @staticmethod
+    def _placed(widths: Sequence[int], room: int) -> list[tuple[int, int]]:
+        """Return the left edge and the line of entries that are set one after the other."""
+        places, left, line = list[tuple[int, int]](), 0, 0
+        for width in widths:
+            if left and left + width > room:
+                left, line = 0, line + 1
+            places.append((left, line))
+            left += width + _APART
+        return places
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the entries that fit."""
+        """Draw the entries."""
         painter = QPainter(self)
-        metrics, text = painter.fontMetrics(), self.palette().color(QPalette.ColorRole.WindowText)
-        left, middle = 0.0, self.height() / 2
-        for key in self.shown:
-            pen, name = self._lines[key]
-            width = _SAMPLE + _GAP + metrics.horizontalAdvance(name)
-            if left + width > self.width():
-                return
-            thick = QPen(pen_on(self.palette(), pen))
-            thick.setWidth(2)
-            painter.setPen(thick)
-            painter.drawLine(QPointF(left, middle), QPointF(left + _SAMPLE, middle))
+        text = self.palette().color(QPalette.ColorRole.WindowText)
+        places, height = self._placed(self._widths(), self.width()), painter.fontMetrics().height()
+        top = (self.height() - height * (1 + max((line for _, line in places), default=0))) / 2
+        for (left, line), key in zip_longest(places, self.shown):
+            place = QRectF(left, top + line * height, self.width() - left, height)
+            name = self.note
+            if key is not None:
+                pen, name = self._lines[key]
+                thick = QPen(pen_on(self.palette(), pen))
+                thick.setWidth(2)
+                painter.setPen(thick)
+                middle = place.center().y()
+                painter.drawLine(QPointF(left, middle), QPointF(left + _SAMPLE, middle))
+                place.setLeft(left + _SAMPLE + _GAP)
             painter.setPen(text)
-            place = QRectF(left + _SAMPLE + _GAP, 0, width, self.height())
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, name)
-            left += width + _APART
-        if self.note and left + metrics.horizontalAdvance(self.note) <= self.width():
-            place = QRectF(left, 0, self.width() - left, self.height())
-            painter.setPen(text)
-            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, self.note)
         painter.end()

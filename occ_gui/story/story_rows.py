@@ -80,7 +80,8 @@ class StoryRows(QWidget):
                 "band": (thin(BAND, line.DashLine), self.tr("band model")),
                 "photo": (thin(PHOTO), self.tr("photo")),
                 "threshold": (thin(THRESHOLD, line.DashDotLine), self.tr("threshold")),
-            }
+            },
+            usual=("simulation", "band", "threshold"),
         )
         part = QWidget()
         layout = QHBoxLayout(part)

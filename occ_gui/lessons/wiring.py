@@ -14,9 +14,8 @@ from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.spotlight import Spotlight
 from occ_model.errors import OccError
-from occ_model.files.writing import make_folder
 from occ_model.results.lessons import Lesson
-from occ_model.teaching.lessons import lessons_folder
+from occ_model.teaching.lessons import begin_lessons_folder
 
 
 class LessonWiring(QObject):
@@ -67,10 +66,9 @@ class LessonWiring(QObject):
         return self.answers.runner.is_idle and self.reports.runner.is_idle
 
     def open_folder(self) -> None:
-        """Open the folder of the user's own lessons, which is made where there is none."""
-        folder = lessons_folder()
+        """Open the folder of the user's own lessons, with one to begin with where it is empty."""
         try:
-            make_folder(folder)
+            folder = begin_lessons_folder()
         except OccError as error:
             self.status_message.emit(str(error))
             return

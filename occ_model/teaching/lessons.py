@@ -10,6 +10,7 @@ from occ_model.errors import OccError, SceneFileError, one_line, printable, show
 from occ_model.files.reading import read_text
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.files.user_folder import files_in, user_folder
+from occ_model.files.writing import make_folder, write_whole
 from occ_model.results.lessons import Check, Lesson, LessonList, Step
 from occ_model.scene.from_text import with_settings
 from occ_model.scene.parameters import PARAMETERS
@@ -34,6 +35,9 @@ ACTIONS = ("transmitter", "photo", "match")
 """What a step can have a button for: write a transmitter, open a photo, match it."""
 
 _FOLDER, _ENDING = "lessons", ".toml"
+_TEMPLATE = f"my-first-lesson{_ENDING}"
+"""The lesson that a teacher begins with."""
+
 _LESSON_KEYS = ("title", "summary", "sheet", "step")
 _STEP_KEYS = (
     "goal", "text", "question", "answer", "preset", "set", "pane", "photo", "control", "check",
@@ -81,6 +85,22 @@ def _package_lessons() -> tuple[Lesson, ...]:
 def lessons_folder() -> Path:
     """Return the folder of the user's own lessons, which need not exist yet."""
     return user_folder(USER_FOLDER, _FOLDER)
+
+
+def begin_lessons_folder() -> Path:
+    """Make the folder of the user's own lessons; one without lessons gets one to begin with.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be made, or the lesson cannot be written.
+    """
+    folder = lessons_folder()
+    make_folder(folder)
+    if not files_in(folder, _ENDING):
+        text = resource_text(_FOLDER, "template", _TEMPLATE)
+        write_whole(folder / _TEMPLATE, text.encode("utf-8"))
+    return folder
 
 
 def read_lesson(path: Path) -> Lesson:

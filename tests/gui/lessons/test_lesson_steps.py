@@ -139,7 +139,7 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     answer(guide, user, "62.5")
     for _ in range(3):
         guide.step.next.click()
-    assert "62.5. Right." in guide.end.answers.text()
+    assert "62.5 columns. Right." in guide.end.answers.text()
     assert guide.end.answers.text().count("no answer") == 2
     path = tmp_path / "report"
     monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("Ada $x_1$", True))
@@ -212,7 +212,7 @@ def test_the_folder_of_lessons_is_made_and_opened(
     )
     guide.list.folder.click()
     assert opened == [str(tmp_path / "own")]
-    assert (tmp_path / "own").is_dir()
+    assert [path.name for path in (tmp_path / "own").iterdir()] == ["my-first-lesson.toml"]
 
 
 def test_a_lab_sheet_has_buttons_for_what_it_asks(

@@ -8,7 +8,14 @@ import occ_model as occ
 from occ_model.errors import SceneFileError
 from occ_model.files.resources import resource_path
 from occ_model.teaching.answers import check_answer
-from occ_model.teaching.lessons import EQUATIONS, PANES, USER_FOLDER, lessons, read_lesson
+from occ_model.teaching.lessons import (
+    EQUATIONS,
+    PANES,
+    USER_FOLDER,
+    begin_lessons_folder,
+    lessons,
+    read_lesson,
+)
 from occ_model.teaching.quantities import QUANTITIES
 
 
@@ -153,3 +160,27 @@ def test_the_lesson_of_the_manual_is_one_and_its_tables_are_complete(tmp_path: P
         assert row in page
     for word in (*PANES, *EQUATIONS, USER_FOLDER):
         assert f"`{word}`" in page
+
+
+def test_an_empty_folder_gets_a_lesson_to_begin_with_that_is_right(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(USER_FOLDER, str(tmp_path / "own"))
+    folder = begin_lessons_folder()
+    (written,) = folder.iterdir()
+    found = lessons()
+    assert not found.problems
+    own = found.lessons[-1]
+    assert (own.name, written.suffix) == (written.stem, ".toml")
+    (asked,) = [step for step in own.steps if step.check is not None]
+    explained = asked.answer.rpartition("=")[2].strip(" .")
+    assert check_answer(asked, explained).outcome == "right"
+
+
+def test_a_folder_with_a_lesson_is_left_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(USER_FOLDER, str(tmp_path))
+    own = tmp_path / "mine.toml"
+    own.write_text("title = 'a lesson under way'", encoding="utf-8")
+    assert list(begin_lessons_folder().iterdir()) == [own]

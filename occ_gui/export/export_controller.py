@@ -131,7 +131,7 @@ class ExportController(QObject):
 
     def _draw_all(self, folder: Path, shown: Snapshot) -> None:
         requests, missing = [], []
-        for name, source in self._figures.sources.items():
+        for name, source in self._figures.shown.items():
             try:
                 requests.append(source(shown))
             except NothingToDraw as reason:

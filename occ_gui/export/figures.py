@@ -1,7 +1,7 @@
 """Figures: the panes that can be exported, with the data that they show at the moment."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
@@ -52,6 +52,14 @@ class AccuracyPane(Protocol):
     def measured(self) -> tuple[AccuracyPoint, ...]:
         """All points of the current scene; empty while they are not complete."""
 
+
+OVERLAY = "overlay"
+"""The figure of the photo over the picture."""
+
+_OVERLAY_FILE = "picture-with-photo"
+
+_BESIDE, _BLENDED = "beside", "blend"
+"""How the photo is shown beside the picture, and over it."""
 
 FullBench = tuple[BenchRequest, tuple[BenchPoint, ...]]
 """What a bench has measured."""
@@ -146,9 +154,14 @@ class Figures(QObject):
         self._whose = PICTURES[0]
         self._sources: dict[str, Source] = {
             "picture": self._of_picture,
+            OVERLAY: self._of_overlay,
             "profile": self._of_profile,
         }
-        self.titles = {"picture": self.tr("Picture"), "profile": self.tr("Column profile")}
+        self.titles = {
+            "picture": self.tr("Picture"),
+            OVERLAY: self.tr("Picture with photo"),
+            "profile": self.tr("Column profile"),
+        }
         for decoder in decoders:
             name = f"decoding-{decoder}"
             title = self.tr("Decoding, {decoder}").format(decoder=decoder)
@@ -215,6 +228,12 @@ class Figures(QObject):
         """The sources of the figures, by their names."""
         return self._sources
 
+    @property
+    def shown(self) -> Mapping[str, Source]:
+        """The sources of the figures that differ from each other at the moment."""
+        is_overlay = self._photo is not None and self._overlay.mode == _BESIDE
+        return {n: source for n, source in self._sources.items() if n != OVERLAY or is_overlay}
+
     def choose_picture(self, whose: str) -> None:
         """Draw the picture of the camera or of the receiver from now on."""
         self._whose = whose
@@ -232,13 +251,26 @@ class Figures(QObject):
         now = datetime.now().astimezone().isoformat(timespec="seconds")
         return FigureRequest(scene, self._settings.settings, now, draw)
 
+    def _of_overlay(self, shown: Snapshot) -> FigureRequest:
+        """Request the photo over the picture, blended unless it is shown over it another way."""
+        if self._photo is None:
+            raise NothingToDraw(self.tr("No photo is open: open one to lay it over the picture."))
+        mode = self._overlay.mode
+        request = self._picture_request(shown, _BLENDED if mode == _BESIDE else mode)
+        draw = request.draw
+        return replace(request, draw=lambda: replace(draw(), name=_OVERLAY_FILE))
+
     def _of_picture(self, shown: Snapshot) -> FigureRequest:
+        return self._picture_request(shown, self._overlay.mode)
+
+    def _picture_request(self, shown: Snapshot, mode: str) -> FigureRequest:
+        """Request the picture with the photo, if there is one, beside or over it."""
         photo = None if self._photo is None else self._photo.image
         frame, region, whose = shown.frame, shown.decoded.region, self._whose
         over, place = self._overlay, self._overlay.placement
         opacities = {"blend": (over.opacity, None), "split": (1.0, over.split_row)}
-        laid, times = opacities.get(over.mode), over.times
-        compared = photo if over.mode == "difference" else None
+        laid, times = opacities.get(mode), over.times
+        compared = photo if mode == "difference" else None
         about = "" if photo is None else self._about_photo()
 
         def draw() -> "Drawing":

@@ -18,6 +18,7 @@ from occ_model.photo.reading.scan_axis import SCAN_AXES
 
 _WITH_PHOTO = (
     "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
+    "export_overlay",
 )  # fmt: skip
 """Entries that are enabled while a photo is open."""
 
@@ -117,6 +118,7 @@ class Menus(QObject):
             action.setToolTip(self.tr("As PNG, SVG, PDF or CSV, with the scene inside."))
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
+            action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
         menu = self._top("edit", self.tr("&Edit"))
@@ -256,6 +258,8 @@ class Menus(QObject):
     def show_photo_open(self, is_open: bool) -> None:
         """Enable the entries that need a photo while one is open."""
         for name in _WITH_PHOTO:
+            if name not in self.actions:  # a figure, which is added later
+                continue
             self.actions[name].setEnabled(is_open)
 
     def show_match_found(self, is_found: bool) -> None:

@@ -1,8 +1,10 @@
 """Figures of what is shown, in files that open again, and never half of one."""
 
 import sys
+from io import BytesIO
 from pathlib import Path
 
+import numpy as np
 import pytest
 from gui.user import User
 from PIL import Image
@@ -315,3 +317,25 @@ def test_the_drawing_is_done_off_the_windows_thread(
     export(application, user, "profile", tmp_path / "a.csv")
     assert threads == [False]
     assert "matplotlib" in sys.modules
+
+
+def test_the_picture_with_the_photo_has_an_entry_of_its_own(
+    application: Application, user: User, tmp_path: Path, photo_file: Path
+) -> None:
+    entry = user.entry("Picture with photo")
+    assert not entry.isEnabled()
+    path = tmp_path / "both.png"
+    assert export(application, user, "overlay", path).startswith("No photo is open")
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    assert entry.isEnabled()
+    files = []
+    for mode in ("beside", "blend"):
+        application.show_mode(mode)
+        assert export(application, user, "overlay", path).startswith("Exported both.png")
+        files.append(path.read_bytes())
+        assert export(application, user, "picture", path).startswith("Exported both.png")
+        files.append(path.read_bytes())
+    over, beside, over_again, blended = (np.asarray(Image.open(BytesIO(f))) for f in files)
+    assert over.shape == over_again.shape == blended.shape != beside.shape
+    application.show_mode("beside")

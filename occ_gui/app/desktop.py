@@ -44,6 +44,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import DEFAULT_PRESET
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
 
 if TYPE_CHECKING:
@@ -116,6 +117,8 @@ class Desktop(QObject):
         self.animation = AnimationExport(
             window, parts.store, parts.settings, preferences, window.filming
         )
+        sliders = {name: PARAMETERS[name].label for name in parts.controls.main_rows()}
+        window.menus.add_animations(sliders, self.animation.ask)
         self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name)
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
 from occ_gui.widgets.plain_text import plain
+from occ_gui.window.search_words import words_of
 from occ_model.scene.parameters import PARAMETERS
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
@@ -43,15 +44,18 @@ class Command:
         Its keyboard shortcut.
     run
         Carries it out.
+    words
+        What it can be found by besides.
     """
 
     title: str
     hint: str
     run: Callable[[], object]
+    words: str = ""
 
-    def matches(self, words: Sequence[str]) -> bool:
-        """Return whether all words occur in its title or hint."""
-        text = f"{self.title} {self.hint}".casefold()
+    def matches(self, words: Sequence[str], *, by_name: bool = False) -> bool:
+        """Return whether all words occur in its title or hint, or in what it is found by."""
+        text = f"{self.title} {self.hint} {'' if by_name else self.words}".casefold()
         return all(word in text for word in words)
 
 
@@ -92,7 +96,9 @@ class CommandPalette(QDialog):
 
     def _filter(self, text: str) -> None:
         words = text.casefold().split()
-        self._matching = [command for command in self._commands if command.matches(words)]
+        found = [command for command in self._commands if command.matches(words)]
+        # Those whose names have the words stand first.
+        self._matching = sorted(found, key=lambda each: not each.matches(words, by_name=True))
         self.list.clear()
         for command in self._matching:
             hint = f"    {command.hint}" if command.hint else ""
@@ -159,7 +165,10 @@ def commands_of(
     """
     found = [
         Command(
-            f"{path}: {plain(action.text())}", action.shortcut().toString(_NATIVE), action.trigger
+            f"{path}: {plain(action.text())}",
+            action.shortcut().toString(_NATIVE),
+            action.trigger,
+            f"{action.toolTip()} {words_of(action)}",
         )
         for path, action in entries(bar)
         if action.isEnabled()
@@ -184,7 +193,7 @@ def _jump(
             field.selectAll()
 
     symbol = f" {declared.symbol}" if declared.symbol else ""
-    return Command(f"{page}: {declared.label}{symbol}", "", jump)
+    return Command(f"{page}: {declared.label}{symbol}", "", jump, declared.meaning)
 
 
 def _show_page_of(widget: QWidget) -> None:

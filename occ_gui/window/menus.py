@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -12,6 +13,7 @@ from occ_gui.picture.photo_overlay import MODES as OVERLAYS
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
 from occ_gui.window.full_screen import FullScreen
 from occ_gui.window.modes.mode import MODES
+from occ_gui.window.search_words import give_words
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.scan_axis import SCAN_AXES
@@ -73,6 +75,7 @@ class Menus(QObject):
         if shortcut is not None:
             action.setShortcut(QKeySequence(shortcut))
         self.actions[name] = action
+        give_words(name, action)
         return action
 
     def _make_file_menu(self, window: QMainWindow) -> None:
@@ -119,6 +122,26 @@ class Menus(QObject):
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
             action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
+            give_words(f"export_{name}", action)
+
+    def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
+        """Offer an animation of each of these sliders in the export menu.
+
+        Parameters
+        ----------
+        labels
+            The labels of the parameters by their names.
+        ask
+            Asks for the file of the animation of a parameter.
+        """
+        menu = QMenu(self.tr("A&nimation of a slider"), self._export)
+        self._export.insertMenu(self._after_figures, menu)
+        menu.setToolTipsVisible(True)
+        for name, label in labels.items():
+            action = menu.addAction(self.tr("{label}…").format(label=in_menu(label)))
+            action.setToolTip(self.tr("The slider's run from end to end, as GIF, MP4 or PNG."))
+            action.triggered.connect(partial(_ask_for, ask, name))
+            give_words("animation", action)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
         menu = self._top("edit", self.tr("&Edit"))
@@ -286,6 +309,10 @@ class Menus(QObject):
             text = self.tr("{name} (simulated)").format(name=_words_of(path.stem))
             _add_file(self.samples, path, text, open_file)
         self.samples.setEnabled(not self.samples.isEmpty())
+
+
+def _ask_for(ask: Callable[[str], None], name: str) -> None:
+    ask(name)
 
 
 def _words_of(name: str) -> str:

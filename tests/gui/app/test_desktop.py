@@ -148,6 +148,43 @@ def test_the_palette_does_what_a_few_letters_find_by_keys_only(
     assert palette.chosen is None
 
 
+@pytest.mark.parametrize(
+    ("words", "title"),
+    [
+        ("gif", "Animation of a slider: Exposure time"),
+        ("animation", "Animation of a slider: Exposure time"),
+        ("film", "Open film"),
+        ("film", "Animation of a slider: Exposure time"),
+        ("bits", "Mode: Limits"),
+        ("pdf", "Column profile"),
+        ("full screen", "Full screen"),
+        ("projector", "Full screen"),
+    ],
+)
+def test_the_palette_finds_an_entry_by_what_it_is_for(
+    application: Application, words: str, title: str
+) -> None:
+    window = application.window
+    found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
+    palette = CommandPalette(found, window)
+    palette.line.setText(words)
+    listed = [palette.list.item(place).text() for place in range(palette.list.count())]
+    assert any(title in text for text in listed), listed
+    named = [words in text.casefold() for text in listed]
+    assert named == sorted(named, reverse=True)  # those of the name first
+
+
+def test_an_animation_is_asked_for_in_the_menu(
+    application: Application, user: User, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *words: (asked.append(words[2]), ("", ""))[1]
+    )
+    user.choose("Distance…")
+    assert [Path(path).name for path in asked] == ["distance.gif"]
+
+
 def test_the_palette_jumps_to_every_parameter(application: Application, qtbot: QtBot) -> None:
     window = application.window
     found = commands_of(window.menuBar(), application.controls, window.bring_to_front)

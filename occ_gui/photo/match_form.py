@@ -185,7 +185,6 @@ class MatchForm(QWidget):
         grid.addWidget(QLabel(self.tr("Sent")), 0, 0)
         grid.addWidget(self.sent, 0, 1)
         grid.addWidget(self.square, 0, 2)
-        grid.addWidget(self.notices[self.square], 1, 1, 1, 2)
         grid.addWidget(QLabel(self.tr("Estimate")), 2, 0)
         grid.addWidget(self.estimate, 2, 1, 1, 2)
         known = QHBoxLayout()
@@ -196,8 +195,6 @@ class MatchForm(QWidget):
         grid.addWidget(QLabel(self.tr("Known")), 3, 0)
         grid.addLayout(known, 3, 1, 1, 2)
         grid.addWidget(self.hint, 4, 1, 1, 2)
-        for place, field in enumerate(self.known.values()):
-            grid.addWidget(self.notices[field], 5 + place, 1, 1, 2)
         grid.setColumnStretch(1, 1)
         run = QHBoxLayout()
         run.addWidget(self.gamma)

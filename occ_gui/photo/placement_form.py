@@ -115,7 +115,6 @@ class PlacementForm(QWidget):
         for place, (text, field) in enumerate(fields):
             grid.addWidget(QLabel(text), 0, place)
             grid.addWidget(field, 1, place)
-            grid.addWidget(self.notices[field], 2 + place, 0, 1, len(fields))
             grid.setColumnStretch(place, 1)
         buttons = QHBoxLayout()
         buttons.addWidget(self.by_mouse)

@@ -47,7 +47,6 @@ class CodeEntry(QWidget):
         self.notices = (RefusalNotice(self.number), RefusalNotice(self.bits))
         for place, field in enumerate((self.number, self.bits)):
             layout.addWidget(field, 0, place)
-            layout.addWidget(self.notices[place], 1 + place, 0, 1, 2)
         for line in (self.number.lineEdit(), self.bits):
             line.textEdited.connect(self._gestures.end)
         leave_undo_to_window(self.bits)

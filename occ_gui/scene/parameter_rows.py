@@ -99,7 +99,6 @@ class QuantityRow(ParameterRow):
         self._layout.addWidget(self.slider, 0, 0)
         self._layout.addWidget(self.field, 0, 1)
         self.notice = RefusalNotice(self.field)
-        self._layout.addWidget(self.notice, 2, 0, 1, 2)
         for control in (self.slider, self.field):
             _name(control, quantity)
             keep_wheel_for_scrolling(control)
@@ -308,5 +307,4 @@ def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
     layout.setSpacing(1)
     layout.addWidget(control)
     row.notice = RefusalNotice(control)
-    layout.addWidget(row.notice)
     _name(control, declared)

@@ -1,16 +1,17 @@
-"""Refusal notice: why a value was refused, under its field, and a frame round the field."""
+"""Refusal notice: why a value was refused, over what is under its field, and a frame round it."""
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt
 from PySide6.QtGui import (
     QAccessible,
     QAccessibleEvent,
     QColor,
+    QMouseEvent,
     QPainter,
     QPaintEvent,
     QPalette,
     QPen,
 )
-from PySide6.QtWidgets import QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QDockWidget, QLabel, QWidget
 
 from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.widgets.contrast import seen_on
@@ -20,27 +21,31 @@ _RED = QColor("#b3261e")
 
 _FRAME_WIDTH = 2
 
+_PADDING, _BESIDE, _GAP = 6, 4, 2
+"""Pixels round the sentence, beside it, and between it and the field."""
+
 
 class RefusalNotice(QLabel):
     """A sentence under a field that says what is wrong; hidden until there is one.
 
-    Screen readers announce it, and read it as the description of the field.
+    It lies over what is below the field, so that nothing moves when it comes or goes; a click on it
+    removes it. Screen readers announce it, and read it as the description of the field.
 
     Parameters
     ----------
     field
         The field, which a frame is drawn round while there is a sentence.
-    parent
-        The parent widget.
     """
 
-    def __init__(self, field: QWidget, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, field: QWidget) -> None:
+        super().__init__(field)
         self._field = field
         self._frame = _Frame(field)
         self.setWordWrap(True)
         self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setContentsMargins(_PADDING, _PADDING, _PADDING, _PADDING)
         self.hide()
+        field.installEventFilter(self)
 
     def show_refusal(self, sentence: str) -> None:
         """Show why a value was refused; the field shows the last one."""
@@ -55,8 +60,54 @@ class RefusalNotice(QLabel):
         self._field.setAccessibleDescription(sentence)
         self._take_colour()
         self._frame.show()
-        self.show()
+        self._appear()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
+
+    def _appear(self) -> None:
+        """Show the sentence over the page that the field is on."""
+        page = _page_of(self._field)
+        if self.parentWidget() is not page:
+            self.setParent(page)
+            page.installEventFilter(self)
+        self._place()
+        self.show()
+        self.raise_()
+
+    def _place(self) -> None:
+        """Lie under the field, or above it where there is no room below."""
+        page = self.parentWidget() or self._field
+        width = page.width() - 2 * _BESIDE
+        height = self.heightForWidth(width)
+        top = self._field.mapTo(page, self._field.rect().bottomLeft()).y() + _GAP
+        if top + height > page.height():
+            above = self._field.mapTo(page, self._field.rect().topLeft()).y() - _GAP - height
+            top = above if above >= 0 else top
+        self.setGeometry(_BESIDE, top, width, height)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Follow the field, and be seen only where it is."""
+        if self.text() and self.parentWidget() is not self._field:
+            if watched is self._field and event.type() in {QEvent.Type.Hide, QEvent.Type.Show}:
+                self.setVisible(event.type() == QEvent.Type.Show)
+            if event.type() in {QEvent.Type.Resize, QEvent.Type.Move, QEvent.Type.Show}:
+                self._place()
+        return super().eventFilter(watched, event)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Give way to what lies below."""
+        self.end()
+        event.accept()
+
+    @guarded
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """Draw the sentence on an opaque plate."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        painter.setBrush(self.palette().color(QPalette.ColorRole.Window))
+        painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4)
+        painter.end()
+        super().paintEvent(event)
 
     def end(self) -> None:
         """Remove the sentence: the value is mended, or no longer wanted."""
@@ -80,6 +131,19 @@ class RefusalNotice(QLabel):
             colours = QPalette()  # in which all other colours stay those of the theme
             colours.setColor(self.foregroundRole(), ink)
             self.setPalette(colours)
+
+
+def _page_of(field: QWidget) -> QWidget:
+    """Return the page that a field scrolls with, or else the pane or window that it is in."""
+    page = field
+    while not page.isWindow() and (around := page.parentWidget()) is not None:
+        pane = around.parentWidget()
+        if isinstance(around, QDockWidget) or (
+            isinstance(pane, QAbstractScrollArea) and pane.viewport() is around
+        ):
+            return page if page is not field else around
+        page = around
+    return page
 
 
 class _Frame(QWidget):

@@ -2,7 +2,7 @@
 
 import pytest
 from gui.user import User
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
@@ -44,13 +44,13 @@ def test_a_refused_number_says_why_at_its_field_until_mended(
     row = user.row(name)
     shown = row.field.text()
     user.enter(name, bad)
-    assert row.notice.isVisibleTo(row)
+    assert not row.notice.isHidden()
     assert row.notice.text() == user.message
     assert PARAMETERS[name].label in row.notice.text()
     assert "allowed" in row.notice.text()
     assert row.field.text() == shown  # the scene's
     user.enter(name, good)
-    assert not row.notice.isVisibleTo(row)
+    assert row.notice.isHidden()
     assert user.message == ""
     assert application.store.scene.value(name) == PARAMETERS[name].parse(good)
 
@@ -118,12 +118,12 @@ def test_refused_codes_say_why_at_their_fields(
         field.selectAll()
         qtbot.keyClicks(field, text)
         qtbot.keyClick(field, Qt.Key.Key_Return)
-        assert notice.isVisibleTo(code)
+        assert not notice.isHidden()
         assert "allowed" in notice.text()
         assert user.message == notice.text()
         assert application.store.scene.value("code") == 718
         application.store.change(code=721)
-        assert not notice.isVisibleTo(code)
+        assert notice.isHidden()
         application.store.change(code=718)
 
 
@@ -194,3 +194,24 @@ def test_the_sentence_can_be_read_in_both_themes(application: Application, user:
         ink = notice.palette().color(notice.foregroundRole())
         assert contrast(ink, palette_of(theme).color(QPalette.ColorRole.Window)) >= 4.5
     application.desktop.theme.choose("system")
+
+
+@pytest.mark.parametrize("name", ["exposure_time", "distance"])
+def test_a_sentence_moves_nothing_and_lies_beside_its_field_within_the_page(
+    application: Application, user: User, qtbot: QtBot, name: str
+) -> None:
+    panel = application.controls.panels["Main"]
+    before = [row.geometry() for row in panel.rows.values()]
+    row = user.row(name)
+    user.enter(name, "0")
+    QApplication.processEvents()
+    assert [row.geometry() for row in panel.rows.values()] == before
+    notice = row.notice
+    page = notice.parentWidget()
+    assert page is not None
+    field = QRect(row.field.mapTo(page, QPoint()), row.field.size())
+    assert page.rect().contains(notice.geometry())
+    assert not notice.geometry().intersects(field)
+    assert notice.height() >= notice.heightForWidth(notice.width())
+    qtbot.mouseClick(notice, Qt.MouseButton.LeftButton)
+    assert notice.isHidden()

@@ -154,9 +154,7 @@ def test_each_entry_has_a_letter_or_is_a_name(application: Application) -> None:
     for path, action in all_entries(application):
         text = action.text()
         lists = ("Open recent", "Open sample photo", "View", "Animation of a slider")
-        by_name = path.endswith(lists) or any(
-            text.startswith(name) for name in names
-        )
+        by_name = path.endswith(lists) or any(text.startswith(name) for name in names)
         assert "&" in text or by_name, (path, text)
 
 

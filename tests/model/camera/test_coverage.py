@@ -118,7 +118,8 @@ def test_a_blur_spreads_light_and_loses_none(blur: float) -> None:
             np.average((place - np.average(place, weights=w)) ** 2, weights=w)
             for w in (soft, sharp)
         ]
-        assert spread[0] - spread[1] == pytest.approx(blur**2, rel=0.03, abs=0.02)
+        # Four deviations hold all but 0.1 % of it; the coarse grid takes its own off exactly.
+        assert spread[0] - spread[1] == pytest.approx(blur**2, rel=4e-3, abs=0.02)
 
 
 @pytest.mark.parametrize("blur", [0.0, 3.0, 20.0])

@@ -5,6 +5,19 @@ import pytest
 
 import occ_model as occ
 from occ_model.receiver.plugin_result import problem_of
+from occ_model.results.decoding import RunHistogram, Runs
+
+
+@pytest.mark.parametrize(
+    ("lengths", "is_refused"), [([3, 4], False), ([0, 4], False), ([3, -1], True), ([-1, 3], True)]
+)
+def test_no_run_and_no_count_of_runs_is_negative(lengths: list[int], is_refused: bool) -> None:
+    values = np.array(lengths)
+    runs = Runs(np.array([1, 0], np.uint8), values)
+    histogram = RunHistogram(values, None)
+    for changes in ({"runs": runs}, {"histograms": (histogram, histogram)}):
+        result = occ.DecodeResult("own", failure="Nothing was read.", **changes)
+        assert (problem_of(result, columns=10) is not None) is is_refused
 
 
 def with_headers(headers: object) -> str | None:

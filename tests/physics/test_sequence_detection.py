@@ -9,6 +9,7 @@ from physics.exposed_chips import manchester, noise_of, seen_by_rows
 import occ_model as occ
 from occ_model.receiver.sequence.beam import beam_chips
 from occ_model.receiver.sequence.exposures import Timing, gather, taps
+from occ_model.receiver.sequence.fit import lit_shares
 from occ_model.receiver.sequence.max_log import Chips, best_chips, least_distances
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
 from occ_model.scene.scene import Scene
@@ -50,6 +51,21 @@ def test_4_chips_at_15_db_have_a_rate_near_6_in_10000() -> None:
     # The best detector errs at 5.5e-4: see test_best_detector.py.
     wrong, bits = wrong_bits(4, 15, 60_000, seed=1)
     assert 3e-4 < wrong / bits < 9e-4
+
+
+def test_the_lit_share_of_a_row_is_that_of_the_chips_under_its_exposure() -> None:
+    values = np.array([1, 0, 0, 1, 1, 0], dtype=np.uint8)
+    chips = Chips(0, values, np.ones(6))
+    timing = Timing(1.5, 0.25, 0.0)
+    model, slope = lit_shares(chips, timing, 18)
+    # Exactly, by a running integral of the light.
+    lit = np.concatenate([[0.0], np.cumsum(values)])
+    starts = 0.25 * np.arange(18)
+    ends = np.interp(np.add.outer([1.5, 1.501], starts), np.arange(7), lit)
+    begins = np.interp(np.add.outer([0.0, 0.001], starts), np.arange(7), lit)
+    shares = (ends - begins) / 1.5
+    np.testing.assert_allclose(model, shares[0], atol=1e-12)
+    np.testing.assert_allclose(slope, (shares[1] - shares[0]) / 0.001, atol=1e-9)
 
 
 @pytest.mark.whole

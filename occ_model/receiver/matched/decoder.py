@@ -5,6 +5,7 @@ signal is folded over one packet first. An exposure of several chips is no obsta
 has a profile of its own.
 """
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 
@@ -41,6 +42,15 @@ _LEAST_CORRELATION = 0.7
 _LEAST_CONFIDENCE = 0.05
 """Least confidence of a code that is read; below it the best code may be so by chance."""
 
+_EXPLAINED = 1e-3
+"""Share of the variance below which a code explains all: bins and ranks are no more exact.
+
+Where two codes do, either can be the one that is sent.
+"""
+
+_SAME_LEVEL = 1e-5
+"""Difference of lit fractions that is rounding error."""
+
 _LIKELY = 16
 """Codes that are compared in the second, more exact step."""
 
@@ -53,7 +63,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
     With r1 and r2 the correlations of the best and the second best code with the signal, the
     confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same share of the variance,
-    1 where the best explains all of it.
+    near 1 where the best alone explains all of it.
 
     Parameters
     ----------
@@ -129,16 +139,21 @@ def _best_code(
     if isinstance(templates, CodeTemplates):
         likely, shifts = most_likely(templates.levels[rank], templates)
     else:
-        likely, shifts = templates.most_likely(templates.levels[rank], _LIKELY)
+        likely, shifts = templates.most_likely(rank, _LIKELY, math.sqrt(1.0 - _EXPLAINED))
     models = templates.profiles(likely)
     # The levels of each code itself are more exact than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
     places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
     models = np.take_along_axis(models, places, axis=1)
-    correlations = _row_correlations(signals, models)
+    # What is left of a flat profile is rounding error, which any signal correlates with.
+    is_seen = np.isfinite(templates.energy[likely])
+    correlations = np.minimum(
+        _row_correlations(signals, models), _level_correlations(folded, models)
+    )
+    correlations = np.where(is_seen, correlations, 0.0)
     second, best = np.argsort(correlations)[-2:].tolist()
     r1, r2 = float(correlations[best]), float(correlations[second])
-    confidence = 1.0 - (1.0 - r1**2) / (1.0 - r2**2) if r2 < 1.0 else 0.0
+    confidence = 1.0 - _unexplained(r1) / _unexplained(r2)
     code = int(likely[best])
     result = replace(
         result, correlation=r1, confidence=confidence, folded=signals[best], model=models[best]
@@ -162,9 +177,10 @@ def _why_ambiguous(code: int, likely: IndexArray, scene: Scene) -> str | None:
     other = same_chips(code, likely, scheme_of(scene.transmitter))
     if other is None:
         return None
+    first, second = sorted((code, other))
     return (
-        f"The codes {code} and {other} send the same endless chips: the framing does not tell them "
-        "apart."
+        f"The codes {first} and {second} send the same endless chips: the framing does not tell "
+        "them apart."
     )
 
 
@@ -208,6 +224,29 @@ def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
         some = np.add(first[part], second[part], out=sums[: len(first[part])])
         np.maximum(largest, some.reshape(len(some), -1).max(axis=0).reshape(shape), out=largest)
     return largest
+
+
+def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
+    """Correlate the signal with its means over the bins to which each model gives one level.
+
+    Ranks alone take a model of few levels for any signal that has the same order of them. But bins
+    of one lit fraction have one grey level, whatever the tone curve.
+    """
+    rows, bins = models.shape
+    order = models.argsort(axis=1)
+    light = (folded - folded.mean())[order]
+    begins = np.ones((rows, bins), dtype=bool)
+    begins[:, 1:] = np.diff(np.take_along_axis(models, order, axis=1), axis=1) > _SAME_LEVEL
+    starts = np.flatnonzero(begins)
+    counts = np.diff(starts, append=light.size)
+    between = np.add.reduceat(light.ravel(), starts) ** 2 / counts
+    shares = np.bincount(starts // bins, between, minlength=rows) / (light[0] @ light[0])
+    return np.asarray(np.sqrt(np.clip(shares, 0.0, 1.0)))
+
+
+def _unexplained(correlation: float) -> float:
+    """Return the share of the signal's variance that a code leaves unexplained."""
+    return max(1.0 - correlation**2, _EXPLAINED)
 
 
 def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:

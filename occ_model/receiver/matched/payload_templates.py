@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.receiver.matched.code_templates import BINS_PER_CHIP, chip_response
 from occ_model.transmitter.packet import bits_of
 from occ_model.transmitter.scheme import Scheme
@@ -39,45 +39,53 @@ class PayloadTemplates:
         Of each profile, in lit fractions.
     energy : ndarray of float64, shape (payloads,)
         Sum of the squares of each profile about its mean; infinite where that is rounding error.
-    levels : ndarray of float64, shape (bins,)
-        Lit fractions in the profiles: evenly spaced quantiles of all of them.
+    levels : ndarray of float32, shape (payloads, bins)
+        The lit fractions of each profile about its mean, in order.
     """
 
     period: int
     spectra: NDArray[np.complex64]
     means: FloatArray
     energy: FloatArray
-    levels: FloatArray
+    levels: Pixels
 
     def profiles(self, codes: IndexArray) -> FloatArray:
         """Return the lit fraction over one period of some payloads, shape (codes, bins)."""
         about_mean = np.fft.irfft(self.spectra[codes], self.period * BINS_PER_CHIP, axis=1)
         return np.asarray(about_mean + self.means[codes, None], dtype=np.float64)
 
-    def most_likely(self, signal: FloatArray, count: int) -> tuple[IndexArray, IndexArray]:
+    def most_likely(
+        self, rank: IndexArray, count: int, sure: float
+    ) -> tuple[IndexArray, IndexArray]:
         """Find the payloads that correlate best with a signal over all phases, and their phases.
+
+        Each payload is compared with the signal that has its own levels: one may light most chips
+        and another one hardly any, so that no levels are those of all.
 
         Parameters
         ----------
-        signal : ndarray of float64, shape (bins,)
-            Folded over one period.
+        rank : ndarray of int64, shape (bins,)
+            The place of each bin of the signal, folded over one period, in the order of its values.
         count
             How many payloads, or all if there are fewer.
+        sure
+            Correlation from which a payload is among them, however many there are.
 
         Returns
         -------
-        codes, phases : ndarray of int64, shape (count,)
+        codes, phases : ndarray of int64, shape (count,) or more
         """
-        spectrum = np.fft.rfft(signal - signal.mean()).astype(np.complex64)
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)
         for start in range(0, len(scores), _AT_ONCE):
             part = slice(start, start + _AT_ONCE)
-            matches = np.fft.irfft(spectrum * self.spectra[part].conj(), len(signal), axis=1)
+            spectra = np.fft.rfft(self.levels[part][:, rank], axis=1)
+            matches = np.fft.irfft(spectra * self.spectra[part].conj(), len(rank), axis=1)
             phases[part] = matches.argmax(axis=1)
             scores[part] = matches.max(axis=1)
-        scores /= np.sqrt(self.energy)
-        count = min(count, len(scores))
+        # Of the signal, too: it has the same levels in another order.
+        scores /= self.energy
+        count = min(max(count, int((scores >= sure).sum())), len(scores))
         likely = np.argpartition(scores, -count)[-count:]
         return likely.astype(np.int64), phases[likely]
 
@@ -113,10 +121,10 @@ def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
     power = np.abs(spectra.astype(np.complex128)) ** 2
     energy = (2.0 * power.sum(axis=1) - power[:, -1]) / len(impulses)
     energy = np.where(energy > _ROUNDING * len(impulses), energy, np.inf)
-    templates = PayloadTemplates(scheme.length, spectra, means, energy, np.empty(0))
-    some = np.arange(0, len(codes), max(1, len(codes) // 256))
-    shares = (np.arange(len(impulses)) + 0.5) / len(impulses)
-    levels = np.quantile(templates.profiles(some), shares)
+    levels = np.empty((len(codes), len(impulses)), dtype=np.float32)
+    for start in range(0, len(codes), _AT_ONCE):
+        part = slice(start, start + _AT_ONCE)
+        levels[part] = np.sort(np.fft.irfft(spectra[part], len(impulses), axis=1), axis=1)
     for array in (spectra, means, energy, levels):
         array.flags.writeable = False  # it is cached and shared
     return PayloadTemplates(scheme.length, spectra, means, energy, levels)

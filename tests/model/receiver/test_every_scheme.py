@@ -28,7 +28,7 @@ REFUSED = {
     # 8 bits of length, 8 of payload and 16 of check sum, 6 chips each, and a preamble of 14.
     ("fsk", "raw"): ("of 206 chips fit the panel's image",),
     # From another start the chips are those of the code 29.
-    ("8b10b", "paper"): ("2 payloads fit the chips", "178 and 29 send the same endless chips"),
+    ("8b10b", "paper"): ("2 payloads fit the chips", "29 and 178 send the same endless chips"),
 }
 """What a sentence about a scheme says at this scene."""
 
@@ -139,6 +139,54 @@ def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) 
         levels += random.normal(0.0, 0.3, len(levels))
         for decoder in ("threshold", "matched"):
             assert occ.decode(levels, scene, decoder).code in (None, scene.transmitter.code)
+
+
+@pytest.mark.parametrize("code", [0, 1, 4, 6, 15, 79, 255])
+@pytest.mark.parametrize("chips", [0.5, 1.5, 2.5])
+def test_payloads_that_light_many_or_few_chips_are_not_taken_for_others(
+    code: int, chips: float
+) -> None:
+    # NRZ lights as many chips as the payload has ones: its levels are not those of others.
+    scene = SCENE.replace(
+        line_code="nrz", framing="paper", code=code, enhancement="none", exposure_time=chips / 4e3
+    )
+    assert occ.decode(signal(scene, 0.0), scene, "matched").code in (None, code)
+
+
+@pytest.mark.parametrize(("line_code", "chips"), [("manchester", 4), ("manchester", 8), ("nrz", 4)])
+def test_of_two_payloads_that_explain_all_none_is_given(line_code: str, chips: int) -> None:
+    # A whole number of chips leaves few levels: another payload has the same order of them.
+    scenes = [
+        SCENE.replace(
+            line_code=line_code, framing="paper", code=code, enhancement="none",
+            exposure_time=chips / 4e3,
+        )
+        for code in (2, 3, 16, 66, 84, 85, 87, 93)
+    ]  # fmt: skip
+    results = [occ.decode(signal(scene, 0.0), scene, "matched") for scene in scenes]
+    assert all(
+        result.code in (None, scene.transmitter.code)
+        for scene, result in zip(scenes, results, strict=True)
+    )
+    assert any("No code stands out" in (result.failure or "") for result in results)
+
+
+def test_a_payload_is_read_where_another_one_leaves_no_stripes() -> None:
+    # An exposure of 4 chips, of the 12 of a frame: one payload gives all columns the same light.
+    scene = SCENE.replace(
+        line_code="nrz", framing="paper", code=77, enhancement="none",
+        switching_frequency=4096.0, exposure_time=2.0**-10,
+    )  # fmt: skip
+    result = occ.decode(signal(scene, 0.0), scene, "matched")
+    assert (result.code, result.failure) == (77, None)
+
+
+@pytest.mark.parametrize("chips", [1.2, 1.5])
+def test_the_threshold_reads_checked_chips_of_exposures_longer_than_one(chips: float) -> None:
+    scene = SCENE.replace(
+        line_code="fsk", framing="paper", enhancement="none", exposure_time=chips / 4e3
+    )
+    assert occ.decode(signal(scene, 0.0), scene).code == scene.transmitter.code
 
 
 @pytest.mark.parametrize("bits", [63, 65, 127, 128])

@@ -26,7 +26,7 @@ class BitErrors:
     pictures
         Pictures, one payload each.
     pictures_right
-        Pictures of which all bits were right.
+        Pictures of which all bits were right, and accepted by the decoder.
     right_low, right_high
         The 95 % interval of the share of pictures of which all bits are right.
     picture_time

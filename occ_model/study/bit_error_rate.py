@@ -36,7 +36,8 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
 
     Random payloads of the scene's length are sent, each in a picture of its own with a random start
     time and noise. A payload that is not read counts with all bits wrong, as in
-    :func:`occ_model.success_rate`, of which this is the complement.
+    :func:`occ_model.success_rate`, of which this is the complement; so does one that the decoder
+    does not accept.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
         )
         ((right,),) = right_bits_of_images(sent, own, heartbeat)
         wrong.append(length - right)
-    return bit_errors_of(scene, decoder, wrong)
+    return bit_errors_of(scene, decoder, wrong, wrong.count(0))
 
 
 def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
@@ -88,12 +89,21 @@ def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
     return scene.replace(code=code_of(bits))
 
 
-def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors:
-    """Make the result of the wrong bits of each picture."""
+def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) -> BitErrors:
+    """Make the result of the wrong bits of each picture.
+
+    Parameters
+    ----------
+    scene, decoder
+        What was measured.
+    wrong
+        Wrong bits of each picture.
+    right
+        Pictures of which all bits are right, and accepted.
+    """
     length, camera = scene.transmitter.payload_length, scene.camera
     low, high = error_interval(wrong, length)
-    whole = list(wrong).count(0)
-    right_low, right_high = wilson_interval(whole, len(wrong))
+    right_low, right_high = wilson_interval(right, len(wrong))
     return BitErrors(
         decoder=decoder,
         bits=length * len(wrong),
@@ -101,7 +111,7 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int]) -> BitErrors
         low=low,
         high=high,
         pictures=len(wrong),
-        pictures_right=whole,
+        pictures_right=right,
         right_low=right_low,
         right_high=right_high,
         picture_time=panel_readout_time(scene),

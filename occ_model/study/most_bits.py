@@ -20,7 +20,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
-from occ_model.study.success_rate import images_read
+from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
@@ -207,5 +207,5 @@ def _read(
     for _ in range(pictures):
         scene = with_payload(sent, random.integers(0, 2, length).tolist())
         own = RateSettings(1, settings.decoders, int(random.integers(2**32)))
-        ((image,),) = images_read(scene, own, heartbeat)
-        yield image.is_whole
+        ((right,),) = right_bits_of_images(scene, own, heartbeat)
+        yield right == length

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -36,21 +35,6 @@ _SEEDS = 2**32
 _NO_PANEL = "No panel found: the rows that were simulated have one grey level."
 
 
-class ImageRead(NamedTuple):
-    """What a decoder reads of an image.
-
-    Parameters
-    ----------
-    right_bits
-        The bits that are right, also of a payload that is not accepted.
-    is_whole
-        Whether all are right, and accepted.
-    """
-
-    right_bits: int
-    is_whole: bool
-
-
 def success_rate(
     scene: Scene,
     images: int = 5,
@@ -64,8 +48,9 @@ def success_rate(
     """Give the share of bits read rightly over several images, in percent.
 
     SR = correct bits / (images x bits) x 100, the paper's definition. The images differ in start
-    time, evenly distributed over one packet, and in noise. An image in which no bits are read
-    counts with none right. The effects are planned for the signal, which a decoder reads.
+    time, evenly distributed over one packet, and in noise. An image in which no bits are read, or
+    whose bits the decoder does not accept, counts with none right. The effects
+    are planned for the signal, which a decoder reads.
 
     Parameters
     ----------
@@ -138,14 +123,15 @@ def right_and_whole(
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Count the bits that each decoder reads rightly, and the images whose payload it reads.
 
-    A payload is read if all its bits are right and the decoder accepts them. The arguments and
-    errors are those of :func:`right_bits`.
+    A payload is read if all its bits are. The arguments and errors are those of
+    :func:`right_bits`.
     """
     correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
-    for images in images_read(scene, settings, heartbeat):
-        for place, image in enumerate(images):
-            correct[place] += image.right_bits
-            whole[place] += image.is_whole
+    length = scene.transmitter.payload_length
+    for counts in right_bits_of_images(scene, settings, heartbeat):
+        for place, right in enumerate(counts):
+            correct[place] += right
+            whole[place] += right == length
     return tuple(correct), tuple(whole)
 
 
@@ -156,17 +142,6 @@ def right_bits_of_images(
 
     The arguments and errors are those of :func:`right_bits`; an image does not depend on how many
     follow it.
-    """
-    for images in images_read(scene, settings, heartbeat):
-        yield tuple(image.right_bits for image in images)
-
-
-def images_read(
-    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
-) -> Iterator[tuple[ImageRead, ...]]:
-    """Give what each decoder reads, one image after the other.
-
-    The arguments and errors are those of :func:`right_bits`.
     """
     transmitter = scene.transmitter
     sent = np.array(transmitter.payload_bits, dtype=np.uint8)
@@ -179,14 +154,18 @@ def images_read(
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
             changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
         read = _read(scene.replace(**changes), settings, span, stream)
-        yield tuple(_image_read(seen, sent) for seen in read)
+        yield tuple(_right_bits(seen, sent) for seen in read)
 
 
-def _image_read(seen: DecodeResult, sent: ByteArray) -> ImageRead:
-    right = int(np.count_nonzero(seen.bits == sent)) if seen.bits.size == sent.size else 0
-    # Bits can be given with a failure, such as that they are not certain enough: then the receiver
-    # has them and does not accept them.
-    return ImageRead(right, right == sent.size and seen.failure is None)
+def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:
+    """Count the bits that are right and accepted.
+
+    Bits can come with a failure, such as that they are not certain enough: the decoder has them and
+    does not accept them, and the window says of them that no code is read.
+    """
+    if seen.failure is not None or seen.bits.size != sent.size:
+        return 0
+    return int(np.count_nonzero(seen.bits == sent))
 
 
 @lru_cache(maxsize=256)

@@ -89,6 +89,7 @@ def measure_bench_point(
     names = request.decoders or decoders()
     length, duration = request.payload_bits, _period(scene)
     wrong: dict[str, list[int]] = {name: [] for name in names}
+    right = dict.fromkeys(names, 0)
     notes = dict.fromkeys(names, "")
     random = np.random.default_rng(request.seed)
     for _ in range(-(-request.bits // length)):
@@ -99,16 +100,20 @@ def measure_bench_point(
         signal = bench_signal(sent, ratio, random)
         for name in names:
             read = decode(signal, sent, name)
+            # Bits that the decoder does not accept count in the rate too: theory, with which it is
+            # compared, decides every bit. They are no payload that was read.
             is_whole = read.bits.size == length
             wrong[name].append(int((read.bits != bits).sum()) if is_whole else length)
+            right[name] += read.failure is None and not wrong[name][-1]
             notes[name] = notes[name] or read.failure or ""
     return tuple(
-        BenchPoint(*place, _errors(scene, name, wrong[name]), notes[name]) for name in names
+        BenchPoint(*place, _errors(scene, name, wrong[name], right[name]), notes[name])
+        for name in names
     )
 
 
-def _errors(scene: Scene, decoder: str, wrong: list[int]) -> BitErrors:
-    errors = bit_errors_of(scene, decoder, wrong)
+def _errors(scene: Scene, decoder: str, wrong: list[int], right: int) -> BitErrors:
+    errors = bit_errors_of(scene, decoder, wrong, right)
     return replace(errors, picture_time=errors.readout_time)  # every row sees the light
 
 

@@ -82,7 +82,7 @@ def test_no_wrong_bit_counts_as_one_trial_a_picture() -> None:
 
 
 def test_net_bits_a_second_are_whole_payloads_in_time() -> None:
-    found = bit_errors_of(SCENE, "x", [0, 0, 3, 0])
+    found = bit_errors_of(SCENE, "x", [0, 0, 3, 0], 3)
     assert found.bits_a_picture == 7.5
     assert found.bits_a_second(20.0) == 150.0
     shown = found.picture_time / SCENE.camera.readout_time
@@ -132,8 +132,8 @@ def test_without_exposure_the_bound_is_shannons() -> None:
 
 
 def test_a_panel_out_of_view_takes_no_time_to_read_out() -> None:
-    seen = bit_errors_of(SCENE, "threshold", [0, 1])
-    beside = bit_errors_of(SCENE.replace(offset_x=50.0), "threshold", [10, 10])
+    seen = bit_errors_of(SCENE, "threshold", [0, 1], 1)
+    beside = bit_errors_of(SCENE.replace(offset_x=50.0), "threshold", [10, 10], 0)
     assert seen.picture_time > 0.0
     assert beside.picture_time == 0.0
     assert beside.readout_time == seen.readout_time

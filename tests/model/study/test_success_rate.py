@@ -60,7 +60,7 @@ def test_a_payload_that_the_decoder_does_not_accept_is_not_read(
     )
     monkeypatch.setattr(module, "_read", lambda *_: [next(results)])
     right, whole = module.right_and_whole(scene.replace(code=718), RateSettings(2, ("x",)))
-    assert right == (20,)
+    assert right == (10,)
     assert whole == (1,)
 
 

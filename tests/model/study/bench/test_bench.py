@@ -1,13 +1,18 @@
 """The bench measures what it says, and finds what closed forms know."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
+from occ_model.receiver.decode import decode
+from occ_model.results import DecodeResult
 from occ_model.results.bench import HEADER, BenchRequest, written
+from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import bench, bench_scene, bench_signal
 
 SMALL = BenchRequest(
@@ -97,3 +102,20 @@ def test_the_bench_and_the_bit_error_rate_count_alike() -> None:
                                   payload_bits=64, at_decibels=60.0))  # fmt: skip
     assert by_scene.rate == by_bench[0].errors.rate == 0.0
     assert (by_scene.low, by_scene.high) == (by_bench[0].errors.low, by_bench[0].errors.high)
+
+
+def test_bits_that_are_not_accepted_count_in_the_rate_but_are_no_payload_a_second(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from occ_model.study.bench import bench as module
+
+    def doubting(signal: FloatArray, scene: Scene, name: str) -> DecodeResult:
+        return replace(decode(signal, scene, name), failure="The chips are not certain enough.")
+
+    monkeypatch.setattr(module, "decode", doubting)
+    one = BenchRequest(decoders=("threshold",), exposures=(0.5,), decibels=(30.0,),
+                       payload_bits=64, bits=128)  # fmt: skip
+    found = bench(one)[0].errors
+    assert found.errors == 0
+    assert found.pictures_right == 0
+    assert found.bits_a_second() == 0.0

@@ -4,9 +4,7 @@ Each of the three questions has a part of the pane: the table of effects with th
 slider from fast to exact with its sentence, and the plot of the ways to compute.
 """
 
-from dataclasses import replace
-
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
@@ -21,16 +19,19 @@ from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import rows_of, slowest_of
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
-from occ_gui.accuracy.plan_changes import PlanChanges, Switch
+from occ_gui.accuracy.plan_changes import PlanChanges
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.results import AccuracyPoint, Forecast, MeasuredCosts, TimeShares
+from occ_model.results import AccuracyPoint, Decision, Forecast, MeasuredCosts, TimeShares
 from occ_model.scene.simulation_settings import SimulationSettings
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312
 """Pixels that the parts need beside each other."""
+
+_NEW_MS = 8000
+"""For how long what the plan has switched is marked, and told in the status line."""
 
 
 class AccuracyView(QWidget):
@@ -65,7 +66,10 @@ class AccuracyView(QWidget):
         self._forecast: tuple[SimulationRequest, Forecast] | None = None
         self._seen = False
         self._changes = PlanChanges()
-        self._marked: tuple[Switch, ...] = ()
+        self._marked: tuple[Decision, ...] = ()
+        self._forgetting = QTimer(self, singleShot=True)
+        self._forgetting.setInterval(_NEW_MS)
+        self._forgetting.timeout.connect(self._forget_changes)
         self._selected = ""
         self.tolerance = ToleranceSlider()
         self.tolerance.edited.connect(self.mended)
@@ -143,8 +147,15 @@ class AccuracyView(QWidget):
         """Show these results in place of the last ones."""
         self._snapshot = snapshot
         if self._changes.update(snapshot.frame):
-            self.plan_changed.emit(switch_sentence(self._changes.switches))
+            self.plan_changed.emit(switch_sentence(self._changes.switched))
+            self._forgetting.start()
         self._redraw()
+
+    def _forget_changes(self) -> None:
+        """Let what the plan has switched be no news any more."""
+        self._changes.forget()
+        self.plan_changed.emit("")
+        self._draw()
 
     def show_costs(self, costs: SceneCosts) -> None:
         """Show what the effects of a scene cost and change, as far as measured."""
@@ -181,13 +192,13 @@ class AccuracyView(QWidget):
             return
         self._drawn = self._snapshot
         self._draw()
-        if self._marked != self._changes.switches:
-            self._marked = self._changes.switches
+        if self._marked != self._changes.switched:
+            self._marked = self._changes.switched
             self.table.bring_into_view(self._new)
 
     @property
     def _new(self) -> set[str]:
-        return {switch.decision.effect for switch in self._changes.switches}
+        return {decision.effect for decision in self._changes.switched}
 
     def _draw(self) -> None:
         """Draw all that is known of the picture that is shown."""
@@ -204,17 +215,10 @@ class AccuracyView(QWidget):
             sentence = f"{stated} {ends_sentence(costs)}".strip()
         else:
             sentence = forecast_sentence(frame, costs.picture, pending)
-        if self._changes.switches:
-            sentence += " " + switch_sentence(self._measured_switches(costs)) + "."
+        if self._changes.switched:
+            sentence += " " + switch_sentence(self._changes.switched) + "."
         self.summary.set_full_text(sentence)
         self._show_detail(costs)
-
-    def _measured_switches(self, costs: MeasuredCosts) -> tuple[Switch, ...]:
-        """Return the last switches with the times that the table states."""
-        if not costs.is_comparable:
-            return self._changes.switches
-        known = ((each, costs.seconds_of(each.decision.effect)) for each in self._changes.switches)
-        return tuple(each if s is None else replace(each, seconds=s) for each, s in known)
 
     def _known_costs(self, snapshot: Snapshot) -> MeasuredCosts:
         picture = TimeShares.of(snapshot.frame)

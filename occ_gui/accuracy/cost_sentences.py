@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QCoreApplication
 
 from occ_gui.accuracy.effect_rows import levels, milliseconds
-from occ_gui.accuracy.plan_changes import Switch
-from occ_model.results import Forecast, Frame, MeasuredCosts, TimeShares
+from occ_model.results import Decision, Forecast, Frame, MeasuredCosts, TimeShares
 
 
 def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | None) -> str:
@@ -105,22 +104,17 @@ def _promise(expected: Forecast) -> str:
     return _tr("error at most {bound} levels (calculated)").format(bound=levels(plan.left_out))
 
 
-def switch_sentence(switches: Sequence[Switch]) -> str:
-    """Name the effects that were switched, with the time that each costs or saves."""
-    switched_in = [_cost(s, "+") for s in switches if s.decision.included]
-    switched_out = [_cost(s, "−") for s in switches if not s.decision.included]  # noqa: RUF001
+def switch_sentence(switched: Sequence[Decision]) -> str:
+    """Name the effects that were switched; what each takes stands in the table, and only there."""
     parts = []
-    if switched_in:
-        parts.append(_tr("Switched in: {effects}").format(effects="; ".join(switched_in)))
-    if switched_out:
-        parts.append(_tr("Switched out: {effects}").format(effects="; ".join(switched_out)))
+    for included, words in (
+        (True, _tr("Switched in: {effects}")),
+        (False, _tr("Switched out: {effects}")),
+    ):
+        labels = [decision.label for decision in switched if decision.included is included]
+        if labels:
+            parts.append(words.format(effects=", ".join(labels)))
     return ". ".join(parts)
-
-
-def _cost(switch: Switch, sign: str) -> str:
-    return _tr("{label}, {sign}{time} ms").format(
-        label=switch.decision.label, sign=sign, time=milliseconds(switch.seconds)
-    )
 
 
 def _tr(text: str) -> str:

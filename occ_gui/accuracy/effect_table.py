@@ -26,7 +26,7 @@ STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
 """The columns of the table."""
 
 _TINT = QColor(REGION)
-_TINT.setAlpha(70)
+_TINT.setAlpha(48)
 
 LOWEST_ROW, HIGHEST_ROW = 16, 28
 """Pixels of a row in a low pane and in a high one."""

@@ -246,3 +246,4 @@ class LearningPanes(QObject):
         actions["clear_pins"].triggered.connect(self.pins.clear)
         actions["lessons"].triggered.connect(lambda: self._window.bring_to_front("lessons"))
         self.pins.status_message.connect(self.status_message)
+        self.pins.both_pinned.connect(lambda: self._window.bring_to_front("compare"))

@@ -104,7 +104,7 @@ class CompareView(QWidget):
         self.plot = new_plot(
             self.tr("The camera's column profiles of A and B, before enhancement"),
             self.tr("column, before enhancement"),
-            self.tr("level"),
+            self.tr("grey level"),
             self.palette(),
         )
         self.plot.setDownsampling(auto=True, mode="peak")
@@ -131,8 +131,8 @@ class CompareView(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 2, 4, 2)
         layout.setSpacing(2)
-        layout.addLayout(row)
         layout.addWidget(self.hint)
+        layout.addLayout(row)
         layout.addWidget(panes, 1)
         layout.addStretch()
 
@@ -172,10 +172,17 @@ class CompareView(QWidget):
 
     def _hint(self, pinned: Pinned) -> str:
         if pinned.a is None and pinned.b is None:
-            return self.tr("Pin the current state as A, change the scene, and pin it as B.")
+            return self.tr(
+                "Compare two scenes: press Pin A to keep the present one, change it by the "
+                "sliders, and press Pin B. What differs is listed here, beside both profiles."
+            )
         if pinned.a is None or pinned.b is None:
             name = "A" if pinned.a is None else "B"
-            return self.tr("Change the scene, and pin it as {name}.").format(name=name)
+            kept = "B" if name == "A" else "A"
+            return self.tr(
+                "{kept} is kept. Change the scene by the sliders, and press Pin {name}: what "
+                "differs is listed here."
+            ).format(kept=kept, name=name)
         return "" if pinned.inputs else self.tr("A and B are the same scene.")
 
     def _fill(self, pinned: Pinned) -> None:

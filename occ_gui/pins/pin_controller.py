@@ -49,6 +49,9 @@ class PinController(QObject):
     status_message = Signal(str)
     """What was done, or why it could not be done."""
 
+    both_pinned = Signal()
+    """There are two states to compare, as the user has just asked for."""
+
     def __init__(
         self,
         scenes: SceneStore,
@@ -92,7 +95,13 @@ class PinController(QObject):
         new = self._pin_of(self._snapshot)
         a, b = (new, self.pinned.b) if name == "A" else (self.pinned.a, new)
         self._put(a, b)
-        self.status_message.emit(self.tr("Pinned the current state as {name}.").format(name=name))
+        told = self.tr("Pinned the current state as {name}.")
+        if self.pinned.a is None or self.pinned.b is None:
+            told = self.tr("Pinned the current state as {name}: change it, and pin {other}, too.")
+        else:
+            self.both_pinned.emit()
+        other = "B" if name == "A" else "A"
+        self.status_message.emit(told.format(name=name, other=other))
 
     def clear(self) -> None:
         """Forget both."""

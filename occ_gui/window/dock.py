@@ -1,6 +1,6 @@
 """Dock of a pane: when it is floated, it lands beside its place."""
 
-from PySide6.QtCore import QPoint, QRect, QSize
+from PySide6.QtCore import QPoint, QRect, QSize, Signal
 from PySide6.QtGui import QMoveEvent, QResizeEvent
 from PySide6.QtWidgets import QDockWidget, QWidget
 
@@ -34,13 +34,21 @@ class Dock(QDockWidget):
         The window.
     """
 
+    opened_by_user = Signal()
+    """Its entry in the menu has shown it."""
+
     def __init__(self, name: str, title: str, content: QWidget, parent: QWidget) -> None:
         super().__init__(title, parent)
         self.setObjectName(name)
         self.setWidget(content)
         self._place = QRect()
         self.topLevelChanged.connect(self._on_floated)
+        self.toggleViewAction().triggered.connect(self._on_switched)
         self.hide()  # until a mode lays it out
+
+    def _on_switched(self, shown: bool) -> None:
+        if shown:
+            self.opened_by_user.emit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Note its place."""

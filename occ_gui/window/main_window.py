@@ -30,8 +30,8 @@ from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar
 
-_OPENED_BELOW = 0.3
-"""Share of the window's height that a pane gets which opens below the middle."""
+_OPENED_BELOW, _OPENED_BESIDE = 0.34, 0.26
+"""Shares of the window's height and width of a pane that opens below the middle, or beside it."""
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
@@ -124,7 +124,15 @@ class MainWindow(QMainWindow):
         }
 
     def _dock(self, name: str, title: str, content: QWidget) -> Dock:
-        return Dock(name, title, content, self)
+        dock = Dock(name, title, content, self)
+        dock.opened_by_user.connect(self._on_opened)
+        return dock
+
+    def _on_opened(self) -> None:
+        """Give a pane that the user has opened by the menu the place to be seen."""
+        dock = self.sender()
+        if isinstance(dock, Dock):
+            QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
 
     def add_pane(self, name: str, title: str, content: QWidget) -> Dock:
         """Add a pane, and its entry in the view menu, before the window is shown.
@@ -159,12 +167,19 @@ class MainWindow(QMainWindow):
         QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
 
     def _give_place(self, dock: Dock, is_new: bool) -> None:
-        """Bring a pane to the front, and let one that opens below the middle be high enough."""
+        """Bring a pane to the front, and let one that has just opened be large enough."""
         dock.raise_()
-        least = round(_OPENED_BELOW * self.height())
-        is_below = self.dockWidgetArea(dock) == Qt.DockWidgetArea.BottomDockWidgetArea
-        if is_new and is_below and not dock.isFloating() and dock.height() < least:
-            self.resizeDocks([dock], [least], Qt.Orientation.Vertical)
+        if not is_new or dock.isFloating():
+            return
+        area = self.dockWidgetArea(dock)
+        if area == Qt.DockWidgetArea.BottomDockWidgetArea:
+            least, now = round(_OPENED_BELOW * self.height()), dock.height()
+            orientation = Qt.Orientation.Vertical
+        else:
+            least, now = round(_OPENED_BESIDE * self.width()), dock.width()
+            orientation = Qt.Orientation.Horizontal
+        if now < least:
+            self.resizeDocks([dock], [least], orientation)
 
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front in the present mode, unless the story has a row of the same.

@@ -41,7 +41,7 @@ def test_an_effect_included_by_a_slider_is_marked_with_its_cost(
     user.wait_until_idle()
     shown = row(in_front, "led-edges")
     assert (shown.included, shown.new) == (True, True)
-    assert "Switched in: LED rise and fall, +" in in_front.accuracy.summary.toolTip()
+    assert "Switched in: LED rise and fall." in in_front.accuracy.summary.toolTip()
     slider.setValue(205)  # the mark stays while the slider goes on
     user.wait_until_idle()
     assert row(in_front, "led-edges").new
@@ -55,7 +55,7 @@ def test_the_mark_goes_to_what_is_switched_next(in_front: Application, user: Use
     user.enter("edge_time", "0")
     edges = row(in_front, "led-edges")
     assert (edges.included, edges.new) == (False, True)
-    assert "Switched out: LED rise and fall, −" in in_front.accuracy.summary.toolTip()  # noqa: RUF001
+    assert "Switched out: LED rise and fall." in in_front.accuracy.summary.toolTip()
 
 
 def test_the_status_line_says_it_also_while_the_pane_is_behind(
@@ -64,9 +64,22 @@ def test_the_status_line_says_it_also_while_the_pane_is_behind(
     user.enter("edge_time", "5 us")
     assert application.accuracy.table.effects.rows == ()  # nothing is drawn that nobody sees
     tips = [label.toolTip() for label in application.window.statusBar().findChildren(QLabel)]
-    assert any(tip.startswith("Switched in: LED rise and fall, +") for tip in tips)
+    assert any(tip.startswith("Switched in: LED rise and fall") for tip in tips)
     application.window.bring_to_front("accuracy")
     assert row(application, "led-edges").new
+
+
+def test_what_was_switched_is_news_for_a_while_only(
+    in_front: Application, user: User, qtbot: QtBot
+) -> None:
+    user.enter("edge_time", "5 us")
+    assert row(in_front, "led-edges").new
+    in_front.accuracy._forgetting.setInterval(0)
+    in_front.accuracy._forgetting.start()
+    qtbot.waitUntil(lambda: not row(in_front, "led-edges").new)
+    assert "Switched" not in in_front.accuracy.summary.toolTip()
+    tips = [label.toolTip() for label in in_front.window.statusBar().findChildren(QLabel)]
+    assert not any(tip.startswith("Switched") for tip in tips)
 
 
 def test_a_higher_tolerance_leaves_effects_out(

@@ -173,13 +173,14 @@ def texts(table: QTableWidget) -> list[list[str]]:
 def test_the_view_requests_what_is_missing_then_lists_and_draws(
     view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
 ) -> None:
-    assert "as A" in view.hint.text()
+    assert "press Pin A" in view.hint.text()
     assert not view.table.isVisible()
     assert not view.returns["A"].isEnabled()
     pins.show_snapshot(bare_snapshot_of())
     pins.pin("A")
     view.show_pinned(pane.pinned)
-    assert "as B" in view.hint.text()
+    assert view.hint.text().startswith("A is kept.")
+    assert "press Pin B" in view.hint.text()
     assert view.returns["A"].isEnabled()
     pins.show_snapshot(bare_snapshot_of(iso=200.0))
     pins.pin("B")
@@ -192,7 +193,7 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
         assert pin is not None
         assert np.array_equal(view.curves[name].getOriginalDataset()[1], pin.profile)
     view.show_pinned(Pinned())
-    assert "as A" in view.hint.text()
+    assert "press Pin A" in view.hint.text()
     assert not view.clear.isEnabled()
 
 
@@ -291,3 +292,28 @@ def test_a_scene_without_a_picture_is_not_pinned(application: Application, user:
     application.store.undo_stack.undo()
     user.wait_until_idle()
     assert pins.pinned.a is None
+
+
+def test_the_pane_opens_by_itself_once_there_are_two_states(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    user.choose("Pin as &A")
+    assert "pin B, too" in user.message
+    assert window.docks["compare"].isHidden()
+    user.enter("iso", "200")
+    user.choose("Pin as &B")
+    compare = window.docks["compare"]
+    qtbot.waitUntil(lambda: compare.isVisible() and compare.height() > 0.3 * 800)
+
+
+@pytest.mark.parametrize(("name", "side"), [("compare", "height"), ("equations", "width")])
+def test_a_pane_that_the_menu_opens_is_large_enough(
+    application: Application, qtbot: QtBot, name: str, side: str
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    dock = window.docks[name]
+    dock.toggleViewAction().trigger()
+    qtbot.waitUntil(lambda: getattr(dock, side)() >= 0.25 * getattr(window, side)())

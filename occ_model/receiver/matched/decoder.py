@@ -240,7 +240,9 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
     starts = np.flatnonzero(begins)
     counts = np.diff(starts, append=light.size)
     between = np.add.reduceat(light.ravel(), starts) ** 2 / counts
-    shares = np.bincount(starts // bins, between, minlength=rows) / (light[0] @ light[0])
+    energy = float(light[0] @ light[0])
+    # A signal that folds to one level correlates with nothing.
+    shares = np.bincount(starts // bins, between, minlength=rows) / (energy or np.inf)
     return np.asarray(np.sqrt(np.clip(shares, 0.0, 1.0)))
 
 

@@ -234,8 +234,8 @@ class Coverage:
     def _enlarged(self, coarse: Pixels, rows: range, columns: range) -> Pixels:
         """Interpolate linearly between the cells' centres."""
         # Not by OpenCV: its coordinates are short integers in many versions.
-        column, right = self._between(columns, coarse.shape[1])
-        row, below = self._between(rows, coarse.shape[0])
+        column, right = self._between(columns)
+        row, below = self._between(rows)
         part = coarse[row[0] : row[-1] + 2]
         wide = part[:, column] * (1.0 - right) + part[:, column + 1] * right
         weight = np.zeros((len(rows), len(part)), dtype=np.float32)
@@ -244,11 +244,14 @@ class Coverage:
         weight[line, row - row[0] + 1] = below
         return weighted(weight, wide)
 
-    def _between(self, pixels: range, cells: int) -> tuple[IndexArray, Pixels]:
-        """Return the cell before each pixel's centre, and the distance from it in cells."""
+    def _between(self, pixels: range) -> tuple[IndexArray, Pixels]:
+        """Return the cell before each pixel's centre, and the distance from it in cells.
+
+        The margins are many cells wide: there are some on either side of each pixel.
+        """
         place = (np.asarray(pixels) + (self._margin + 0.5)) / self._cell - 0.5
-        before = np.clip(np.floor(place), 0, cells - 2)
-        return before.astype(np.int64), np.clip(place - before, 0.0, 1.0).astype(np.float32)
+        before = np.floor(place)
+        return before.astype(np.int64), (place - before).astype(np.float32)
 
 
 def _height(outline: FloatArray, seen: range) -> int:

@@ -8,7 +8,11 @@ import pytest
 
 from occ_model.figures import lesson_steps
 from occ_model.figures.bench import _draw_bits
-from occ_model.figures.circuit_symbols import transistor
+from occ_model.figures.circuit_symbols import ground, transistor
+from occ_model.figures.decoding import _draw_signal
+from occ_model.figures.sweep import _axis_label
+from occ_model.figures.window_panes import _show
+from occ_model.results import DecodeResult
 
 
 def test_the_bits_of_a_bench_are_drawn_with_both_ends_of_their_intervals() -> None:
@@ -37,6 +41,63 @@ def test_the_arrow_of_a_transistor_points_straight_at_its_gate() -> None:
     assert tip[1] == 7.0
     assert base[0][0] == base[1][0] > tip[0] > 3.0
     assert np.mean([corner[1] for corner in base]) == pytest.approx(7.0)
+
+
+def test_the_ground_is_level_lines_each_shorter_than_the_one_above() -> None:
+    axes = Mock()
+    ground(axes, 2.0, 1.0)
+    lines = [call.args[:2] for call in axes.plot.call_args_list]
+    widths = [np.ptp(x) for x, _ in lines]
+    assert all(np.mean(x) == pytest.approx(2.0) for x, _ in lines)
+    assert all(np.ptp(y) == 0.0 for _, y in lines)
+    assert widths[0] > widths[1] > widths[2] > 0.0
+
+
+@pytest.mark.parametrize("swing", [0.1, 4.0, 200.0])
+def test_the_bars_of_lit_chips_stand_just_below_the_signal(swing: float) -> None:
+    axes = Mock()
+    signal = 20.0 + swing * np.tile([0.0, 1.0], 4)
+    chips = np.array([0, 1], dtype=np.uint8)
+    result = DecodeResult(
+        "own", signal=signal, chips=chips, chip_starts=np.array([0.0, 4.0]), chip_length=4.0
+    )
+    _draw_signal(axes, result)
+    _, (low, height) = axes.broken_barh.call_args.args
+    assert 0.03 <= height / max(swing, 1.0) <= 0.1
+    assert 0.0 < 20.0 - (low + height) <= 1.01 * height
+
+
+def test_a_picture_is_drawn_with_each_pixel_round_its_number() -> None:
+    axes = Mock()
+    _show(axes, np.zeros((30, 40), dtype=np.uint8))
+    assert axes.imshow.call_args.kwargs["extent"] == (-0.5, 39.5, 29.5, -0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "label"),
+    [("edge_time", "µs", "LED"), ("distance", "m", "distance"), ("iso", "", "ISO")],
+)
+def test_the_label_of_an_axis_begins_small_but_for_abbreviations(
+    name: str, unit: str, label: str
+) -> None:
+    shown = _axis_label(name, unit)
+    assert shown.startswith(label)
+    assert shown.endswith(f"({unit})") == bool(unit)
+
+
+def test_a_report_says_what_became_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lesson_steps, "_draw_seen", Mock())
+    figure = Mock()
+    answer = SimpleNamespace(text="12", sentence="That is what the picture shows.")
+    step = SimpleNamespace(
+        question="How many?", answer="Twelve.", with_unit=lambda text: f"{text} ms"
+    )
+    for given in (answer, None):
+        each = SimpleNamespace(step=step, answer=given, match=None, photo=None)
+        lesson_steps._draw_step(figure, 1, each, 0.9, 0.5)  # type: ignore[arg-type]
+        texts = [str(call.args[2]).replace("\n", " ") for call in figure.text.call_args_list]
+        assert (answer.sentence in texts) == (given is not None)
+        figure.text.reset_mock()
 
 
 @pytest.mark.parametrize(("top", "is_drawn"), [(0.5, True), (0.11, False)])

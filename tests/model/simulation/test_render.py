@@ -15,7 +15,7 @@ from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.simulation.render import render_with
+from occ_model.simulation.render import plan_scene, render_with
 
 COSTLY = {work.__code__: work.__name__ for work in (lit_fraction, panel_corners)}
 
@@ -116,6 +116,15 @@ def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:
     as_a_value = render_with(scene, settings)
     assert as_a_value.plan == one_by_one.plan
     np.testing.assert_array_equal(as_a_value.image, one_by_one.image)
+
+
+def test_what_is_planned_already_is_not_planned_again(scene: Scene) -> None:
+    settings = SimulationSettings()
+    planned = plan_scene(scene, settings)
+    frame = render_with(scene, settings, planned=planned)
+    for stage in ("projection", "plan"):
+        assert frame.timings[stage] == planned.timings[stage]
+    np.testing.assert_array_equal(frame.image, render_with(scene, settings).image)
 
 
 @pytest.mark.parametrize("seed", [0, 7])

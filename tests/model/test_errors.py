@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_model.errors import one_line, shown
+from occ_model.errors import _LONGEST_VALUE, one_line, shown
 
 
 def nested(levels: int) -> object:
@@ -24,6 +24,11 @@ def test_a_value_is_quoted_in_few_characters(value: object) -> None:
 @pytest.mark.parametrize("value", [718, 1.5, "10 kHz", None, True, [1, 2], {"a": 1}])
 def test_a_short_value_is_quoted_as_repr_does(value: object) -> None:
     assert shown(value) == repr(value)
+
+
+@pytest.mark.parametrize("length", [1, 30, _LONGEST_VALUE - 3, _LONGEST_VALUE - 2])
+def test_a_text_of_just_the_length_allowed_is_not_cut(length: int) -> None:
+    assert shown("x" * length) == repr("x" * length)
 
 
 def test_an_object_that_cannot_be_written_is_quoted_all_the_same() -> None:

@@ -166,6 +166,13 @@ def test_the_first_and_last_chip_may_be_cut_off() -> None:
     assert (read.failure, read.bits.tolist()) == (None, payload)
 
 
+def test_the_papers_framing_tells_too_few_chips_from_chips_without_headers() -> None:
+    one = scheme_named("manchester", "paper", "", "none", 10)
+    few, many = (np.tile(chips_of("10"), number) for number in (12, 60))
+    assert "24 of 48 chips fit the panel's image" in (one.decode(few).failure or "")
+    assert "No header found among 120 chips" in (one.decode(many).failure or "")
+
+
 @pytest.mark.parametrize("framing", ["preamble", "raw"])
 def test_too_few_chips_are_counted_in_the_failure(framing: str) -> None:
     one = scheme_named("manchester", framing, "", "none", 10)

@@ -8,9 +8,9 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.fit.joint_fit import JointFit
 
 _UNMODELLED = 0.05
-"""Share of a misfit by which explanations must differ to be told apart: what a camera does beside
-the model changes each one's misfit by chance. Without it, a blur of the wrong shape is often taken
-for the only one."""
+"""Share of the data's misfit by which explanations must differ to be told apart: what a camera does
+beside the model changes each one's misfit by chance. Without it, a blur of the wrong shape is often
+taken for the only one. What is usual of a camera has no such error: it counts in full."""
 
 _VANISHED = 2e-3
 """Exposure in chips that is as good as none."""
@@ -29,18 +29,30 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
     """
     tell = [one for one in fits if one.exposure > _VANISHED and one.covariance[3, 3] < _UNTOLD]
     fits = sorted(tell or fits, key=lambda fit: fit.exposure)
-    misfits = np.array([fit.misfit for fit in fits])
-    least = float(misfits.min())
-    likely = np.cumsum(_weights(misfits - least))
+    likeliest = min(fits, key=lambda fit: fit.misfit)
+    likely = np.cumsum(_weights(np.array([fit.misfit for fit in fits])))
     middle = fits[int(np.searchsorted(likely, 0.5))].values
-    weights = _weights((misfits - least) / max(1.0, _UNMODELLED * least))
+    trust = max(1.0, _UNMODELLED * (likeliest.misfit - likeliest.prior))
+    weights = _weights(np.array([(fit.misfit - fit.prior) / trust + fit.prior for fit in fits]))
     covariance = sum(
         weight * (fit.covariance + np.outer(fit.values - middle, fit.values - middle))
         for weight, fit in zip(weights, fits, strict=True)
     )
-    return JointFit(middle, np.asarray(covariance), least)
+    return JointFit(middle, np.asarray(covariance), likeliest.misfit, likeliest.prior)
 
 
-def _weights(excess: FloatArray) -> FloatArray:
-    density = np.exp(-0.5 * excess)
+def distinct(fits: Sequence[JointFit]) -> list[JointFit]:
+    """Keep the best fit of each minimum of one model: several starts may end in the same one.
+
+    Two are the same where their exposures differ by less than the better one's deviation.
+    """
+    kept: list[JointFit] = []
+    for fit in sorted(fits, key=lambda one: one.misfit):
+        if all(abs(fit.exposure - other.exposure) > other.deviation for other in kept):
+            kept.append(fit)
+    return kept
+
+
+def _weights(misfits: FloatArray) -> FloatArray:
+    density = np.exp(-0.5 * (misfits - misfits.min()))
     return np.asarray(density / density.sum())

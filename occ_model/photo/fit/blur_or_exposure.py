@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
+from occ_model.photo.fit.averaged_fits import distinct
 from occ_model.photo.fit.blurred_light import BlurShape
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
 
@@ -42,17 +43,24 @@ class Possible:
     rounds: int = 1
 
     def again(self) -> list[JointFit]:
-        """Fit again, the noise having been estimated, also with each blur where all are likely."""
+        """Fit again, the noise having been estimated, also with each blur where all are likely.
+
+        Each minimum counts once, however many starts end in it.
+        """
         free = self.model.fit(self.fit.values, rounds=self.rounds)
         if free.values[1] >= _BLURRED * free.values[0]:
             return [free]
-        shared = {shape: self._shared(free.values, shape) for shape in _OF_BOTH}
-        found = [free, *(fit for fits in shared.values() for fit in fits)]
-        found += self._exchanged(shared["box"])
-        if free.covariance[7, 7] < _KNOWN_BLUR**2:
-            return found
-        others = [_with_blur(free.values, blur) for blur in _BLURS]
-        return [*found, *(self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others)]
+        found = {shape: self._shared(free.values, shape) for shape in _OF_BOTH}
+        found["box"] += self._exchanged(found["box"])
+        found[None].append(free)
+        best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
+        for shape, fits in found.items():
+            # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
+            fits.append(self.model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
+        if free.covariance[7, 7] >= _KNOWN_BLUR**2:
+            others = [_with_blur(free.values, blur) for blur in _BLURS]
+            found[None] += [self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others]
+        return [fit for fits in found.values() for fit in distinct(fits)]
 
     def _exchanged(self, boxes: Sequence[JointFit]) -> list[JointFit]:
         """Fit with exposure and blur exchanged: two boxes make the same edge in either order."""

@@ -84,11 +84,14 @@ class JointFit:
         Theirs; 0 for what is not fitted.
     misfit
         Twice the negative logarithm of the posterior density, less a constant.
+    prior
+        The part of the misfit by which the unknowns are off what is usual.
     """
 
     values: FloatArray
     covariance: FloatArray
     misfit: float
+    prior: float = 0.0
 
     @property
     def exposure(self) -> float:
@@ -135,7 +138,7 @@ class JointModel:
     ) -> None:
         self._check = check
         columns = len(profiles[0].values)
-        self._columns, self._step, self._gamma = columns, step, gamma
+        self._columns, self._step, self.gamma = columns, step, gamma
         self._values_blurred = values_blurred
         freedom = int(np.clip(step * columns / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
         light = BlurredLight(chips, columns)
@@ -166,14 +169,14 @@ class JointModel:
     def start(self, timing: Timing) -> FloatArray:
         """Give the parameters of a timing, and what is usual."""
         values = np.array([timing.step, timing.exposure, timing.middle, *self._mean])
-        if self._gamma == 1.0:
+        if self.gamma == 1.0:
             values[4] = 0.0
         return values
 
     def adapted(self, values: FloatArray) -> FloatArray:
         """Give another model's parameters, what this one does not fit being as usual."""
         step, exposure, middle = values[:3].tolist()
-        usual = self.start(Timing(step, exposure, middle, self._gamma))
+        usual = self.start(Timing(step, exposure, middle, self.gamma))
         return np.where(self._free, values, usual)
 
     @property
@@ -184,7 +187,7 @@ class JointModel:
     def with_usual(self, values: FloatArray) -> FloatArray:
         """Keep the timing and the blur of parameters, and let all else be as usual."""
         step, exposure, middle = values[:3].tolist()
-        usual = self.start(Timing(step, exposure, middle, self._gamma))
+        usual = self.start(Timing(step, exposure, middle, self.gamma))
         usual[7] = values[7]
         return usual
 
@@ -220,7 +223,7 @@ class JointModel:
         bounds[0][0], bounds[1][0] = 0.5 * self._step, 2.0 * self._step
         if self.is_wide:
             inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
-            bounds[0][3], bounds[1][3] = np.log(self._allowed * inside / self._gamma)
+            bounds[0][3], bounds[1][3] = np.log(self._allowed * inside / self.gamma)
         first = np.clip(first, *bounds)
         # The exposure's logarithm: it is positive, and known by ratio.
         scale = np.where(index == 1, 0.05, scale)
@@ -246,7 +249,8 @@ class JointModel:
         covariance[np.ix_(index, index)] = covariance_of(
             slopes, residual, moved, self._block
         ) * np.outer(scale, scale)
-        return JointFit(values, covariance, float(residual @ residual))
+        prior = residual[-len(USUAL) :]
+        return JointFit(values, covariance, float(residual @ residual), float(prior @ prior))
 
     def unusual(self, values: FloatArray) -> float:
         """Give by how many standard deviations the unknowns of a fit are off what is usual."""
@@ -278,13 +282,13 @@ class JointModel:
     def _seen(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:
         step, exposure, middle, *bends, blur, longer = values.tolist()
         gamma, offset, shoulder, contrast = bends
-        timing = Timing(step, exposure, middle, self._gamma)
+        timing = Timing(step, exposure, middle, self.gamma)
         sharp = None
         if self._values_blurred:
             sharp = self._lit(timing, 0.0, longer, 0.0)
         return Seen(
             self._lit(timing, blur, longer, tails, shape),
-            self._table(self._gamma * math.exp(gamma), offset, shoulder, contrast),
+            self._table(self.gamma * math.exp(gamma), offset, shoulder, contrast),
             sharp,
             blur_kernel(blur, tails, shape),
         )

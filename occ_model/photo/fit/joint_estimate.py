@@ -16,7 +16,7 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
-from occ_model.photo.fit.other_starts import APART_CHIPS, other_starts
+from occ_model.photo.fit.other_starts import APART_CHIPS, other_starts, scanned_starts
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results import Stripes
@@ -165,8 +165,9 @@ def _modes(
         )
     least = min(fit.misfit for fit in means)
     most = _RATIO * least + _AS_LIKELY
-    # The first one stays: its stripes are those of the others, to the last column.
-    kept = [fit for fit in means if fit.misfit < most or fit is means[0]]
+    # A square wave's first one stays: its stripes are those of the others, to the last column.
+    stays = means[0] if len(explanation.chips) == 2 else None
+    kept = [fit for fit in means if fit.misfit < most or fit is stays]
     return sorted(kept, key=lambda fit: fit.misfit)
 
 
@@ -187,7 +188,8 @@ def _other_starts(
                 values = model.adapted(found.fit.values)
                 values[1:3] = one.exposure, one.middle
                 starts.append(values)
-    return starts
+        return starts
+    return [*starts, *scanned_starts(model, found.fit.values, is_possible)]
 
 
 def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:

@@ -93,7 +93,7 @@ class MatchResult(QWidget):
         if self._scene is not None:
             self._given = float(self._scene.value(known_of(match)))
         self._show_stale()
-        self.verdict.show_verdict(match.verdict, match.reasons)
+        self.verdict.show_verdict(match.verdict, match.all_reasons)
         self._show_figures(match)
         self.show_outdated("", usable=True)
 

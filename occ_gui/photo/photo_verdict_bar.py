@@ -115,10 +115,13 @@ class PhotoVerdictBar(StateBar):
 
     def _worth(self, match: Match) -> tuple[State, tuple[str, ...]]:
         found = self._found(match)
-        if match.verdict == SURE:
+        if match.verdict == SURE and not match.exposure_reasons:
             return State.GOOD, (self.tr("Photo: the match is sure"), found)
-        reason = " ".join(match.reasons[:1])
-        more = len(match.reasons) - 1
+        if match.verdict == SURE:
+            title = self.tr("Photo: the match is sure but for the exposure time")
+            return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
+        reasons = match.all_reasons
+        reason, more = reasons[0], len(reasons) - 1
         if more > 0:
             reason += self.tr(" And {count} more.").format(count=more)
         title = self.tr("Photo: the match is doubtful")
@@ -131,8 +134,11 @@ class PhotoVerdictBar(StateBar):
         name = self.tr("photo {name}").format(name=one_line(self._photo.path.name))
         if self._match is None or self._outdated or self._why_not:
             return self.tr("{photo}, not matched").format(photo=name)
+        verdict = self._match.verdict
+        if self._match.only_exposure_is_doubtful:
+            verdict = self.tr("{verdict} but for the exposure time").format(verdict=verdict)
         return self.tr("{photo}, the match is {verdict}. {found}").format(
-            photo=name, verdict=self._match.verdict, found=self._found(self._match)
+            photo=name, verdict=verdict, found=self._found(self._match)
         )
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
@@ -157,6 +163,8 @@ class PhotoVerdictBar(StateBar):
             value = with_uncertainty(declared, getattr(match, name), spread)
             if name == "readout_time":
                 value = self.tr("{time} a line").format(time=value)
+            if name == "exposure_time" and match.only_exposure_is_doubtful:
+                value = self.tr("{time} (doubtful)").format(time=value)
             parts.append(f"{declared.label.lower()} {value}")
         found = condition_of(match, self._certain) + ", ".join(parts)
         return f"{found[0].upper()}{found[1:]}."

@@ -157,7 +157,7 @@ def _square_wave(scene: Scene, text: str) -> Scene:
 
 def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
     """Write a match in lines, with the exposure time in seconds that the camera noted."""
-    lines = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.reasons)]
+    lines = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
     for name in _ESTIMATED:
         lines.append(f"{name:22}{_with_uncertainty(match, name, assumption)}")
         if name == "exposure_time" and noted is not None:
@@ -213,4 +213,5 @@ def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
         return f"{declared.format(value)} ({how})"
     text = estimate_text(declared, value, deviation)
     # Gamma is found from the shape of the stripes, not from their timing.
-    return text if name == "gamma" else assumption + text
+    doubt = " (doubtful)" if name == "exposure_time" and match.only_exposure_is_doubtful else ""
+    return (text if name == "gamma" else assumption + text) + doubt

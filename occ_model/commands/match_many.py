@@ -13,7 +13,14 @@ from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
-from occ_model.results.photo_table import VERDICTS, CombinedEstimate, PhotoRow, PhotoTable
+from occ_model.results.photo_table import (
+    DOUBTFUL,
+    SURE,
+    VERDICTS,
+    CombinedEstimate,
+    PhotoRow,
+    PhotoTable,
+)
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameters import quantity
@@ -109,6 +116,9 @@ def _found(row: PhotoRow, name: str) -> str:
     for each in (name, "exposure_time"):
         value, error = getattr(row, each), row.uncertainty(each)
         texts.append("" if value is None else _with_error(each, value, error or 0.0))
+    # Of a doubtful photo all is.
+    if row.verdict == SURE and row.exposure_verdict == DOUBTFUL:
+        texts[1] += " (doubtful)"
     return f"{texts[0]:24}  {texts[1]:22}".rstrip()
 
 

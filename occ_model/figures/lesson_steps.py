@@ -124,11 +124,12 @@ def match_lines(match: Match, photo: str) -> list[str]:
         declared = quantity(name)
         deviation = match.uncertainties.get(name)
         value = declared.unit.format_estimate(getattr(match, name), deviation)
-        lines.append(f"{declared.label.lower()} {value}")
+        doubt = name == "exposure_time" and match.only_exposure_is_doubtful
+        lines.append(f"{declared.label.lower()} {value}{' (doubtful)' if doubt else ''}")
     lines.append(
         f"{match.exposure_in_chips:.3g} chips an exposure, residual {match.rmse:.2g} levels"
     )
-    return [*lines, *match.reasons]
+    return [*lines, *match.all_reasons]
 
 
 def draw_profile(ax: Axes, scene: Scene) -> None:

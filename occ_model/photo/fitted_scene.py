@@ -26,9 +26,8 @@ from occ_model.transmitter.scheme import scheme_of
 ESTIMATES = ("readout_time", "switching_frequency")
 """The parameters of which one is estimated and the other one is known."""
 
-_TOO_FAR = 2.0
-"""Standard deviations from which two exposure times contradict each other: that far off are one of
-twenty."""
+_TOO_FAR = 3.0
+"""Standard deviations from which two exposure times contradict each other."""
 
 _NOMINAL = 0.012
 """Relative standard deviation of a noted exposure time: 1/500 stands for 1/512 s."""
@@ -100,8 +99,9 @@ def described(
         other_exposures=tuple(
             exposure_time(other, scene, estimate) for other in explanation.fits if other is not fit
         ),
-        doubts=(
-            *better.doubts,
+        reasons=better.doubts,
+        exposure_reasons=(
+            *better.exposure_doubts,
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),

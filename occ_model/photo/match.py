@@ -118,7 +118,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     chosen = _chosen(judge, hypotheses, stripes, sent)
     found, beside = candidates.corrected(candidates.polished(chosen))
     others = [*(one for one in hypotheses if one is not chosen), *beside]
-    verdict = judge.verdict(found, [one for one in others if not is_turned(one, found)])
+    apart = [one for one in others if not is_turned(one, found)]
+    verdict = judge.verdict(found, apart, is_given=sent == "scene")
     report(0.9)
     match = described(
         photo, _at_rate(scene, found), estimate, stripes, found.explanation, report.again
@@ -127,7 +128,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     return replace(
         match,
         pattern_was_read=found.was_read,
-        reasons=(*verdict.reasons, *match.doubts),
+        reasons=(*verdict.reasons, *match.reasons),
+        exposure_reasons=(*verdict.exposure_reasons, *match.exposure_reasons),
         alternatives=tuple(
             _alternative(one, evidence, scene, estimate) for one, evidence in verdict.others
         ),

@@ -130,8 +130,9 @@ class Match:
         Why the match is doubtful, each a sentence; none where it is sure.
     alternatives
         Other explanations of the stripes, the most likely first.
-    doubts
-        Those of the reasons for which a stated uncertainty may not hold.
+    exposure_reasons
+        Why the exposure time alone is doubtful, each a sentence: the chips and the readout time, or
+        the frequency, do not rest on it.
     """
 
     scene: Scene
@@ -149,12 +150,30 @@ class Match:
     other_exposures: tuple[float, ...] = ()
     reasons: tuple[str, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
-    doubts: tuple[str, ...] = ()
+    exposure_reasons: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> str:
         """``"sure"``, or ``"doubtful"`` where there is a reason to doubt the match."""
         return "doubtful" if self.reasons else "sure"
+
+    @property
+    def exposure_verdict(self) -> str:
+        """``"sure"``, or ``"doubtful"`` where the match or its exposure time is."""
+        return "doubtful" if self.reasons or self.exposure_reasons else "sure"
+
+    @property
+    def only_exposure_is_doubtful(self) -> bool:
+        """Whether all but the exposure time is sure."""
+        return bool(self.exposure_reasons) and not self.reasons
+
+    @property
+    def all_reasons(self) -> tuple[str, ...]:
+        """The reasons to doubt the match, and those to doubt its exposure time, said so."""
+        if not self.only_exposure_is_doubtful:
+            return (*self.reasons, *self.exposure_reasons)
+        first, *more = self.exposure_reasons
+        return (f"Only the exposure time is doubtful. {first}", *more)
 
     @property
     def columns_per_chip(self) -> float:

@@ -22,7 +22,7 @@ class PhotoRow:
     verdict
         One of :data:`VERDICTS`.
     note
-        Why it is not sure, in sentences; empty where it is.
+        Why it, or its exposure time alone, is not sure, in sentences; empty where all of it is.
     readout_time, switching_frequency, exposure_time
         In SI units; None where there is no match.
     uncertainties
@@ -33,6 +33,8 @@ class PhotoRow:
         That of the match, None where there is none.
     pattern
         The chips sent; empty where there is no match.
+    is_exposure_doubtful
+        Whether the exposure time is doubtful, by itself or as all of the match is.
     lines
         Lines that the shutter reads out in a picture: the photo's columns; 0 of an unreadable one.
     size
@@ -53,10 +55,18 @@ class PhotoRow:
     noted_exposure: float | None = None
     correlation: float | None = None
     pattern: str = ""
+    is_exposure_doubtful: bool = False
     lines: int = 0
     size: tuple[int, int] = (0, 0)
     scanned_along: str = ""
     camera: str | None = None
+
+    @property
+    def exposure_verdict(self) -> str:
+        """The verdict on the exposure time; empty where there is none."""
+        if self.exposure_time is None:
+            return ""
+        return DOUBTFUL if self.is_exposure_doubtful else self.verdict
 
     def uncertainty(self, name: str) -> float | None:
         """Give the standard deviation of an estimate, None where it was not estimated."""
@@ -121,8 +131,9 @@ class PhotoTable:
     rows
         One for each photo, in the order in which they were given.
     estimated, exposure_time
-        The estimate and the exposure time from all sure photos; None where there are none, or for
-        an exposure time that the photos do not share. ``outliers`` are places in ``rows``.
+        The estimate from all sure photos, and the exposure time from those of them in which it is
+        sure, too; None where there are none, or for an exposure time that the photos do not share.
+        ``outliers`` are places in ``rows``.
     notes
         Sentences about the photos together.
     """

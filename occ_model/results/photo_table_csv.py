@@ -15,7 +15,8 @@ _LONGEST = 10_000
 _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",
     "switching frequency (Hz)", "its error (Hz)", "exposure time (s)", "its error (s)",
-    "rests on", "noted exposure time (s)", "correlation", "chips", "lines", "camera", "note",
+    "exposure time is", "rests on", "noted exposure time (s)", "correlation", "chips", "lines",
+    "camera", "note",
 )  # fmt: skip
 
 
@@ -59,7 +60,7 @@ def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
         estimates: list[object] = []
         for name in ("readout_time", "switching_frequency", "exposure_time"):
             estimates += [getattr(row, name), _error(row.uncertainty(name))]
-        estimates.append(None if row.exposure_time is None else rests_on)
+        estimates += [row.exposure_verdict, None if row.exposure_time is None else rests_on]
         texts.append(
             _row(
                 [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,

@@ -25,7 +25,7 @@ _SMALL = 9.95e-5
 
 def row(name: str, found: list[Trial], what: str) -> str:
     """Write a line of the table, each share with its own standard deviation."""
-    sure = [one for one in found if one.is_sure]
+    sure = [one for one in found if one.is_sure_of(what)]
     if not sure:
         return f"| {name} | {len(found)} | 0 | {what} | | | | | | | |"
     error = np.abs([getattr(one, what) for one in sure])

@@ -29,8 +29,8 @@ class Trial:
     light_bounds, picture_bounds
         Relative standard deviations of readout and exposure that no unbiased estimate can fall
         below: by light alone, and by the stored picture with the unknowns that a match has.
-    doubts
-        Why the match is not sure.
+    doubts, exposure_doubts
+        Why the match is not sure, and why its exposure time alone is not.
     failure
         Why there is none.
     """
@@ -44,12 +44,17 @@ class Trial:
     light_bounds: tuple[float, float] = (np.nan, np.nan)
     picture_bounds: tuple[float, float] = (np.nan, np.nan)
     doubts: tuple[str, ...] = ()
+    exposure_doubts: tuple[str, ...] = ()
     failure: str = ""
 
     @property
     def is_sure(self) -> bool:
-        """Whether there is a match without any doubt."""
+        """Whether there is a match without any doubt but for its exposure time."""
         return not self.failure and not self.doubts
+
+    def is_sure_of(self, what: str) -> bool:
+        """Whether an estimate, ``"readout"`` or ``"exposure"``, is sure."""
+        return self.is_sure and (what == "readout" or not self.exposure_doubts)
 
 
 def told(world: World) -> occ.Scene:
@@ -83,6 +88,7 @@ def trial(world: World) -> Trial:
         bound_of_light(world),
         bound_of_picture(world),
         doubts=match.reasons,
+        exposure_doubts=match.exposure_reasons,
     )
 
 

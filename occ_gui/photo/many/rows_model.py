@@ -128,7 +128,10 @@ class PhotoRowsModel(QAbstractTableModel):
             case 2:
                 return _estimate(row, self._estimate)
             case 3:
-                return _estimate(row, "exposure_time")
+                text = _estimate(row, "exposure_time")
+                # Of a doubtful photo all is.
+                is_apart = row.verdict == SURE and row.exposure_verdict == DOUBTFUL
+                return self.tr("{time} (doubtful)").format(time=text) if is_apart else text
             case 4:
                 noted = row.noted_exposure
                 return "" if noted is None else quantity("exposure_time").format(noted, 4)

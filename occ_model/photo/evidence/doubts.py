@@ -76,6 +76,19 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
     ]
 
 
+def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
+    """Say why the exposure of a hypothesis is doubtful, in sentences; its chips may not be."""
+    is_white = stripes.saturated > _MOST_SATURATED and not found.was_read
+    return [_too_white(stripes.saturated)] if is_white else []
+
+
+def _too_white(saturated: float) -> str:
+    return (
+        f"{100.0 * saturated:.0f} % of the pixels are white, which hides how bright they were; "
+        f"at most {100.0 * _MOST_SATURATED:.0f} % are allowed."
+    )
+
+
 def _doubts_by_extent(found: Hypothesis) -> list[str]:
     reasons = []
     chips = len(found.chips)
@@ -126,11 +139,8 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"{100.0 * saturated:.0f} % of the pixels are white, which lengthens bright pulses: "
             "the duty may be smaller."
         )
-    if saturated > _MOST_SATURATED:
-        reasons.append(
-            f"{100.0 * saturated:.0f} % of the pixels are white, which hides how bright they were; "
-            f"at most {100.0 * _MOST_SATURATED:.0f} % are allowed."
-        )
+    if saturated > _MOST_SATURATED and found.was_read:
+        reasons.append(_too_white(saturated))
     return reasons
 
 

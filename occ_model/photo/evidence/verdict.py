@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.errors import MatchError
-from occ_model.photo.evidence.doubts import doubts
+from occ_model.photo.evidence.doubts import doubts, exposure_doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
 from occ_model.photo.evidence.refusal import Surroundings, refusals
 from occ_model.photo.evidence.repeated_wave import repeated_wave
@@ -33,12 +33,15 @@ class Verdict:
         The hypothesis.
     reasons
         Why it is doubtful, in sentences; none where it is sure.
+    exposure_reasons
+        Why its exposure alone is doubtful.
     others
         The other hypotheses with the difference of their log-likelihood, the likeliest first.
     """
 
     found: Hypothesis
     reasons: tuple[str, ...]
+    exposure_reasons: tuple[str, ...]
     others: tuple[tuple[Hypothesis, float], ...]
 
 
@@ -79,8 +82,18 @@ class Judge:
         sentences = [sentence for why in reasons for sentence in why]
         raise MatchError(*dict.fromkeys(sentences))
 
-    def verdict(self, found: Hypothesis, others: Sequence[Hypothesis]) -> Verdict:
-        """Say how sure a hypothesis is beside others."""
+    def verdict(
+        self, found: Hypothesis, others: Sequence[Hypothesis], *, is_given: bool
+    ) -> Verdict:
+        """Say how sure a hypothesis is beside others.
+
+        Parameters
+        ----------
+        found, others
+            The hypotheses.
+        is_given
+            Whether it is given what was sent: as many other chips then change no timing.
+        """
         everyone = [found, *others]
         likelihoods = self._likelihoods(everyone)
         reasons = doubts(found, self._stripes, self._rows_alike)
@@ -92,7 +105,7 @@ class Judge:
             f"Nearly as likely is {other.sent}, with a correlation of {other.fit.correlation:.3f} "
             f"beside {found.fit.correlation:.3f}."
             for other, more in beside
-            if more > -_DECIDEDLY
+            if more > -_DECIDEDLY and not (is_given and len(other.chips) == len(found.chips))
         ]
         smooth = self._smooth(found, everyone)
         if likelihoods[0] - smooth.likelihood < _DECIDEDLY:
@@ -100,7 +113,8 @@ class Judge:
                 f"A smooth curve of {smooth.numbers} numbers, without any code, is nearly as "
                 "likely."
             )
-        return Verdict(found, tuple(reasons), tuple(beside))
+        of_exposure = exposure_doubts(found, self._stripes)
+        return Verdict(found, tuple(reasons), tuple(of_exposure), tuple(beside))
 
     def _refusals(
         self, found: Hypothesis, likelihood: float, everyone: Sequence[Hypothesis]

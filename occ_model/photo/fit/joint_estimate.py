@@ -66,11 +66,14 @@ class Refined:
     fits
         The best one, and those that are as likely with another exposure.
     doubts
-        Sentences.
+        Sentences about all of it.
+    exposure_doubts
+        Sentences about the exposure alone.
     """
 
     fits: tuple[StripeFit, ...]
-    doubts: tuple[str, ...]
+    doubts: tuple[str, ...] = ()
+    exposure_doubts: tuple[str, ...] = ()
 
 
 def refined(
@@ -100,7 +103,7 @@ def refined(
     width = max(1, round(min(len(chips), _CHIPS_LIT) / step))
     profiles = cells.profiles(width)
     if explanation.camera.enhancement == "equalization" or not profiles:
-        return Refined(explanation.fits, ())
+        return Refined(explanation.fits)
     with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
     models = [
         JointModel(
@@ -124,10 +127,10 @@ def refined(
     ]
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fits[0].correlation < explanation.correlation - _CONTRADICTED:
-        return Refined(explanation.fits, (_CONTRADICTION, *_doubts(seen, unusual)))
+        return Refined(explanation.fits, (_CONTRADICTION,), tuple(_doubts(seen, unusual)))
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
-    return Refined(tuple(possible), tuple(_doubts(seen, unusual)))
+    return Refined(_with_steps_of_all(possible), exposure_doubts=tuple(_doubts(seen, unusual)))
 
 
 def _modes(
@@ -200,6 +203,20 @@ def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:
     covariance[0, :] = covariance[:, 0] = 0.0
     covariance[0, 0] = best.covariance[0, 0]
     return replace(mode, values=values, covariance=covariance)
+
+
+def _with_steps_of_all(fits: Sequence[StripeFit]) -> tuple[StripeFit, ...]:
+    """Let each fit's step be as uncertain as far as it is from the others', one of which is right.
+
+    Where stripes are white, another exposure shifts their edges, and with them the step.
+    """
+    steps = np.array([fit.timing.step for fit in fits])
+    widened = []
+    for fit, step in zip(fits, steps.tolist(), strict=True):
+        covariance = fit.covariance.copy()
+        covariance[0, 0] += float(np.max((steps - step) ** 2))
+        widened.append(replace(fit, covariance=covariance))
+    return tuple(widened)
 
 
 def _widened(mode: JointFit, model: JointModel) -> JointFit:

@@ -9,7 +9,7 @@ from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Match
-from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow
+from occ_model.results.photo_table import DOUBTFUL, REFUSED, UNREADABLE, PhotoRow
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
 
@@ -89,7 +89,7 @@ def row_of_photo(photo: Photo, settings: MatchSettings, heartbeat: Heartbeat) ->
         )
     except MatchError as error:
         return _row(photo, REFUSED, str(error))
-    return _row(photo, match.verdict, " ".join(match.reasons), match)
+    return _row(photo, match.verdict, " ".join(match.all_reasons), match)
 
 
 def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> PhotoRow:
@@ -114,6 +114,7 @@ def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> P
         uncertainties=tuple(match.uncertainties.items()),
         correlation=match.correlation,
         pattern=match.pattern,
+        is_exposure_doubtful=match.exposure_verdict == DOUBTFUL,
     )
 
 

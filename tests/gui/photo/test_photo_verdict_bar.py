@@ -56,6 +56,20 @@ def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
     assert "If f = 2 kHz" in told
 
 
+def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so(
+    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(replace(match, exposure_reasons=REASONS[:1]))
+    assert (bar.state, bar.heading) == (
+        State.GOOD, "Photo: the match is sure but for the exposure time",
+    )  # fmt: skip
+    told = bar.accessibleDescription()
+    assert f"Only the exposure time is doubtful. {REASONS[0]}" in told
+    assert "exposure time 62.50 ± 0.21 µs (doubtful)" in told
+    assert "sure but for the exposure time" in bar.about()
+
+
 def test_bar_and_figures_rest_on_the_same_value_until_it_is_confirmed(
     view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:

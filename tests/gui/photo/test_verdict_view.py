@@ -70,6 +70,24 @@ def test_the_verdict_stands_above_the_figures(view: PhotoView, photo: Photo, mat
     assert result.verdict.reasons.isHidden()
 
 
+def test_a_doubtful_exposure_is_said_beside_what_is_sure(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.result.show_certain({"switching_frequency": 2e3})
+    view.show_match(replace(match, exposure_reasons=REASONS))
+    result = view.result
+    assert result.verdict.word.text() == "● sure"
+    assert result.verdict.reasons.text().splitlines() == [
+        f"• Only the exposure time is doubtful. {REASONS[0]}", f"• {REASONS[1]}",
+    ]  # fmt: skip
+    assert result.values["exposure_time"].text() == "62.50 ± 0.21 µs (doubtful)"
+    assert "doubtful" not in result.values["readout_time"].text()
+    view.show_match(replace(match, reasons=REASONS[:1], exposure_reasons=REASONS[1:]))
+    assert result.verdict.word.text() == "◐ doubtful"
+    assert result.verdict.reasons.text() == "\n".join(f"• {reason}" for reason in REASONS)
+
+
 def test_the_figures_that_a_verdict_rests_on_are_shown(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:

@@ -1,5 +1,6 @@
 """Many photos of one scene: a row each, and one answer that only sure ones make."""
 
+import csv
 from dataclasses import replace
 from pathlib import Path
 
@@ -117,6 +118,17 @@ def test_doubtful_photos_never_change_the_mean() -> None:
     assert [mixed.is_counted(place) for place in range(4)] == [True, False, True, False]
 
 
+def test_a_doubtful_exposure_changes_only_the_mean_of_the_readout_time() -> None:
+    apart = row(1.0002e-5, exposure_time=9e-5, is_exposure_doubtful=True)
+    table, readouts = made(row(1e-5), row(1.0001e-5), apart), made(row(1e-5), row(1.0001e-5))
+    assert table.estimated is not None
+    assert table.estimated.count == 3
+    assert table.exposure_time == readouts.exposure_time
+    lines = [line for line in csv_text(table).splitlines() if line[0] != "#"]
+    said = [one["exposure time is"] for one in csv.DictReader(lines)]
+    assert said == ["sure", "sure", "doubtful"]
+
+
 def test_outliers_are_marked_by_their_place_in_the_table() -> None:
     rows = [row(1e-5 + k * 1e-10) for k in range(5)]
     table = made(row(2e-5, verdict="doubtful"), *rows[:3], row(1.5e-5), *rows[3:])
@@ -189,8 +201,6 @@ def test_a_measured_frequency_gives_no_line_to_paste() -> None:
 
 
 def test_the_file_holds_every_row_and_the_scene(table: PhotoTable) -> None:
-    import csv
-
     text = csv_text(table, ["more"])
     comments = [line[2:] for line in text.splitlines() if line.startswith("#")]
     assert "Match of 5 photos: 3 sure, 1 unreadable, 1 refused" in comments
@@ -203,8 +213,6 @@ def test_the_file_holds_every_row_and_the_scene(table: PhotoTable) -> None:
 
 
 def test_the_file_names_what_is_only_assumed_beside_each_number_that_rests_on_it() -> None:
-    import csv
-
     table = made(row(7e-6, 1.234567e-9), row(7.0005e-6, 1.3e-9), PhotoRow(Path("x"), "refused"))
     for condition, rests_on in (("if f = 2 kHz: ", "if f = 2 kHz"), ("", "given")):
         text = csv_text(table, condition=condition)

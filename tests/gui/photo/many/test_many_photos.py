@@ -89,6 +89,13 @@ def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:
     assert column(view, NOTE)[3:5] == [ROWS[3].note, ROWS[4].note]
 
 
+def test_a_doubtful_exposure_says_so_in_its_cell(view: ManyPhotosView) -> None:
+    rows = (replace(ROWS[0], is_exposure_doubtful=True), *ROWS[1:])
+    view.show_table(table_of(MatchSettings(occ.Scene()), rows))
+    assert column(view, VERDICT)[0] == "● sure"
+    assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
+
+
 def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     view.show_certain({"switching_frequency": occ.Scene().transmitter.switching_frequency})
     view.show_table(table())

@@ -28,6 +28,7 @@ from occ_model.receiver.matched.payload_templates import (
     same_chips,
 )
 from occ_model.receiver.read_payload import with_bits
+from occ_model.receiver.short_chips import with_short_chips
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene.parameters.light import MAX_BITS
@@ -50,6 +51,12 @@ Where two codes do, either can be the one that is sent.
 
 _SAME_LEVEL = 1e-5
 """Difference of lit fractions that is rounding error."""
+
+_WIDEST_GAP = 1.25
+"""Chips between two starts of exposures above which the signal has too few values for a code.
+
+Where each chip has a column of its own there is no gap above one chip, but for rounding to bins.
+"""
 
 _LIKELY = 16
 """Codes that are compared in the second, more exact step."""
@@ -110,20 +117,41 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             failure="All codes look alike: the exposure time is a whole number of packets, or so "
             "many that their mean is all it leaves.",
         )
-    return _best_code(result, _fold(signal, scene, scheme.length), templates, scene)
+    starts = _start_bins(len(signal), scene, scheme.length)
+    counts = np.bincount(starts, minlength=scheme.length * BINS_PER_CHIP)
+    gap = _widest_gap(counts) / BINS_PER_CHIP
+    if gap > _WIDEST_GAP:
+        unseen = (
+            f"All columns together see a packet at places up to {gap:.2g} chips apart: the codes "
+            "cannot be told from each other."
+        )
+        return replace(result, failure=with_short_chips(unseen, scene))
+    read = _best_code(result, _fold(signal, starts, counts), templates, scene)
+    if read.failure is None:
+        return read
+    return replace(read, failure=with_short_chips(read.failure, scene))
 
 
-def _fold(signal: FloatArray, scene: Scene, period: int) -> FloatArray:
-    """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
-    bins = period * BINS_PER_CHIP
+def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
+    """Return the bin of a packet in which each column's exposure starts."""
     # The signal may start at any column, as the packet's phase is found, not known.
-    phases = column_phases(scene, period, columns=len(signal))
-    nearest = np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
-    counts = np.bincount(nearest, minlength=bins)
-    sums = np.bincount(nearest, signal, minlength=bins)
+    phases = column_phases(scene, period, columns=columns)
+    bins = period * BINS_PER_CHIP
+    return np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
+
+
+def _widest_gap(counts: IndexArray) -> int:
+    """Return the most bins of a packet from one in which an exposure starts to the next."""
+    seen = np.flatnonzero(counts)
+    return int(np.diff(seen, append=seen[0] + len(counts)).max())
+
+
+def _fold(signal: FloatArray, starts: IndexArray, counts: IndexArray) -> FloatArray:
+    """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
+    sums = np.bincount(starts, signal, minlength=len(counts))
     seen = np.flatnonzero(counts)
     # Bins without columns are interpolated: a profile has no jumps.
-    return np.interp(np.arange(bins), seen, sums[seen] / counts[seen], period=bins)
+    return np.interp(np.arange(len(counts)), seen, sums[seen] / counts[seen], period=len(counts))
 
 
 def _best_code(

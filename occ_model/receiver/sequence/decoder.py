@@ -27,6 +27,7 @@ from occ_model.receiver.sequence.fit import (
 from occ_model.receiver.sequence.follow_timing import follow_timing
 from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
+from occ_model.receiver.short_chips import has_short_chips, with_short_chips
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene
@@ -40,9 +41,6 @@ _SETTLED = 0.9
 
 _LEAST_CERTAINTY = 0.9
 """Least probability that all bits are right, of a code that is read."""
-
-_MOST_CHIPS_A_COLUMN = 1.0
-"""Chips from one column to the next above which a chip may fall between two columns."""
 
 _LONGEST_MEMORY = 32
 """Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""
@@ -95,11 +93,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
     """Say why chips cannot be told apart at a timing, or that too few are seen."""
-    if timing.step > _MOST_CHIPS_A_COLUMN:
-        return (
-            f"A chip lasts {1.0 / timing.step:.2g} columns: the columns are too far apart to show "
-            "each chip."
-        )
+    if has_short_chips(scene):
+        return with_short_chips("The sequence detector needs one for each.", scene)
     if timing.memory > _LONGEST_MEMORY:
         return (
             f"An exposure covers {timing.exposure:.3g} chips; the sequence detector undoes up to "

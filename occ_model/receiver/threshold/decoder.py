@@ -7,19 +7,13 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.read_payload import read_payload
+from occ_model.receiver.short_chips import columns_of_chip, has_short_chips, with_short_chips
 from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.receiver.threshold.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
 from occ_model.results import DecodeResult, Runs
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import SECOND
 from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of
-
-_SHORTEST_CHIP = 1.0
-"""Columns of a chip below which run lengths do not give numbers of chips."""
-
-_DIGITS = 3
-"""Significant digits of a time in a sentence."""
 
 _FEWEST_RUNS = 3
 """Fewest whole runs from which a chip's length is estimated."""
@@ -82,20 +76,9 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
         With every step that was reached; the caller adds the region.
     """
     result = _read(signal, scene)
-    if result.failure is None or _knows_length(scene) or not has_short_chips(scene):
+    if result.failure is None or _knows_length(scene):
         return result
-    chip, column = scene.transmitter.switching_period, scene.camera.readout_time
-    return replace(
-        result,
-        failure=f"A chip of {SECOND.format(chip, _DIGITS)} is shorter than the "
-        f"{SECOND.format(column, _DIGITS)} from one column to the next: not every chip has a "
-        f"column of its own. {result.failure}",
-    )
-
-
-def has_short_chips(scene: Scene) -> bool:
-    """Return whether a chip ends before the next column begins, so that runs skip chips."""
-    return _nominal_length(scene) < _SHORTEST_CHIP
+    return replace(result, failure=with_short_chips(result.failure, scene))
 
 
 def _knows_length(scene: Scene) -> bool:
@@ -120,7 +103,7 @@ def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
     if _knows_length(scene) and has_short_chips(scene):
         return replace(
             result,
-            failure=f"A chip lasts {_nominal_length(scene):.2g} columns: runs of columns cannot "
+            failure=f"A chip lasts {columns_of_chip(scene):.2g} columns: runs of columns cannot "
             "tell how many chips they hold.",
         )
     if scene.transmitter.pattern:
@@ -143,7 +126,7 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> 
     """Convert runs to chips; of the first and last run only the part in the image counts."""
     histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
     if _knows_length(scene):
-        fit = fit_pattern(whole, _nominal_length(scene))
+        fit = fit_pattern(whole, columns_of_chip(scene))
     else:
         fit = fit_chips(whole, histograms)
     counts = fit.chips_in(runs)
@@ -158,11 +141,6 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> 
         chips=np.repeat(runs.values, counts),
         chip_starts=chip_starts,
     )
-
-
-def _nominal_length(scene: Scene) -> float:
-    """Return the columns that are read out while one chip lasts."""
-    return scene.transmitter.switching_period / scene.camera.readout_time
 
 
 DECODER = Decoder("threshold", "The paper's: threshold and run lengths", read_signal)

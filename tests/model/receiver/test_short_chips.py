@@ -1,14 +1,15 @@
 """Chips shorter than the readout time of a column: a failure says so, there and only there."""
 
+import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.receiver.threshold.decoder import has_short_chips
+from occ_model.receiver.short_chips import has_short_chips
 
 REASON = "A chip of 2 µs is shorter than the 8 µs from one column to the next: "
 
 
-@pytest.mark.parametrize("decoder", ["threshold", "equalizer"])
+@pytest.mark.parametrize("decoder", ["threshold", "matched", "equalizer", "sequence"])
 def test_a_failure_names_chips_that_are_shorter_than_a_column(decoder: str) -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=500e3)
     result = occ.decode(occ.column_profile(scene), scene, decoder)
@@ -36,3 +37,19 @@ def test_where_the_length_is_known_it_is_named_once() -> None:
     assert result.failure is not None
     assert "A chip lasts 0.25 columns" in result.failure
     assert "shorter" not in result.failure
+
+
+@pytest.mark.parametrize("kilohertz", [130, 300, 375, 400, 500, 610, 750, 1000])
+def test_the_matched_decoder_reads_no_wrong_code_from_columns_that_skip_chips(
+    kilohertz: int,
+) -> None:
+    # At round ratios the columns of all packets see the same few places of a packet.
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=1e3 * kilohertz)
+    random = np.random.default_rng(kilohertz)
+    for code in random.integers(0, 1024, 6).tolist():
+        sent = scene.replace(code=code)
+        signal = occ.column_profile(sent) + random.normal(0.0, 0.5, scene.camera.columns)
+        result = occ.decode(signal, sent, "matched")
+        assert result.code in {code, None}
+        if kilohertz == 130:  # chips are short, but all packets together show each of them
+            assert result.code == code

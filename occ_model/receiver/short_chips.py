@@ -1,0 +1,32 @@
+"""Short chips: those that end before the next column begins, so that a picture skips some."""
+
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+
+_SHORTEST = 1.0
+"""Columns of a chip below which not every chip has a column of its own."""
+
+_DIGITS = 3
+"""Significant digits of a time in a sentence."""
+
+
+def columns_of_chip(scene: Scene) -> float:
+    """Return the columns that are read out while one chip lasts."""
+    return scene.transmitter.switching_period / scene.camera.readout_time
+
+
+def has_short_chips(scene: Scene) -> bool:
+    """Return whether a chip ends before the next column begins."""
+    return columns_of_chip(scene) < _SHORTEST
+
+
+def with_short_chips(failure: str, scene: Scene) -> str:
+    """Say before a failure that chips are too short, where they are."""
+    if not has_short_chips(scene):
+        return failure
+    chip, column = scene.transmitter.switching_period, scene.camera.readout_time
+    return (
+        f"A chip of {SECOND.format(chip, _DIGITS)} is shorter than the "
+        f"{SECOND.format(column, _DIGITS)} from one column to the next: not every chip has a "
+        f"column of its own. {failure}"
+    )

@@ -3,13 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from PySide6.QtCore import QCoreApplication
-
-from occ_model.scene.parameters import quantity
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
-from occ_model.scene.units import HERTZ
-
-_FREQUENCY = "switching_frequency"
+from occ_model.results.assumption import assumption
 
 
 def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
@@ -39,13 +33,4 @@ def condition(name: str, value: float, certain: Mapping[str, float], chips: int)
     """
     if is_certain(name, value, certain):
         return ""
-    known = quantity(name)
-    if name == _FREQUENCY and chips == CHIPS_OF_A_CYCLE:
-        return _tr("if it is a lamp of {cycles} ({chips} chips): ").format(
-            cycles=HERTZ.format(value / CHIPS_OF_A_CYCLE), chips=known.format(value)
-        )
-    return _tr("if {symbol} = {value}: ").format(symbol=known.symbol, value=known.format(value))
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("Assumption", text)
+    return assumption(name, value, chips)

@@ -7,6 +7,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.cancellable import Cancellable
+from occ_gui.photo.assumption import is_certain
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_request import MatchRequest, Refusal, match, request_of
 from occ_gui.scene.scene_store import SceneStore
@@ -45,11 +46,26 @@ class MatchPane(Protocol):
         """Show that the match was cancelled; the previous one stays."""
 
 
-def sources_of(found: Match, photo_name: str, known: str, day: date) -> dict[str, str]:
-    """Write the source and uncertainty of every value that a match estimated."""
+def sources_of(
+    found: Match, photo_name: str, known: str, day: date, *, assumed: bool
+) -> dict[str, str]:
+    """Write the source and uncertainty of every value that a match estimated.
+
+    Parameters
+    ----------
+    found, photo_name
+        The match, and the name of its photo.
+    known
+        The parameter that was taken as known.
+    day
+        The day of the match.
+    assumed
+        Whether that parameter's value was only assumed.
+    """
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))
-    where = f"photo {photo_name}, {day.isoformat()}, the {given.label.lower()} being {value}"
+    how = "assumed to be" if assumed else "being"
+    where = f"photo {photo_name}, {day.isoformat()}, the {given.label.lower()} {how} {value}"
     sources = {}
     for name, spread in found.uncertainties.items():
         if name in PARAMETERS:
@@ -92,6 +108,7 @@ class MatchController(QObject):
         self._is_reading = self._was_refused = False
         self._why_unusable = ""
         self._known = self._asked_known = ""
+        self._certain: Mapping[str, float] = {}
         self.match: Match | None = None
         self.runner: Cancellable[MatchRequest, Match | Refusal] = Cancellable(
             match, "match of the photo"
@@ -112,6 +129,10 @@ class MatchController(QObject):
         self.match = None
         self._was_refused = False
         self._pane.show_match(None)
+
+    def show_certain(self, certain: Mapping[str, float]) -> None:
+        """Take these known values as certain, all others as assumed, in SI units by name."""
+        self._certain = certain
 
     def set_region(self, region: Lamp | Region | None) -> None:
         """Match this lamp or rectangle from now on, or the whole photo."""
@@ -187,11 +208,13 @@ class MatchController(QObject):
         """Save the matched scene as one of the user's presets."""
         if self.match is None or self._photo is None or self._refuses_outdated():
             return
+        known = float(self.match.scene.value(self._known))
         sources: Mapping[str, str] = sources_of(
             self.match,
             self._photo.path.name,
             self._known,
             day or date.today(),
+            assumed=not is_certain(self._known, known, self._certain),
         )
         try:
             save_preset(name, self.match.scene, title=title, sources=sources)

@@ -58,6 +58,7 @@ class PhotoWiring(QObject):
         pane.facts.channel_chosen.connect(self.photos.take_channel)
         pane.facts.scan_axis_chosen.connect(self.photos.scan_along)
         pane.facts.settings_asked.connect(self.matching.use_notes)
+        pane.form.certain_changed.connect(self.matching.show_certain)
         pane.form.asked.connect(self.matching.start)
         pane.form.cancelled.connect(self.matching.cancel)
         pane.many.match_asked.connect(self.match_all)

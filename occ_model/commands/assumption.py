@@ -1,23 +1,21 @@
-"""What measured times rest on: the frequency, or the readout time, that is taken as known."""
+"""What the times that a command measures rest on, unless its words state it."""
 
 import argparse
 
-from occ_model.scene.parameters import quantity
+from occ_model.results.assumption import assumption
 
 
-def assumption(name: str, value: float, options: argparse.Namespace) -> str:
-    """Name the value that the estimates of time rest on, unless the command line states it.
+def assumption_of(name: str, value: float, chips: int, options: argparse.Namespace) -> str:
+    """Name the value that the estimates of time rest on; empty where the command line states it.
 
     Parameters
     ----------
-    name
-        The parameter that was taken as known.
-    value
-        Its value in SI units.
+    name, value, chips
+        As for :func:`occ_model.results.assumption.assumption`.
     options
         The parsed command line.
     """
     stated = {setting.partition("=")[0].strip() for setting in options.settings}
     if options.led_frequency is not None:
         stated.add("switching_frequency")
-    return "" if name in stated else f"if {name} = {quantity(name).format(value)}: "
+    return "" if name in stated else assumption(name, value, chips)

@@ -4,7 +4,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.assumption import assumption
+from occ_model.commands.assumption import assumption_of
 from occ_model.commands.chip_report import chip_lines
 from occ_model.commands.lamp_report import lamp_lines, region_from
 from occ_model.commands.match_many import add_many_options, run_many, written_by
@@ -147,7 +147,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
 
 def _how_known(match: Match, options: argparse.Namespace) -> str:
     (known,) = (name for name in ESTIMATES if name not in match.uncertainties)
-    return assumption(known, getattr(match, known), options)
+    return assumption_of(known, getattr(match, known), len(match.pattern), options)
 
 
 def _square_wave(scene: Scene, text: str) -> Scene:

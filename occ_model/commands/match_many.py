@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from occ_model.commands.assumption import assumption
+from occ_model.commands.assumption import assumption_of
 from occ_model.commands.files import SCENE_FILE, TABLE, Written
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
@@ -47,7 +47,8 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     table = _matched(paths, scene, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
-    known = assumption(table.known, float(table.scene.value(table.known)), options)
+    chips = len(table.scene.transmitter.pattern)
+    known = assumption_of(table.known, float(table.scene.value(table.known)), chips, options)
     paste = [f"{program}: {known}{line}" for program, line in lines_to_paste(table).items()]
     if options.out:
         write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))

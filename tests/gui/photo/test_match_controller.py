@@ -285,6 +285,7 @@ def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, o
     received: list[str] = []
     bench.controller.saved.connect(received.append)
     bench.start(sent="square", square_frequency=1000.0)
+    bench.controller.show_certain({"switching_frequency": 2000.0})
     bench.controller.save("my phone", "Measured from stripes.png", DAY)
     assert received == ["my phone"]
     assert (own / "my phone.toml").is_file()
@@ -303,7 +304,11 @@ def test_a_saved_match_records_the_inputs_it_was_made_with(bench: Bench, own: Pa
     bench.refusal = ("No.",)
     bench.start(estimate="switching_frequency")
     bench.controller.save("mine", "", DAY)
-    assert "switching frequency being 10 kHz" in preset_named("mine").sources["readout_time"]
+    source = preset_named("mine").sources["readout_time"]
+    assert "switching frequency assumed to be 10 kHz" in source
+    bench.controller.show_certain({"switching_frequency": 10e3})
+    bench.controller.save("sure", "", DAY)
+    assert "switching frequency being 10 kHz" in preset_named("sure").sources["readout_time"]
 
 
 def test_a_name_that_cannot_be_is_refused_with_a_sentence(bench: Bench, own: Path) -> None:

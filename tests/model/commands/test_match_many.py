@@ -65,7 +65,7 @@ def test_an_assumed_frequency_stands_before_every_time(
     photos = [str(folder / "0.png"), str(folder / "1.png")]
     assert main(["match", *photos, "--scene", str(known), "--jobs", "1"]) == 0
     said = capsys.readouterr().out.splitlines()
-    condition = "if switching_frequency = 5 kHz: "
+    condition = "if it is a lamp of 2.5 kHz (5 kHz chips): "
     assert sum(condition in line for line in said) == 5
 
 

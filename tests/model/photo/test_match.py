@@ -182,7 +182,7 @@ class TestCommand:
         fitted = tmp_path / "fitted.toml"
         assert main(["match", str(file), "--scene", str(known), "--out", str(fitted)]) == 0
         lines = capsys.readouterr().out
-        assumed = r"if switching_frequency = [\d.]+ kHz: "
+        assumed = r"if f = [\d.]+ kHz: "
         assert re.search(rf"readout_time +{assumed}[\d.]+ ± [\d.e-]+ µs", lines)
         assert re.search(rf"exposure_time +{assumed}", lines)
         assert re.search(r"switching_frequency .*\(assumed\)", lines)

@@ -1,0 +1,26 @@
+"""What measured times rest on: the frequency, or the readout time, that is taken as known."""
+
+from occ_model.scene.parameters import quantity
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
+from occ_model.scene.units import HERTZ
+
+_FREQUENCY = "switching_frequency"
+
+
+def assumption(name: str, value: float, chips: int) -> str:
+    """Name a value that estimates of time rest on, as ``"if f = 10 kHz: "``.
+
+    Parameters
+    ----------
+    name
+        The parameter that was taken as known.
+    value
+        Its value in SI units.
+    chips
+        Chips of a period: a lamp that only blinks is known by its cycles.
+    """
+    known = quantity(name)
+    if name == _FREQUENCY and chips == CHIPS_OF_A_CYCLE:
+        cycles = HERTZ.format(value / CHIPS_OF_A_CYCLE)
+        return f"if it is a lamp of {cycles} ({known.format(value)} chips): "
+    return f"if {known.symbol} = {known.format(value)}: "

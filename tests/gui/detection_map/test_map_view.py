@@ -169,6 +169,46 @@ def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
     assert view.plots.bar.accessibleName().startswith("Difference")
 
 
+def test_a_rate_has_its_own_colour_and_the_limits_not_hidden_their_lines(view: MapView) -> None:
+    rates = whole((5, 10))
+    view.show_map(rates)
+    plot = view.plots.plots[0]
+    plot.setting = None
+    image = plot.grab().toImage()
+    at = plot.place_of((2 / 12, 2 / 6)).toPoint()
+    expected = to_colours(np.full((1, 1), 50.0), 0.0, 100.0, RATES)[0, 0, :3].tolist()
+    seen = image.pixelColor(at)
+    assert [seen.red(), seen.green(), seen.blue()] == pytest.approx(expected, abs=2)
+    line = [np.array([[0.1, 0.1], [0.9, 0.9]])]
+    view.plots._lines = {"band": line, "null": line}
+    view.plots.show_limit("band", False)
+    assert list(plot.lines) == ["null"]
+    view.plots.show_limit("band", True)
+    assert list(plot.lines) == ["band", "null"]
+
+
+def test_the_numbers_of_an_axis_stand_beside_their_places(
+    view: MapView, grey_picture: Picture
+) -> None:
+    view.show_map(whole((5, 10)))
+    plot = view.plots.plots[0]
+    area, line = plot.area(), plot.fontMetrics().height()
+    last = ticks(quantity(DISTANCE), int(area.height() / (1.3 * line)))[-1]
+    middle = plot.place_of((0.0, last.place)).y()
+    beside = grey_picture(plot)[:, int(area.left()) - 14 : int(area.left()) - 5].astype(int)
+    inked = np.flatnonzero(np.ptp(beside, axis=1) > 40)
+    near = inked[inked <= middle + line]
+    assert near.size
+    assert abs((near.min() + near.max()) / 2 - middle) <= 0.25 * line
+
+
+def test_a_map_has_a_frame(view: MapView, grey_picture: Picture) -> None:
+    plot = view.plots.plots[0]
+    shown, area = grey_picture(plot).astype(int), plot.area()
+    row, column = round(area.top()), round(area.left() + 0.37 * area.width())
+    assert abs(shown[row, column] - shown[row + 8, column]) > 20
+
+
 def test_rates_get_evenly_lighter_differences_from_the_middle() -> None:
     steps = to_colours(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
     light = steps.astype(float) @ np.array([0.2126, 0.7152, 0.0722])

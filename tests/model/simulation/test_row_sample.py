@@ -1,5 +1,7 @@
 """A picture's signal from a sample of its rows: the same rows, the same means, noise included."""
 
+from statistics import NormalDist
+
 import numpy as np
 import pytest
 
@@ -101,3 +103,15 @@ def test_a_small_picture_is_not_sampled() -> None:
 def test_a_panel_hardly_seen_is_sampled_or_not_without_fault(changes: dict[str, float]) -> None:
     scene = occ.load_preset("phone-136us-real").replace(columns=432, **changes)
     assert occ.success_rate(scene, images=2, path="rows") in np.linspace(0.0, 100.0, 21)
+
+
+def test_bands_use_each_quantile_once_and_each_sign() -> None:
+    scene = Scene().replace(rows=64, columns=50)
+    noise = SystematicNoise((), scene, 5)
+    ((_, numbers),) = noise.draw(BAND * BANDS)()
+    bands = numbers.reshape(BANDS, BAND, 50).astype(float)
+    np.testing.assert_allclose(bands[0::2], -bands[1::2], atol=1e-6)
+    below = np.array([[[NormalDist().cdf(x) for x in row] for row in band] for band in bands[0::2]])
+    # From a random first one in equal steps, round and round.
+    steps = np.diff(np.sort(below, axis=0), axis=0)
+    np.testing.assert_allclose(steps, 2.0 / BANDS, atol=1e-3)

@@ -18,6 +18,7 @@ from dataclasses import replace
 import numpy as np
 
 import occ_model as occ
+from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.preamble import FRAMING
 from occ_model.transmitter.line_codes.manchester import LINE_CODE
 
@@ -91,6 +92,9 @@ frame_raises = replace(FRAMING, name="frame_raises", encode=fail)
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
 frame_mute = replace(FRAMING, name="frame_mute", decode=lambda chips, form: "nothing")
 frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
+frame_placed = replace(
+    FRAMING, name="frame_placed", decode=lambda chips, form: Framed((0, len(chips)), np.array([1]))
+)
 frame_checks = replace(FRAMING, name="frame_checks", checks=np.array([]))
 
 
@@ -115,6 +119,7 @@ FRAMINGS = [
     "frame_empty",
     "frame_mute",
     "frame_fails",
+    "frame_placed",
     "frame_checks",
     "frame_lines",
 ]
@@ -257,6 +262,10 @@ def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
         ({"line_code": "code_mute"}, "'code_mute' of the package 'hostile' gives no bits"),
         ({"framing": "frame_mute"}, "'frame_mute' of the package 'hostile' gives no bits"),
         ({"framing": "frame_fails"}, "'frame_fails' of the package 'hostile' cannot decode"),
+        (
+            {"framing": "frame_placed"},
+            "'frame_placed' of the package 'hostile' gives headers that are no places among",
+        ),
     ],
 )
 def test_what_cannot_be_read_is_named_in_the_failure(changes: dict[str, str], said: str) -> None:

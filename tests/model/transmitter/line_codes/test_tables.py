@@ -145,3 +145,16 @@ def test_symbols_of_fsk_differ_so_much_that_one_wrong_chip_is_corrected() -> Non
     symbols = fsk.LINE_CODE.encode(np.array([0, 0, 0, 1, 1, 0, 1, 1], dtype=np.uint8), 0)
     pairs = itertools.combinations(symbols.reshape(4, -1), 2)
     assert min(int((one != other).sum()) for one, other in pairs) >= 3
+
+
+def test_8b10b_is_read_from_any_word_on() -> None:
+    bits = np.random.default_rng(1).integers(0, 2, 8 * 12).astype(np.uint8)
+    code = eight_b_ten_b.LINE_CODE
+    chips = code.encode(bits, 0)
+    read = [code.decode(chips[10 * word :], 0) for word in range(12)]
+    for word, decoded in enumerate(read):
+        np.testing.assert_array_equal(decoded.bits, bits[8 * word :])
+    # Some of these words are of the other running disparity, which is told.
+    told = [decoded.failure for decoded in read]
+    assert None in told
+    assert any(said is not None and "is no 8B10B word of its running" in said for said in told)

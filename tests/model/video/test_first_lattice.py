@@ -52,6 +52,17 @@ def test_an_edge_far_before_its_place_shows_a_miscount_as_well() -> None:
         assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
 
 
+def test_a_chip_that_was_counted_twice_before_the_last_edge_is_found() -> None:
+    # This edge alone lies off, before its place; all others lie a little behind theirs.
+    starts = LENGTH * np.arange(len(CHIPS))
+    last = len(CHIPS) - 2
+    chips = np.insert(CHIPS, last, CHIPS[last])
+    seen = np.insert(starts, last + 1, starts[last] + 0.5 * LENGTH)
+    found = first_lattice(decoded(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
+    assert found is not None
+    assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
+
+
 @pytest.mark.parametrize("threshold", [50.0, None])
 def test_chips_are_those_of_the_threshold_or_else_of_the_decoder(threshold: float | None) -> None:
     # The decoder says otherwise of one chip than the signal: an equalizer may.

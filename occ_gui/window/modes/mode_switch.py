@@ -79,6 +79,10 @@ class ModeSwitch(QObject):
         size = window.size()
         window.setUpdatesEnabled(False)
         try:
+            # Beside the panes of the mode before it the page might need a wider window, and Qt
+            # would widen it, over the edge of the screen where it is maximized.
+            for dock in self._docks.values():
+                window.removeDockWidget(dock)
             self._show_page(MODES[self.mode].centre)
             self._limit_sides(MODES[self.mode])
             # First even where a layout is known: Qt leaves the tabs of the mode before it behind.

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from gui.user import User
-from PySide6.QtCore import QEvent, QSettings, QSize, Qt
-from PySide6.QtGui import QAccessible
-from PySide6.QtWidgets import QApplication, QTabBar
+from PySide6.QtCore import QEvent, QObject, QSettings, QSize, Qt
+from PySide6.QtGui import QAccessible, QResizeEvent
+from PySide6.QtWidgets import QApplication, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app import command_line
@@ -166,6 +166,34 @@ def test_a_mode_that_was_left_in_a_wider_window_does_not_widen_it(
     window.modes.switch("explore")
     QApplication.processEvents()
     assert window.size() == QSize(1000, 700)
+
+
+class Widths(QObject):
+    """Notes every width that a window takes."""
+
+    def __init__(self, window: QWidget) -> None:
+        super().__init__(window)
+        self.seen: set[int] = set()
+        window.installEventFilter(self)
+
+    def eventFilter(self, _of: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if isinstance(event, QResizeEvent):
+            self.seen.add(event.size().width())
+        return False
+
+
+@pytest.mark.parametrize("other", ["limits", "effects", "photo", "video", "lessons"])
+def test_no_change_of_the_mode_widens_the_window_even_for_a_moment(
+    application: Application, other: str
+) -> None:
+    window = application.window
+    window.resize(1000, 700)
+    QApplication.processEvents()
+    widths = Widths(window)  # a maximized window would keep the largest of them
+    for mode in (other, "explore", other):
+        window.modes.switch(mode)
+        QApplication.processEvents()
+    assert widths.seen <= {1000}
 
 
 def test_a_photo_is_opened_in_the_mode_for_it(

@@ -229,7 +229,8 @@ class Application(QObject):
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
         self.decode.decoder_chosen.connect(self.simulation.read_with)
-        self.detection_map.most_bits.went.connect(self.decode.choose_decoder)
+        for searcher in (self.detection_map.most_bits, self.detection_map.advisor):
+            searcher.went.connect(self.decode.choose_decoder)
 
     @property
     def is_idle(self) -> bool:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.detection_map.worker import advise, left_out, rate_settings
@@ -111,6 +111,9 @@ class AdvisorController(QObject):
         Shows the limits.
     """
 
+    went = Signal(str)
+    """The scene was set to a limit; the decoder that reads there."""
+
     def __init__(
         self,
         scenes: SceneStore,
@@ -169,9 +172,10 @@ class AdvisorController(QObject):
             self._channel.cancel()
             self._end(self.tr("Cancelled."))
 
-    def take_there(self, name: str, value: float) -> None:
-        """Set the scene to a limit, in one step."""
+    def take_there(self, name: str, value: float, decoder: str) -> None:
+        """Set the scene to a limit, in one step, and show what the decoder of the limit reads."""
         self._scenes.change(NO_GESTURE, **{name: value})
+        self.went.emit(decoder)
 
     def _count(self) -> int:
         return sum(self._queue.counted(counter) for counter, _ in enumerate(QUICK_DECODERS, 1))

@@ -42,8 +42,8 @@ class AdviceView(QWidget):
     back_asked = Signal()
     """The user returns to the map."""
 
-    destination_chosen = Signal(str, float)
-    """The user goes to a limit: the parameter to change, and its value in SI units."""
+    destination_chosen = Signal(str, float, str)
+    """The user goes to a limit: a parameter, its value in SI units, and the decoder that reads it."""
 
     def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -126,7 +126,7 @@ class AdviceView(QWidget):
         self.cards.show_advice(advice)
         for line in self._sentences.lines(advice):
             if not line.is_common:
-                self._add(line)
+                self._add(line, advice.limits.decoder)
             elif line.text not in self._common:
                 if not self._common:
                     self._add_common(AdviceLine(self._sentences.common_title(), is_title=True))
@@ -171,11 +171,11 @@ class AdviceView(QWidget):
         self._common.append(line.text)
         self._insert(self._column.count() - 1, line)
 
-    def _add(self, line: AdviceLine) -> None:
+    def _add(self, line: AdviceLine, decoder: str = "") -> None:
         """Add a line above those that are the same for every decoder."""
-        self._insert(self._column.count() - 1 - len(self._common), line)
+        self._insert(self._column.count() - 1 - len(self._common), line, decoder)
 
-    def _insert(self, place: int, line: AdviceLine) -> None:
+    def _insert(self, place: int, line: AdviceLine, decoder: str = "") -> None:
         row = QWidget()
         layout = QHBoxLayout(row)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -190,20 +190,20 @@ class AdviceView(QWidget):
         label.setFont(font)
         layout.addWidget(label, 1)
         if line.destination is not None:
-            button = self._destination(line)
+            button = self._destination(line, decoder)
             self._beside[button] = label
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(place, row)
         self._lines.append(row)
 
-    def _destination(self, line: AdviceLine) -> QPushButton:
+    def _destination(self, line: AdviceLine, decoder: str) -> QPushButton:
         assert line.destination is not None  # noqa: S101 - the caller has checked it
         name, value, text = line.destination
         button = self._button(
             self.tr("Take me to {value}").format(value=text),
             self.tr("Change the scene to {value}, where it read every bit.").format(value=text),
         )
-        button.clicked.connect(lambda: self.destination_chosen.emit(name, value))
+        button.clicked.connect(lambda: self.destination_chosen.emit(name, value, decoder))
         self.destinations.append(button)
         self._parameters.append(name)
         return button

@@ -35,8 +35,8 @@ class LimitCards(QWidget):
     asked = Signal()
     """The limits of the present scene are wanted."""
 
-    destination_chosen = Signal(str, float)
-    """The user goes to a limit: the parameter to change, and its value in SI units."""
+    destination_chosen = Signal(str, float, str)
+    """The user goes to a limit: a parameter, its value in SI units, and the decoder that reads it."""
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -53,8 +53,8 @@ class LimitCards(QWidget):
         self._waiting.setInterval(_REST_MS)
         self._waiting.timeout.connect(self._ask)
 
-    def _go(self, frequency: float) -> None:
-        self.destination_chosen.emit(_PARAMETER, frequency)
+    def _go(self, frequency: float, decoder: str) -> None:
+        self.destination_chosen.emit(_PARAMETER, frequency, decoder)
 
     @property
     def is_waiting(self) -> bool:
@@ -120,8 +120,8 @@ class LimitCard(QFrame):
         The parent widget.
     """
 
-    chosen = Signal(float)
-    """The user goes to the frequency, in hertz, at which every bit was read."""
+    chosen = Signal(float, str)
+    """The user goes to the frequency, in hertz, at which the decoder read every bit."""
 
     def __init__(self, decoder: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -155,13 +155,19 @@ class LimitCard(QFrame):
 
     def _choose(self) -> None:
         if self._destination is not None:
-            self.chosen.emit(self._destination)
+            self.chosen.emit(self._destination, self._decoder)
 
     def _show(self, text: str, tip: str, destination: float | None) -> None:
         self._destination = destination
         self.value.setText(text)
         self.value.setToolTip(tip)
         self.go.setEnabled(destination is not None)
+        # Not the limit itself, but a frequency inside of it: the button says which.
+        self.go.setText(
+            self.tr("Go")
+            if destination is None
+            else self.tr("Go to {value}").format(value=formatted_frequency(destination))
+        )
         self.go.setToolTip(tip)
 
     def show_unknown(self) -> None:

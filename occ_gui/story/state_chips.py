@@ -7,12 +7,10 @@ from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State
+from occ_model.receiver.decoders import QUICK_DECODERS
 
 _COMPUTING = "computing"
 """The chip of results that are still to come."""
-
-_MOST_NAMED = 2
-"""Other decoders that are named; more are counted."""
 
 _MOST_FORCED = 2
 """Effects switched by hand that have a chip each; more share one."""
@@ -76,18 +74,20 @@ def _band_model(reading: Reading) -> list[Chip]:
 
 
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
+    # Others have read it only where they were chosen before.
     results = {result.decoder: result for result in reading.results}
-    right = [name for name, result in results.items() if is_right(result, reading.sent)]
+    tried = [name for name in (*QUICK_DECODERS, decoder) if name in results]
+    right = [name for name in tried if is_right(results[name], reading.sent)]
     others = [name for name in right if name != decoder]
     if not reading.sent or not others:
         return []
     text = _tr("also read: {names}") if decoder in right else _tr("read by: {names}")
     names = ", ".join(others)
-    if len(others) > _MOST_NAMED:
-        names = _tr("{count} decoders").format(count=len(others))
-    meaning = _tr("Decoders that read the code from the same signal, all bits right: {names}.")
-    chip = Chip("others", text.format(names=names), meaning.format(names=", ".join(others)),
-                State.GOOD)  # fmt: skip
+    meaning = _tr(
+        "Of the decoders that every picture is read with ({tried}), these too read the code from "
+        "the same signal, all bits right: {names}. The others read it where they are chosen."
+    ).format(tried=", ".join(QUICK_DECODERS), names=names)
+    chip = Chip("others", text.format(names=names), meaning, State.GOOD)
     return [chip]
 
 

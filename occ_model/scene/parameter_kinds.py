@@ -85,7 +85,11 @@ class Quantity(Declaration):
         return self.unit.format(number, digits=17) if is_rounded_in else text
 
     def parse(self, text: str, plain: float = 1.0) -> float:
-        """Read a value as people write it; ``plain`` is the SI value of 1 without a unit."""
+        """Read a value as people write it; ``plain`` is the SI value of 1 without a unit.
+
+        A number without a unit that lies beyond the slider, and would not in SI, is refused: who
+        types 20000 for a frequency shown in kHz hardly means 20 MHz.
+        """
         self.check_length(text, self.allowed)
         readings = self.unit.readings(text, plain)
         if len(readings) > 1:
@@ -98,7 +102,20 @@ class Quantity(Declaration):
         if not readings:
             unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
             raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
-        return self.check(readings[0])
+        value = self.check(readings[0])
+        in_si = self.unit.parse(text)
+        if in_si not in (value, None) and self._offers(in_si) and not self._offers(value):
+            raise self.refuse(
+                f"is {shown(text)} without a unit, which means {self.unit.format(value)} in the "
+                f"unit shown and {self.unit.format(in_si)} in {self.unit.symbol}",
+                f"{self.allowed}, written with its unit",
+            )
+        return value
+
+    def _offers(self, value: float) -> bool:
+        """Return whether a value is on the slider."""
+        low, high = self.slider
+        return low <= value <= high
 
     def format(self, value: float, digits: int = 6) -> str:
         """Write a value with its unit."""

@@ -7,6 +7,7 @@ from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
 from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
+from occ_gui.detection_map.advice_sentences import formatted_frequency
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.detection_map.map_view import MapView
@@ -47,11 +48,13 @@ def test_a_card_states_what_the_page_of_advice_states(
 
 
 def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Scene) -> None:
-    told: list[tuple[str, float]] = []
+    told: list[tuple[str, float, str]] = []
     cards.destination_chosen.connect(lambda *to: told.append(to))
     cards.show_advice(advice_on(small_scene))
-    cards.cards["threshold"].go.click()
-    assert told == [("switching_frequency", INSIDE.value)]
+    button = cards.cards["threshold"].go
+    assert formatted_frequency(INSIDE.value) in button.text()
+    button.click()
+    assert told == [("switching_frequency", INSIDE.value, "threshold")]
 
 
 def test_a_search_that_met_no_end_says_so(cards: LimitCards, small_scene: Scene) -> None:

@@ -222,3 +222,18 @@ def test_a_number_typed_over_a_double_clicked_one_replaces_its_decimals(qtbot: Q
     qtbot.keyClicks(line, "20")
     field.press(Qt.Key.Key_Return)
     assert field.edit.value() == 20e3
+
+
+def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(
+    qtbot: QtBot,
+) -> None:
+    field = Field("switching_frequency", qtbot)
+    field.enter("10 kHz")
+    field.enter("20000")
+    (sentence,) = field.refused
+    assert "20 MHz in the unit shown and 20 kHz in Hz" in sentence
+    assert sentence.endswith("written with its unit.")
+    assert field.edited == [10e3]
+    field.enter("20")
+    field.enter("20 MHz")  # beyond the slider, and said so
+    assert field.edited == [10e3, 20e3, 20e6]

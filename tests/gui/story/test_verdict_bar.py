@@ -223,3 +223,15 @@ def test_while_a_slider_runs_the_verdict_names_its_value_and_the_pictures(
     assert "computing" not in texts(bar)
     bar.show_run("", "")
     assert bar.heading == "Code 718 read, all bits right"
+
+
+def test_what_was_chosen_before_does_not_change_which_decoders_are_named(
+    bar: VerdictBar, small_scene: Scene
+) -> None:
+    snapshot = simulate(small_scene)
+    bar.show_reading(snapshot)
+    before = bar.chips.chips
+    (matched,) = snapshot.others
+    tried_before = replace(snapshot, others=(matched, replace(matched, decoder="sequence")))
+    bar.show_reading(tried_before)
+    assert bar.chips.chips == before

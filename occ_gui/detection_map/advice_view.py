@@ -43,7 +43,7 @@ class AdviceView(QWidget):
     """The user returns to the map."""
 
     destination_chosen = Signal(str, float, str)
-    """The user goes to a limit: a parameter, its value in SI units, and the decoder that reads it."""
+    """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
 
     def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -36,7 +36,7 @@ class LimitCards(QWidget):
     """The limits of the present scene are wanted."""
 
     destination_chosen = Signal(str, float, str)
-    """The user goes to a limit: a parameter, its value in SI units, and the decoder that reads it."""
+    """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -96,6 +96,24 @@ def test_a_click_within_a_lamp_chooses_it(
     assert bench.regions[-1] is None
 
 
+@pytest.mark.parametrize("chosen", [None, 0, 2])
+def test_the_chosen_lamp_alone_has_a_thick_outline(bench: Bench, chosen: int | None) -> None:
+    bench.outlines.show_lamps(LAMPS, chosen)
+    widths = [curve.opts["pen"].widthF() for curve, _ in bench.outlines.items]
+    thick = [index for index, width in enumerate(widths) if width > min(widths)]
+    assert thick == ([] if chosen is None else [chosen])
+
+
+def test_the_table_of_many_lamps_is_no_higher_than_of_some(bench: Bench) -> None:
+    heights = []
+    for number in (1, 2, 6, 7, 40):
+        bench.form.show_lamps(LAMPS[:1] * number, None)
+        heights.append(bench.form.table.height())
+    one, two, six, seven, forty = heights
+    assert two - one == (six - two) / 4 > 0
+    assert six == seven == forty
+
+
 def test_a_rectangle_is_clipped_to_the_photo(bench: Bench, photo: Photo) -> None:
     _rows, columns = photo.image.shape
     bench.lamps.draw(Region(-20, 30, 40, columns + 500))

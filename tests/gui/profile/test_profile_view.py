@@ -300,6 +300,36 @@ def test_a_panel_at_the_pictures_rim_leaves_a_range_to_look_at(
     assert drawn(view.simulation)[0]
 
 
+@pytest.mark.parametrize("seen", [(-40.0, 12.4), (20.5, 31.7), (590.0, 2000.0), (5000.0, 5100.0)])
+def test_the_columns_in_view_are_some_of_the_picture(
+    view: ProfileView, snapshot_of: SnapshotOf, seen: tuple[float, float]
+) -> None:
+    snapshot = snapshot_of()
+    view.show_reading(snapshot)
+    view.plot.getViewBox().setLimits(xMin=None, xMax=None)
+    view.plot.setXRange(*seen, padding=0.0)
+    columns = len(snapshot.frame.profile)
+    first, end = view.columns_in_view()
+    assert 0 <= first < end <= columns
+    low, high = columns_in_view(view)
+    whole = [column for column in range(columns) if low <= column <= high]
+    assert not whole or (whole[0], whole[-1] + 1) == (first, end)
+
+
+def test_the_region_that_is_read_is_marked_where_there_is_one(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of()
+    region = view._region
+    view.show_reading(snapshot)
+    read = snapshot.decoded.region
+    assert read is not None
+    assert region.isVisible()
+    assert region.getRegion() == (read.first_column, read.last_column)
+    view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
+    assert not region.isVisible()
+
+
 def test_before_any_result_the_legend_is_empty_but_for_its_lines(view: ProfileView) -> None:
     assert set(legend_texts(view)) <= {"simulation"}
 

@@ -10,8 +10,9 @@ from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, pul
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation, explain, explain_near, polished
 from occ_model.photo.fit.camera_response import CameraTone
+from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.least_squares import StripeFit, Tone
-from occ_model.photo.fit.read_pattern import MOST_CHIPS, canonical, read_patterns
+from occ_model.photo.fit.read_pattern import MOST_CHIPS, canonical, read_otherwise, read_patterns
 from occ_model.photo.fitted_scene import with_chips
 from occ_model.results import Stripes
 from occ_model.scene.scene import Scene
@@ -22,6 +23,9 @@ _NEAR = np.arange(-4, 5) / 8.0
 
 _EXPLAINED = 0.98
 """Correlation from which chips need not be fitted again at the period of the stripes."""
+
+_WELL_READ = 0.985
+"""Correlation below which chips that were read are searched for otherwise, too."""
 
 _UNCLIPPED = 0.02
 """Share of white pixels up to which they hardly change the width of the stripes."""
@@ -94,11 +98,19 @@ class Candidates:
         if explained and as_sent is not None:
             known = canonical(as_sent.chips)
             read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
+        found = self._fitted_read(read)
+        best = max((one.fit.correlation for one in found), default=0.0)
+        if not explained and best < _WELL_READ:
+            found += self._fitted_read(read_otherwise(stripes.profile, period, read, self.check))
+        return found
+
+    def _fitted_read(self, read: Sequence[ReadPattern]) -> list[Hypothesis]:
+        assert self.stripes.period is not None  # noqa: S101 - else nothing is read
         found = [
             self._fitted(
                 f"{self._named(one.chips)} read from the photo",
                 one.chips,
-                [self._near(one.times * len(one.chips) / period)],
+                [self._near(one.times * len(one.chips) / self.stripes.period)],
                 bits=len(one.chips) + np.log2(MOST_CHIPS),
                 was_read=True,
             )

@@ -79,9 +79,8 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
     """Find the chips, over all exposures and phases, whose harmonics are most like those given."""
     order = np.arange(1, len(lines) + 1)
     exposures, phases = (part.ravel() for part in np.meshgrid(_EXPOSURES, _PHASES))
-    boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
-    turned = np.asarray(boxes * np.exp(-2j * np.pi / count * np.outer(phases, order)), complex)
-    chips = _rounded(_levels(lines, turned, count))
+    turned = boxes_of(len(lines), count, exposures, phases)
+    chips = rounded_chips(lines, turned, count)
     model = np.fft.fft(chips, axis=1)[:, order % count] * turned
     energy = np.sqrt((np.abs(model) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
     products = (lines * np.conj(model)).real.sum(axis=1)
@@ -91,6 +90,32 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
         return None
     found = float(exposures[best]), float(phases[best])
     return ReadPattern(chips[best], float(explained[best]), *found)
+
+
+def boxes_of(
+    harmonics: int, count: int, exposures: FloatArray, phases: FloatArray
+) -> NDArray[np.complex128]:
+    """Give what multiplies the harmonics of chips: the boxes of a chip and of an exposure.
+
+    Parameters
+    ----------
+    harmonics, count
+        Numbers of harmonics, and of chips in a period.
+    exposures, phases : ndarray of float64, shape (trials,)
+        In chips.
+
+    Returns
+    -------
+    ndarray of complex128, shape (trials, harmonics)
+    """
+    order = np.arange(1, harmonics + 1)
+    boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
+    return np.asarray(boxes * np.exp(-2j * np.pi / count * np.outer(phases, order)), complex)
+
+
+def rounded_chips(lines: Harmonics, boxes: NDArray[np.complex128], count: int) -> ByteArray:
+    """Divide harmonics by each row of boxes, and round the chips' levels, shape (trials, chips)."""
+    return _rounded(_levels(lines, boxes, count))
 
 
 def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -> ReadPattern:

@@ -12,6 +12,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.chips.edges import Edges, edges_of
 from occ_model.photo.chips.lattice import coherence
+from occ_model.photo.fit.chips_by_descent import chips_by_descent
 from occ_model.photo.fit.chips_of_harmonics import (
     Harmonics,
     ReadPattern,
@@ -54,6 +55,13 @@ _UNEXPLAINED = 0.15
 
 _DIP = 0.5
 """Ratio to neighbouring numbers of chips of the power that the right one leaves unexplained."""
+
+_PARTS = (1, 2, 3, 4)
+_LEAST_OTHERWISE = 5
+_OTHERS_A_COUNT = 2
+_ALIKE = 0.85
+"""Parts of the numbers of chips read, the least number, how many sequences of each are tried where
+what was read explains the stripes badly, and the correlation of their harmonics from which."""
 
 _BESIDE = (-3, -2, -1, 1, 2, 3)
 
@@ -108,6 +116,39 @@ def read_patterns(
         found.append(_chips_by_lines(lines, most, column, check))
     read = [_shortened(one) for one in found if one is not None]
     return list({one.chips.tobytes(): one for one in read}.values())
+
+
+def read_otherwise(
+    profile: FloatArray,
+    period: float,
+    read: Sequence[ReadPattern],
+    check: Callable[[], object] = lambda: None,
+) -> list[ReadPattern]:
+    """Read other sequences of as many chips as were read, or of a half, third or quarter of them.
+
+    This is for stripes that what was read explains badly: an exposure of two or three chips shows
+    hardly any of some harmonics, and is easily taken for one of a single chip.
+
+    Parameters
+    ----------
+    profile, period, check
+        As for :func:`read_patterns`.
+    read
+        The sequences that were read.
+    """
+    lines = harmonics_of(without_trend(profile), period)
+    lengths = [one.times * len(one.chips) for one in read]
+    counts = {length // part for length in lengths for part in _PARTS if length % part == 0}
+    known = {canonical(one.chips).tobytes() for one in read}
+    found: dict[bytes, ReadPattern] = {}
+    for count in sorted(counts):
+        if count < _LEAST_OTHERWISE:
+            continue
+        for one in chips_by_descent(lines, count, check)[:_OTHERS_A_COUNT]:
+            short = _shortened(one)
+            if one.explained > _ALIKE and short.chips.tobytes() not in known:
+                found[short.chips.tobytes()] = short
+    return list(found.values())
 
 
 def _fewest(

@@ -8,7 +8,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from occ_model.arrays import ByteArray
-from occ_model.photo.fit.read_pattern import canonical, read_patterns
+from occ_model.photo.fit.chips_of_harmonics import ReadPattern
+from occ_model.photo.fit.read_pattern import canonical, read_otherwise, read_patterns
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 
@@ -70,6 +71,17 @@ def test_an_exposure_of_several_chips_is_undone(exposure: float) -> None:
     chips = np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0], dtype=np.uint8)
     stripes = stripes_of(chips, exposure, 9.3, 0.4)
     read = read_patterns(stripes, stripes, 18 * 9.3)
+    assert text(canonical(chips)) in [text(one.chips) for one in read]
+
+
+@pytest.mark.parametrize("exposure", [2.55, 2.75, 2.9])
+def test_long_exposures_by_a_bent_tone_curve_are_read_otherwise(exposure: float) -> None:
+    """A wrong reading of as many chips, such as one of a single chip's exposure, leads to them."""
+    chips = np.array([int(chip) for chip in "111010101010011010010110"], dtype=np.uint8)
+    stripes = (stripes_of(chips, exposure, 5.24, 0.4) + 0.05) ** 0.45
+    stripes += 0.005 * np.random.default_rng(1).standard_normal(len(stripes))
+    wrong = ReadPattern(np.roll(np.repeat([1, 0], 12), 3).astype(np.uint8), 0.9, 1.1, 0.0)
+    read = read_otherwise(stripes, 24 * 5.24, [wrong])
     assert text(canonical(chips)) in [text(one.chips) for one in read]
 
 

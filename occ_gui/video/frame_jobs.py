@@ -17,6 +17,7 @@ from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.video.read_frame import read_by_itself
 
 _NO_PLAN = Plan(0.0, "image", (), 0.0, 1.0)
 _SMALLEST = 256
@@ -193,7 +194,7 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     step = 1
     if request is not None and image.shape[0] != scene.camera.rows:
         step = request.draft_step
-    decoded = occ.decode(image, scene)
+    decoded = read_by_itself(image, scene)
     region = decoded.region or Region(0, image.shape[0], 0, image.shape[1])
     profile = column_means(image, Region(region.first_row, region.last_row, 0, image.shape[1]))
     shown = _with_size(scene, image, step)

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.receiver.sequence.soft_frame import SoftFrame
-from occ_model.results.video_reading import FrameReading
 from occ_model.video.joining import Joined
 from occ_model.video.period import SentPeriod
+from occ_model.video.read_frame import TimedFrame
 
 _LEAST_CERTAINTY = 0.9
 """Least probability that all bits are right, of a payload that is read."""
@@ -28,17 +28,21 @@ def certainty_of(soft: SoftFrame | None, period: SentPeriod) -> float:
     return certainty
 
 
-def why_unplaced(frames: Sequence[FrameReading]) -> str:
-    """Say why no frame could be placed in what is sent."""
+def why_unplaced(frames: Sequence[TimedFrame]) -> str:
+    """Say why no frame could be placed in what is sent: what the first one by itself says."""
     if not frames:
         return "The film holds no frames."
-    read = [frame for frame in frames if frame.chips.size]
+    read = [frame for frame in frames if frame.is_read]
     if not read:
-        return f"None of {len(frames)} frames shows chips; of the first one: {frames[0].failure}"
-    return (
-        f"The place in the packet of none of {len(read)} frames with chips is known: no header is "
-        "in view, or another scheme or number of bits is sent."
+        why = frames[0].reading.failure
+        return f"None of {len(frames)} frames shows chips; of the first one: {why}"
+    why = read[0].problem
+    rest = (
+        "no header tells it, and the chips fit no place."
+        if why is None
+        else f"of the first one: {why}"
     )
+    return f"The place in the packet of none of {len(read)} frames with chips is known; {rest}"
 
 
 def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> str | None:

@@ -5,10 +5,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.enhancement import Enhancement
 from occ_model.receiver.decode import decode
+from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.light import in_light
 from occ_model.receiver.signal import column_means
-from occ_model.results import Region
+from occ_model.results import DecodeResult, Region
 from occ_model.results.video import VideoFrame
 from occ_model.results.video_reading import FrameReading
 from occ_model.scene.scene import Scene
@@ -45,6 +48,8 @@ class TimedFrame:
         A column of the picture, the middle one of the region.
     step, step_error
         Chips from one column to the next.
+    problem
+        Why the frame by itself gives no payload, as of a single picture; None where it does.
     """
 
     reading: FrameReading
@@ -53,6 +58,7 @@ class TimedFrame:
     column: float = 0.0
     step: float = 0.0
     step_error: float = 0.0
+    problem: str | None = None
 
     @property
     def is_read(self) -> bool:
@@ -60,49 +66,110 @@ class TimedFrame:
         return bool(self.reading.chips.size)
 
 
-def film_scene(scene: Scene) -> Scene:
-    """Return what a receiver of a film knows: its pictures are the camera's, not enhanced."""
-    return scene.replace(enhancement="none")
+def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray:
+    """Return the panel of a camera's picture as a receiver enhances it.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (rows, columns)
+        The camera's picture.
+    region
+        Where the panel is.
+    method
+        The enhancement, as a scene names it; its curve follows from the columns' means.
+
+    Returns
+    -------
+    ndarray of uint8, shape (rows of the region, columns of the region)
+    """
+    enhancement = Enhancement(column_means(image, region), method)
+    return enhancement.of_bytes(np.ascontiguousarray(region.crop(image)))
+
+
+def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
+    """Read one frame as a single picture: as the camera gives it, else as the receiver enhances it.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (rows, columns)
+        The camera's picture.
+    scene
+        What the receiver knows.
+    decoder
+        A name from ``DECODERS``.
+
+    Returns
+    -------
+    DecodeResult
+        That of the enhanced picture where this one alone shows the payload, else of the camera's.
+    """
+    plain = decode(image, scene.replace(enhancement="none"), decoder)
+    method, region = scene.model.enhancement, plain.region
+    if plain.failure is None or region is None or method == "none":
+        return plain
+    signal = enhanced_picture(image, region, method).mean(axis=0)
+    enhanced = decoder_named(decoder).read(signal, scene)
+    if enhanced.failure is not None:
+        return plain
+    return replace(enhanced, region=region, location=plain.location)
 
 
 class FrameReader:
-    """Reads frames one after the other.
+    """Reads frames one after the other, as the camera gives them and as the receiver enhances them.
+
+    The timing of chips is fitted to the light, which the camera's picture shows. Their values are
+    read from either, as of a single picture: an enhancement moves the threshold, so that chips can
+    be told apart in one picture that cannot in the other. Those count that explain the light
+    better.
 
     Parameters
     ----------
     scene
-        What the receiver knows, roughly, as :func:`film_scene` gives it.
+        What the receiver knows, roughly.
     decoder
         The name of the decoder that finds the chips.
     """
 
     def __init__(self, scene: Scene, decoder: str) -> None:
-        self._scene, self._decoder = scene, decoder
+        self._enhanced, self._scene = scene, scene.replace(enhancement="none")
+        self._decoder = decoder
         self._spans: deque[tuple[int, int]] = deque(maxlen=_REMEMBERED)
 
     def read(self, frame: VideoFrame) -> TimedFrame:
         """Read the chips of the next frame."""
-        scene = self._scene
-        if frame.exposure_time is not None:
-            scene = scene.replace(exposure_time=frame.exposure_time)
+        scene = self._of(self._scene, frame)
         result = decode(frame.image, scene, self._decoder)
         reading = FrameReading(frame.index, frame.time, result.region)
-        if result.region is None or result.signal is None or result.chip_starts is None:
-            why = result.failure or "The decoder gives no chips, which joining frames needs."
-            return TimedFrame(replace(reading, failure=why))
+        if result.region is None:
+            return TimedFrame(replace(reading, failure=result.failure))
         region = self._with_dark_ends(result.region, scene)
-        signal = column_means(frame.image, region)
+        light = in_light(column_means(frame.image, region), scene).values
         before = result.region.first_column - region.first_column
-        lattice = first_lattice(result, signal, before, scene)
-        if lattice is None:
-            why = result.failure or "Too few stripes to see chips."
-            return TimedFrame(replace(reading, failure=why))
-        timing = fit_timing(in_light(signal, scene).values, lattice)
-        if timing is None or timing.unexplained > _MOST_UNEXPLAINED:
-            why = "The stripes do not follow the chips that were read."
-            return TimedFrame(replace(reading, failure=why))
+        tried = [_timing(result, column_means(frame.image, region), light, before, scene)]
+        if result.failure is not None and self._enhanced.model.enhancement != "none":
+            tried.append(self._of_enhanced(frame, result.region, region, light))
+        found = min(tried, key=lambda one: 1.0 if one.timing is None else one.timing.unexplained)
+        if found.timing is None:
+            return TimedFrame(replace(reading, failure=found.problem), problem=found.problem)
         after = region.last_column - result.region.last_column
-        return _timed(reading, region, (before > 0, after > 0), timing)
+        timed = _timed(reading, region, (before > 0, after > 0), found.timing)
+        return replace(timed, problem=found.problem)
+
+    def _of_enhanced(
+        self, frame: VideoFrame, found: Region, region: Region, light: FloatArray
+    ) -> "_Tried":
+        """Read the chips of the enhanced picture, and fit their timing to the camera's light."""
+        scene = self._of(self._enhanced, frame)
+        signal = enhanced_picture(frame.image, region, scene.model.enhancement).mean(axis=0)
+        before = found.first_column - region.first_column
+        part = signal[before : before + found.columns]
+        result = decoder_named(self._decoder).read(part, scene)
+        return _timing(result, signal, light, before, scene)
+
+    @staticmethod
+    def _of(scene: Scene, frame: VideoFrame) -> Scene:
+        exposure = frame.exposure_time
+        return scene if exposure is None else scene.replace(exposure_time=exposure)
 
     def _with_dark_ends(self, region: Region, scene: Scene) -> Region:
         """Widen a region by columns that frames before show: dark chips at its ends hide them."""
@@ -114,6 +181,31 @@ class FrameReader:
         earliest = max(min(span[0] for span in self._spans), first - most, 0)
         latest = min(max(span[1] for span in self._spans), last + most)
         return replace(region, first_column=earliest, last_column=latest)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Tried:
+    """The timing of the chips that a decoder found, and why they give no payload by themselves."""
+
+    timing: ChipTiming | None
+    problem: str | None
+
+
+def _timing(
+    result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
+) -> _Tried:
+    """Fit the timing of a decoder's chips to the light."""
+    if result.signal is None or result.chip_starts is None:
+        return _Tried(
+            None, result.failure or "The decoder gives no chips, which joining frames needs."
+        )
+    lattice = first_lattice(result, signal, before, scene)
+    if lattice is None:
+        return _Tried(None, result.failure or "Too few stripes to see chips.")
+    timing = fit_timing(light, lattice)
+    if timing is None or timing.unexplained > _MOST_UNEXPLAINED:
+        return _Tried(None, "The stripes do not follow the chips that were read.")
+    return _Tried(timing, result.failure)
 
 
 def _timed(

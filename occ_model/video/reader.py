@@ -22,7 +22,7 @@ from occ_model.video.packets import packets_of
 from occ_model.video.partial_payload import known_bits, written
 from occ_model.video.period import period_of
 from occ_model.video.placed_frames import PlacedFrames
-from occ_model.video.read_frame import FrameReader, film_scene
+from occ_model.video.read_frame import FrameReader
 
 
 class VideoReader:
@@ -49,7 +49,7 @@ class VideoReader:
             raise ParameterError(
                 f"readout_tolerance is {shown(readout_tolerance)}; allowed: above 0 up to 0.5."
             )
-        self._scene, self._reads = scene, FrameReader(film_scene(scene), decoder)
+        self._scene, self._reads = scene, FrameReader(scene, decoder)
         self._period = period_of(scene)
         readout = scene.camera.readout_time
         self._placed = PlacedFrames(self._period, readout, readout_tolerance)
@@ -134,7 +134,7 @@ class VideoReader:
     def _failure(self, soft: SoftFrame | None) -> str | None:
         """Say why the payload is not read."""
         if self._placed.placed == 0:
-            return why_unplaced([timed.reading for timed in self._placed.frames])
+            return why_unplaced(self._placed.frames)
         return why_not_read(soft, self._joined, self._period)
 
     def _written(self, bits: ByteArray) -> str:

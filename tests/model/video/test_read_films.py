@@ -11,6 +11,7 @@ from simulated_films import FILMS, Film, Judged, film, judge
 import occ_model as occ
 from occ_model.results.video import VideoFrame
 from occ_model.scene.recording import Recording
+from occ_model.video.read_frame import read_by_itself
 
 _VALUES = ("switching_frequency", "readout_time", "gap")
 _EVERYDAY = (3,)
@@ -187,6 +188,35 @@ def test_a_film_without_stripes_fails_with_a_sentence() -> None:
     assert reading.packets == ()
     assert reading.failure is not None
     assert reading.failure.startswith("None of 5 frames shows chips; of the first one: No panel")
+
+
+def near_the_null(frequency: float) -> occ.Scene:
+    """The paper's phone, whose single chips all but vanish just below 2 / t = 14.7 kHz."""
+    return occ.load_preset("phone-136us").replace(switching_frequency=frequency)
+
+
+def test_where_the_enhanced_picture_is_read_the_film_is() -> None:
+    scene = near_the_null(14.21e3)
+    as_the_camera_gives_it = scene.replace(enhancement="none")
+    assert occ.decode(occ.render(scene).image, scene).code == scene.transmitter.code
+    assert occ.decode(occ.render(as_the_camera_gives_it).image, scene).code is None
+    frames = recorded(scene, 2)
+    alone = read_by_itself(frames[0].image, scene)
+    assert alone.code == scene.transmitter.code
+    assert alone.region is not None
+    assert read_by_itself(frames[0].image, as_the_camera_gives_it).code is None
+    assert reading_of(frames, scene).payload == str(scene.transmitter.code)
+    assert reading_of(frames, as_the_camera_gives_it).failure is not None
+
+
+def test_a_film_that_is_not_read_fails_with_the_words_of_a_single_picture() -> None:
+    scene = near_the_null(14.6e3)
+    still = occ.decode(occ.render(scene).image, scene).failure
+    assert still is not None
+    failure = reading_of(recorded(scene, 2), scene).failure
+    assert failure is not None
+    assert "none of 2 frames" in failure
+    assert failure.endswith(still)
 
 
 def test_too_short_a_film_says_how_much_was_not_in_view() -> None:

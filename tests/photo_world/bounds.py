@@ -1,13 +1,19 @@
 """Cramer-Rao bounds of the times that a photograph of a known world tells."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import cholesky_banded, solve_banded
 
 from occ_model.photo.fit.joint_fit import USUAL
 from occ_model.photo.stripes.envelope import smooth_shapes
 from photo_world.photograph import World, blurred, falloff, lit_fraction, scale
+from photo_world.pixel_noise import (
+    cosines_of_eight,
+    jpeg_noise,
+    jpeg_steps,
+    square_of,
+    whitened,
+)
 
 _ROWS = 8
 """Rows that count as equally bright: those of a block of JPEG."""
@@ -15,11 +21,11 @@ _ROWS = 8
 _LEVELS = 3
 """Shapes of which the lamp's light, and the surroundings', is a combination along the columns."""
 
-_TABLE = np.array([16, 11, 10, 16, 24, 40, 51, 61])
-"""Steps of the coefficients without change along a column at quality 50 (ITU-T T.81, table K.1)."""
-
 _CHANGE = 1e-3
 """Columns by which a time is changed for finite differences, over all of them."""
+
+_EVENLY = 0.6
+"""Share of the brightest row's light from which rows count as lit well, as in a match."""
 
 _OF_BLUR = 0.02
 _REACH = 25
@@ -92,6 +98,60 @@ def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float
     return _of_times(information)
 
 
+def bound_of_profile(
+    world: World, *, jpeg_alike: bool = False, beside_clipped: int = 0
+) -> tuple[float, float]:
+    """Give the bound by the mean of each column over the rows that are lit well, as rows all alike.
+
+    The unknowns are those of :func:`bound_of_picture`. The covariance of the mean over R rows is
+    C/R, for noise that is independent from row to row.
+
+    Parameters
+    ----------
+    world
+        The photograph's truth.
+    jpeg_alike
+        Whether JPEG's rounding is alike in all rows as far as light is: a coefficient with a normal
+        noise of deviation s that is rounded to multiples of q is off, on average over the noise, by
+        (q/pi) exp(-2 (pi s/q)^2) sin(2 pi m/q) for a mean m, and by the sine's higher harmonics,
+        which are smaller. Of that error's variance nothing is averaged out.
+    beside_clipped
+        Columns beside a clipped one that are left out, too.
+    """
+    lamp, dark = _lights(world)
+    brightness = lamp.max(axis=1)
+    rows = brightness > _EVENLY * brightness.max()
+    b, a, count = lamp[rows].mean(axis=0), dark[rows].mean(axis=0), int(rows.sum())
+    lit, shapes = lit_fraction(world), smooth_shapes(world.columns, _LEVELS).T
+    of_light = [
+        *(b * slope for slope in _slopes_of_times(world)), *(b * lit * shapes), *(a * shapes)
+    ]  # fmt: skip
+    light = b * lit + a
+    row = _row(world, light, of_light, b * _slope_of_longer(world))
+    clipped = np.convolve(light >= 1.0, np.ones(2 * beside_clipped + 1), "same") > 0.0
+    noise = _of_light(world, row)
+    bands = noise / count
+    bands[0] += 2.0 / 12.0 / count
+    bands[:8] += jpeg_noise(world) / count
+    if jpeg_alike:
+        cosines, steps = cosines_of_eight(), jpeg_steps(world)
+        starts = np.arange(0, world.columns - 7, 8)
+        for start in starts.tolist():
+            block = square_of(noise[:8, start : start + 8])
+            spread = np.einsum("ij,jk,ik->i", cosines, block, cosines)
+            common = steps**2 / (2.0 * np.pi**2) * np.exp(-4.0 * np.pi**2 * spread / steps**2)
+            # Rows of a block are alike: their coefficient is larger by the root of their number.
+            both = cosines.T @ np.diag(common / 8.0) @ cosines
+            for apart in range(8):
+                bands[apart, start : start + 8 - apart] += np.diag(both, -apart)
+    bands[0, clipped] += 1e12
+    slopes = whitened(bands, row.slopes)
+    information = np.asarray(slopes @ slopes.T)
+    camera = slice(3 + 2 * _LEVELS, None)
+    information[camera, camera] += np.diag(1.0 / np.array([sd for _, sd in USUAL.values()]) ** 2)
+    return _of_times(information)
+
+
 def _lights(world: World) -> tuple[np.ndarray, np.ndarray]:
     """Give the lamp's light and the surroundings' in each pixel; 1 makes white."""
     passed = falloff(world) * scale(world)
@@ -134,10 +194,38 @@ def _slope_of_longer(world: World) -> np.ndarray:
     return np.asarray(0.5 * count / world.exposure_in_chips)
 
 
+@dataclass(frozen=True)
+class _Row:
+    """A row of pixels: how its values change with the unknowns, and what its noise is made of.
+
+    Parameters
+    ----------
+    slopes : ndarray of float64, shape (unknowns, columns)
+    noise : ndarray of float64, shape (columns,)
+        Variance of what is blurred.
+    kernel, after : ndarray of float64
+        The blur, and what multiplies it.
+    """
+
+    slopes: np.ndarray
+    noise: np.ndarray
+    kernel: np.ndarray
+    after: np.ndarray
+
+
 def _of_row(
     world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np.ndarray
 ) -> np.ndarray:
     """Give the Fisher information of a row of pixels."""
+    row = _row(world, light, of_light, longer)
+    bands = _of_light(world, row)
+    bands[0] += 2.0 / 12.0
+    bands[:8] += jpeg_noise(world)
+    slopes = whitened(bands, row.slopes)
+    return np.asarray(slopes @ slopes.T)
+
+
+def _row(world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np.ndarray) -> _Row:
     seen = light < 1.0
     noise = np.where(seen, (light * world.full_well + world.read_noise**2), 0.0)
     noise = noise / world.full_well**2
@@ -172,8 +260,7 @@ def _of_row(
         -u * np.log(np.maximum(u, 1e-3)), 1.0 - u, u * (1.0 - u), u * (1.0 - u) * (1.0 - 2.0 * u)
     ]  # fmt: skip
     slopes = np.stack([*timing[:-1], *(255.0 * bend for bend in bends), of_blur, timing[-1]])
-    whitened = _whitened(_covariance(world, noise * before**2, kernel, after), slopes)
-    return np.asarray(whitened @ whitened.T)
+    return _Row(slopes, noise * before**2, kernel, after)
 
 
 def _blurred(world: World, row: np.ndarray, blur: float) -> np.ndarray:
@@ -181,39 +268,19 @@ def _blurred(world: World, row: np.ndarray, blur: float) -> np.ndarray:
     return np.asarray(blurred(np.tile(row, (3, 1)), blur, world.blur_shape)[1])
 
 
-def _covariance(
-    world: World, noise: np.ndarray, kernel: np.ndarray, after: np.ndarray
-) -> np.ndarray:
-    """Give the covariance of a row's pixels, as its diagonals from the main one downwards."""
-    columns = len(noise)
+def _of_light(world: World, row: _Row) -> np.ndarray:
+    """Give the covariance of a row's light, as its diagonals from the main one downwards."""
+    columns, kernel = world.columns, row.kernel
     bands = np.zeros((_REACH, columns))
-    padded = np.pad(noise, _REACH, mode="reflect")
+    padded = np.pad(row.noise, _REACH, mode="reflect")
     for apart in range(_REACH):
         both = kernel[: len(kernel) - apart] * kernel[apart:]
         # The covariance of pixels i and i + apart: sum over j of k(i-j) k(i+apart-j) noise(j).
         spread = np.convolve(padded, np.pad(both, (0, apart)), "same")
-        bands[apart] = spread[_REACH : _REACH + columns] * after
-        bands[apart, : columns - apart] *= after[apart:]
-    bands[0] += 2.0 / 12.0
-    quality = world.quality
-    percent = 5000 // quality if quality < 50 else 200 - 2 * quality
-    steps = np.clip((_TABLE * percent + 50) // 100, 1, 255)
-    place = np.arange(8)
-    cosines = np.sqrt(np.where(place == 0, 1.0, 2.0) / 8.0)[:, None] * np.cos(
-        np.pi / 8.0 * np.outer(place, place + 0.5)
-    )
-    block = cosines.T @ np.diag(steps**2 / 12.0) @ cosines
-    for apart in range(8):
-        diagonal = np.pad(np.diag(block, -apart), (0, apart))
-        bands[apart] += np.resize(diagonal, columns)
+        bands[apart] = spread[_REACH : _REACH + columns] * row.after
+        bands[apart, : columns - apart] *= row.after[apart:]
         bands[apart, columns - apart :] = 0.0
     return bands
-
-
-def _whitened(bands: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Multiply slopes by the inverse root of a covariance."""
-    root = cholesky_banded(bands, lower=True)
-    return np.asarray(solve_banded((len(bands) - 1, 0), root, slopes.T).T)
 
 
 def _of_times(information: np.ndarray) -> tuple[float, float]:

@@ -127,10 +127,12 @@ def refined(
     ]
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fits[0].correlation < explanation.correlation - _CONTRADICTED:
-        return Refined(explanation.fits, (_CONTRADICTION,), tuple(_doubts(seen, unusual)))
+        return Refined(
+            explanation.fits, (_CONTRADICTION, *_doubts(unusual)), _exposure_doubts(seen)
+        )
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
-    return Refined(_with_steps_of_all(possible), exposure_doubts=tuple(_doubts(seen, unusual)))
+    return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen))
 
 
 def _modes(
@@ -287,18 +289,22 @@ def _by_unknown_blur(timing: Timing, blur: float) -> float:
     return min(6.0 * most / timing.exposure, math.sqrt(12.0 * most))
 
 
-def _doubts(seen: float, unusual: float) -> list[str]:
-    doubts = []
-    if seen < _LEAST_EDGES:
-        doubts.append(
-            f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
-            f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed to tell the "
-            "exposure time. Expose less."
-        )
-    if unusual > _MOST_UNUSUAL:
-        doubts.append(
-            "Only an unusual camera or lamp explains the stripes: its tone curve, blur and "
-            f"switching are {unusual:.1f} standard deviations from what is usual; at most "
-            f"{_MOST_UNUSUAL} are allowed."
-        )
-    return doubts
+def _doubts(unusual: float) -> tuple[str, ...]:
+    """Say why nothing that was found may hold: the model explains the stripes by odd values."""
+    if unusual <= _MOST_UNUSUAL:
+        return ()
+    return (
+        "Only an unusual camera or lamp explains the stripes: its tone curve, blur and "
+        f"switching are {unusual:.1f} standard deviations from what is usual; at most "
+        f"{_MOST_UNUSUAL} are allowed.",
+    )
+
+
+def _exposure_doubts(seen: float) -> tuple[str, ...]:
+    if seen >= _LEAST_EDGES:
+        return ()
+    return (
+        f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
+        f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed to tell the "
+        "exposure time. Expose less.",
+    )

@@ -2,6 +2,7 @@
 
 import errno
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -153,3 +154,66 @@ def test_interruptions_are_answered_before_slow_imports() -> None:
         "occ_model", "occ_model.version", "occ_model.cli", "occ_model.program", "occ_model.errors",
     }  # fmt: skip
     assert {"numpy", "cv2", "argparse"} & set(done.stdout.split()) == set()
+
+
+PROGRAM = """
+import os, signal, sys, time
+from occ_model.errors import OccError
+from occ_model.program import run_program
+
+def interrupted():
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(5)
+
+def work():
+    if what == "works":
+        try:
+            interrupted()
+        finally:
+            print("cleared")
+    print("done")
+    return 0
+
+def prepare():
+    if what == "prepares":
+        try:
+            interrupted()
+        finally:
+            print("cleared")
+    if what == "refuses":
+        raise OccError("It cannot be.")
+    return work
+
+what = sys.argv[1]
+sys.exit(run_program("own", prepare, is_process=True))
+"""
+
+
+def own_program(what: str, redirect: str = "") -> tuple[int, str, str]:
+    """Run a small program as a process: its exit code, what it printed, and its errors."""
+    shell = ("sh", "-c", f'exec "$@" {redirect}', "sh")
+    words = [*shell, sys.executable, "-c", PROGRAM, what]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=60)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_an_interruption_ends_preparation_at_once_and_lets_work_clear_up() -> None:
+    assert own_program("nothing") == (0, "done\n", "")
+    assert own_program("prepares") == (130, "", "own: interrupted.\n")
+    assert own_program("works") == (130, "cleared\n", "own: interrupted.\n")
+
+
+def test_what_a_program_prints_last_is_written_or_told() -> None:
+    code, _, said = own_program("nothing", FULL)
+    assert (code, said) == (1, FULL_DISK.replace("occ-model", "own"))
+
+
+def test_errors_go_nowhere_else_where_their_stream_is_closed() -> None:
+    assert own_program("refuses") == (2, "", "own: It cannot be.\n")
+    assert own_program("refuses", "2>&-") == (2, "", "")
+
+
+def test_within_another_program_its_answer_to_ctrl_c_stays() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    assert main(["presets"]) == 0
+    assert signal.getsignal(signal.SIGINT) is before

@@ -2,6 +2,7 @@
 
 import pytest
 from gui.user import User
+from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
@@ -95,3 +96,15 @@ def test_the_title_of_a_door_stands_out_and_its_texts_fit(doors: WelcomeDialog) 
             assert label.wordWrap()
             assert door.rect().contains(label.geometry())
             assert label.heightForWidth(label.width()) <= label.height()
+
+
+def test_the_picture_of_a_door_follows_the_theme(qtbot: QtBot) -> None:
+    door = Door("door-photo", "Title", "Sentence.")
+    qtbot.addWidget(door)
+    pictures = []
+    for colour in ("black", "white"):
+        palette = door.palette()
+        palette.setColor(QPalette.ColorRole.ButtonText, QColor(colour))
+        door.setPalette(palette)
+        pictures.append(door._picture.pixmap().toImage())
+    assert pictures[0] != pictures[1]

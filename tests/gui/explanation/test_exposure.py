@@ -69,6 +69,32 @@ def test_the_plot_is_whole_in_a_narrow_pane(qtbot: QtBot, small_scene: Scene) ->
     assert plot.rect().contains(plot.plot.geometry())
 
 
+def test_the_sentence_is_whole_after_the_pane_becomes_narrower(
+    plot: ExposurePlot, small_scene: Scene
+) -> None:
+    plot.show_window(exposure_window(small_scene, 1003), 42.25)
+    plot.resize(900, 400)
+    wide = plot.minimumHeight()
+    plot.resize(max(plot.minimumSizeHint().width(), 190), 400)
+    assert plot.minimumHeight() > wide
+
+
+def test_the_view_can_be_enlarged_and_moved_a_little_beyond(
+    plot: ExposurePlot, small_scene: Scene
+) -> None:
+    window = exposure_window(small_scene, 1003)
+    plot.show_window(window, 42.25)
+    last = float(window.edges[-1]) * 1e6
+    box = plot.plot.getViewBox()
+    for asked in ((0.4 * last, 0.5 * last), (0.0, 1e9 * last), (0.4 * last, 0.4 * last + 1e-9)):
+        box.setXRange(*asked, padding=0.0)
+        low, high = box.viewRange()[0]
+        assert 0.0 < high - low <= 5.0 * last
+        assert high - low >= min(asked[1] - asked[0], 1e-4 * last)
+    box.setXRange(0.4 * last, 0.5 * last, padding=0.0)
+    assert np.ptp(box.viewRange()[0]) == pytest.approx(0.1 * last)
+
+
 def test_a_column_in_the_dark_has_no_time_on(plot: ExposurePlot, small_scene: Scene) -> None:
     plot.show_window(exposure_window(small_scene.replace(pattern="0"), 5), 9.0)
     assert not plot.lit.isVisible()

@@ -70,7 +70,8 @@ def sources_of(
     for name, spread in found.uncertainties.items():
         if name in PARAMETERS:
             precision = quantity(name).format(spread, 3)
-            sources[name] = f"measured to ±{precision} from {where}"
+            doubt = "; doubtful" if name in found.doubtful_alone else ""
+            sources[name] = f"measured to ±{precision} from {where}{doubt}"
     for name in ("rows", "columns"):
         sources[name] = f"the size of the photo {photo_name}"
     if found.pattern_was_read:

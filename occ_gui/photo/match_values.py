@@ -143,8 +143,9 @@ class MatchValues(QWidget):
                 texts[name] = given.get(name, "").format(value=texts[name])
             elif name != "gamma":  # of the shape of the stripes, not of their timing
                 texts[name] = condition + texts[name]
-        if match.only_exposure_is_doubtful:
-            texts["exposure_time"] += self.tr(" (doubtful)")
+        for name in match.doubtful_alone:
+            if texts[name]:
+                texts[name] += self.tr(" (doubtful)")
         frame = frame_of_match(match)
         texts["frame"] = (
             "" if frame is None else condition + with_uncertainty(quantity("readout_time"), *frame)

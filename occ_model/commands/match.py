@@ -213,5 +213,5 @@ def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
         return f"{declared.format(value)} ({how})"
     text = estimate_text(declared, value, deviation)
     # Gamma is found from the shape of the stripes, not from their timing.
-    doubt = " (doubtful)" if name == "exposure_time" and match.only_exposure_is_doubtful else ""
+    doubt = " (doubtful)" if name in match.doubtful_alone else ""
     return (text if name == "gamma" else assumption + text) + doubt

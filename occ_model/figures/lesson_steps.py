@@ -124,8 +124,8 @@ def match_lines(match: Match, photo: str) -> list[str]:
         declared = quantity(name)
         deviation = match.uncertainties.get(name)
         value = declared.unit.format_estimate(getattr(match, name), deviation)
-        doubt = name == "exposure_time" and match.only_exposure_is_doubtful
-        lines.append(f"{declared.label.lower()} {value}{' (doubtful)' if doubt else ''}")
+        doubt = " (doubtful)" if name in match.doubtful_alone else ""
+        lines.append(f"{declared.label.lower()} {value}{doubt}")
     lines.append(
         f"{match.exposure_in_chips:.3g} chips an exposure, residual {match.rmse:.2g} levels"
     )

@@ -102,6 +102,12 @@ class ChipReading:
         return "".join(map(str, self.chips.tolist()))
 
 
+_BY_EXPOSURE = ("exposure_time", "start_time", "gamma")
+"""Estimates that another exposure changes: a column's start is half of it before its middle."""
+
+_ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Match:
     """The scene that explains a photo's stripes.
@@ -131,8 +137,8 @@ class Match:
     alternatives
         Other explanations of the stripes, the most likely first.
     exposure_reasons
-        Why the exposure time alone is doubtful, each a sentence: the chips and the readout time, or
-        the frequency, do not rest on it.
+        Why the exposure time, and what follows from it, is doubtful, each a sentence: the chips and
+        the readout time, or the frequency, do not rest on it.
     """
 
     scene: Scene
@@ -168,12 +174,17 @@ class Match:
         return bool(self.exposure_reasons) and not self.reasons
 
     @property
+    def doubtful_alone(self) -> tuple[str, ...]:
+        """Names of the estimates that are doubtful while the match is sure: those by exposure."""
+        return _BY_EXPOSURE if self.only_exposure_is_doubtful else ()
+
+    @property
     def all_reasons(self) -> tuple[str, ...]:
         """The reasons to doubt the match, and those to doubt its exposure time, said so."""
         if not self.only_exposure_is_doubtful:
             return (*self.reasons, *self.exposure_reasons)
         first, *more = self.exposure_reasons
-        return (f"Only the exposure time is doubtful. {first}", *more)
+        return (f"{_ONLY_EXPOSURE} {first}", *more)
 
     @property
     def columns_per_chip(self) -> float:

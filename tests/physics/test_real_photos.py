@@ -8,6 +8,9 @@ import occ_model as occ
 
 pytestmark = pytest.mark.photos
 
+NOTED = 79e-6
+"""The exposure time that the iPhone noted, in seconds."""
+
 STRIPES = "01010" + "0010110001001000"
 """The pattern that VLCDetector's transmitter sends over and over."""
 
@@ -94,3 +97,23 @@ def test_the_fitted_scene_shows_the_photo(square_wave: occ.Match, led: occ.Photo
     region = square_wave.region
     simulated = frame.profile[region.first_column : region.last_column]
     assert occ.compare(square_wave.stripes.flattened, simulated).correlation > 0.99
+
+
+@pytest.mark.whole
+def test_two_photos_of_one_camera_agree_and_know_what_hides_an_exposure(photos: Path) -> None:
+    """The camera notes 79.0 us for both; of one the stripes are white."""
+    matches = []
+    for name, chips_a_second in (("iphone_1khz.jpg", 2e3), ("iphone_2.5khz.jpg", 5e3)):
+        photo = occ.load_photo(photos / name)
+        scene = occ.load_preset("phone-68us").replace(
+            pattern="10", switching_frequency=chips_a_second
+        )
+        match = occ.match_photo(photo, scene)
+        assert photo.exposure_time == pytest.approx(NOTED, rel=0.01)
+        is_near = abs(match.exposure_time / NOTED - 1.0) < 0.1
+        assert is_near or match.exposure_verdict == "doubtful"
+        matches.append(match)
+    white, seen = matches
+    assert white.readout_time == pytest.approx(seen.readout_time, rel=5e-4)
+    assert any("White hides" in why for why in white.all_reasons)
+    assert seen.verdict == seen.exposure_verdict == "sure"

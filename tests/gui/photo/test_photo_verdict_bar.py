@@ -65,7 +65,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
         State.GOOD, "Photo: the match is sure but for the exposure time",
     )  # fmt: skip
     told = bar.accessibleDescription()
-    assert f"Only the exposure time is doubtful. {REASONS[0]}" in told
+    assert f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}" in told
     assert "exposure time 62.50 ± 0.21 µs (doubtful)" in told
     assert "sure but for the exposure time" in bar.about()
 

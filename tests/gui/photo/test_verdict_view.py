@@ -14,6 +14,7 @@ from occ_model.results import Alternative, Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, VERDICTS
 
 READABLE = 4.5
+ONLY = "Only the exposure time, and with it the start time, is doubtful."
 REASONS = ("Only 1.2 periods of 21 chips are in view.", "The correlation is 0.85.")
 PLAIN = Alternative("a smooth curve", "", 0.91, 12.34)
 READ = Alternative("chips that were read", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
@@ -79,9 +80,10 @@ def test_a_doubtful_exposure_is_said_beside_what_is_sure(
     result = view.result
     assert result.verdict.word.text() == "● sure"
     assert result.verdict.reasons.text().splitlines() == [
-        f"• Only the exposure time is doubtful. {REASONS[0]}", f"• {REASONS[1]}",
+        f"• {ONLY} {REASONS[0]}", f"• {REASONS[1]}",
     ]  # fmt: skip
     assert result.values["exposure_time"].text() == "62.50 ± 0.21 µs (doubtful)"
+    assert result.values["start_time"].text().endswith(" (doubtful)")
     assert "doubtful" not in result.values["readout_time"].text()
     view.show_match(replace(match, reasons=REASONS[:1], exposure_reasons=REASONS[1:]))
     assert result.verdict.word.text() == "◐ doubtful"

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
+from PySide6.QtCore import QRect, Qt
+from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QComboBox
 from pytestqt.qtbot import QtBot
 
+from occ_gui.accuracy.effect_cells import _fitted
 from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import ELSE, rows_of, slowest_of
 from occ_gui.accuracy.effect_table import EFFECT, ERROR, HIGHEST_ROW, STAGE, TIME, EffectTable
@@ -217,3 +218,20 @@ def test_the_name_of_the_effect_chosen_is_bold_and_the_tables_text_small(
     assert detail.title.font().bold()
     assert not detail.reason.font().bold()
     assert table.font().pointSizeF() < detail.font().pointSizeF()
+
+
+@pytest.mark.parametrize("picture", [(10, 10), (400, 50), (50, 400), (90, 60)])
+@pytest.mark.parametrize("area", [(40, 30), (100, 100), (20, 90)])
+def test_a_picture_is_fitted_whole_in_the_middle_and_never_enlarged(
+    picture: tuple[int, int], area: tuple[int, int]
+) -> None:
+    within = QRect(7, 5, *area)
+    place = _fitted(within, QImage(*picture, QImage.Format.Format_RGB32))
+    assert within.contains(place)
+    assert (place.center() - within.center()).manhattanLength() <= 1
+    assert place.width() <= picture[0]
+    assert place.height() <= picture[1]
+    # It fills one side of the place, if it is not as large as it is.
+    full = place.width() == area[0] or place.height() == area[1]
+    assert full or (place.width(), place.height()) == picture
+    assert place.width() / place.height() == pytest.approx(picture[0] / picture[1], rel=0.35)

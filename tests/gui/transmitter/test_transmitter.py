@@ -125,6 +125,29 @@ def test_the_scene_takes_the_sent_frequency_in_a_step_that_can_be_undone(
     assert dialog.take.isEnabled()
 
 
+@pytest.mark.parametrize("is_open", [True, False])
+def test_a_drawing_that_fails_is_told_where_the_dialog_is_open_still(
+    store: SceneStore, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, is_open: bool
+) -> None:
+    def fail(_sent: Transmission) -> Drawn:
+        raise OutputError("It cannot be drawn.")
+
+    monkeypatch.setattr(transmitter_controller, "draw_wiring", fail)
+    window = QWidget()
+    qtbot.addWidget(window)
+    transmitter = TransmitterController(window, store, Preferences())
+    transmitter.show()
+    dialog = transmitter.dialog
+    assert dialog is not None
+    if not is_open:
+        dialog.reject()
+    wait(qtbot, transmitter)
+    transmitter.stop()
+    # The dialog that is closed is gone: whoever would write to it fails.
+    assert transmitter.dialog is (dialog if is_open else None)
+    assert not is_open or "It cannot be drawn." in dialog.wiring.text()
+
+
 def test_a_scene_that_the_board_cannot_send_leaves_no_old_figure(
     store: SceneStore, transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot
 ) -> None:

@@ -64,6 +64,10 @@ def run_program(
     SystemExit
         The parser of the command line printed its help or refused the command.
     """
+    if is_process:
+        # The matrices are small: threads of linear algebra wait for each other longer than they
+        # compute, on a busy machine a hundred times as long. NumPy reads it when it is imported.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         return _prepare_and_run(name, prepare, is_process=is_process, is_window=is_window)
     except KeyboardInterrupt:

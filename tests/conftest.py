@@ -11,6 +11,9 @@ from typing import Protocol
 # Before Qt is imported anywhere: no test opens a window on a real screen.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
+# As in the programs; with a thread a core, each process of the tests would wait for the others.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # No test sees or touches the presets or lessons of whoever runs it.
 os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
 os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))

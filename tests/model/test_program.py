@@ -217,3 +217,24 @@ def test_within_another_program_its_answer_to_ctrl_c_stays() -> None:
     before = signal.getsignal(signal.SIGINT)
     assert main(["presets"]) == 0
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_linear_algebra_of_a_program_has_one_thread_unless_told_otherwise() -> None:
+    code = """
+import os, sys
+from occ_model.program import run_program
+
+def prepare():
+    assert "numpy" not in sys.modules, "it reads the variable when it is imported"
+    print(os.environ["OPENBLAS_NUM_THREADS"])
+    return lambda: 0
+
+sys.exit(run_program("x", prepare, is_process=True))
+"""
+    plain = {k: v for k, v in os.environ.items() if k != "OPENBLAS_NUM_THREADS"}
+    for given, wanted in ({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3"):
+        done = subprocess.run(
+            [sys.executable, "-c", code], env=plain | given, capture_output=True, text=True,
+            check=True,
+        )  # fmt: skip
+        assert done.stdout == f"{wanted}\n"

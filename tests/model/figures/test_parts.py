@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 
 from occ_model.figures import lesson_steps
+from occ_model.figures.accuracy import _draw_part
 from occ_model.figures.bench import _draw_bits
 from occ_model.figures.circuit_symbols import ground, transistor
 from occ_model.figures.decoding import _draw_signal
+from occ_model.figures.paper import _shown_columns
 from occ_model.figures.sweep import _axis_label
 from occ_model.figures.window_panes import _show
 from occ_model.results import DecodeResult
+from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS
+from occ_model.scene.scene import Scene
 
 
 def test_the_bits_of_a_bench_are_drawn_with_both_ends_of_their_intervals() -> None:
@@ -41,6 +45,28 @@ def test_the_arrow_of_a_transistor_points_straight_at_its_gate() -> None:
     assert tip[1] == 7.0
     assert base[0][0] == base[1][0] > tip[0] > 3.0
     assert np.mean([corner[1] for corner in base]) == pytest.approx(7.0)
+
+
+@pytest.mark.parametrize(("left", "first"), [(3.4, 4), (5.0, 5), (-7.2, 0)])
+def test_a_profile_begins_with_the_first_column_whose_middle_shows_the_panel(
+    left: float, first: int
+) -> None:
+    frame = SimpleNamespace(corners=np.array([[left, 2.0], [300.0, 2.0]]), profile=np.zeros(4000))
+    shown, end = _shown_columns(Scene(), frame)  # type: ignore[arg-type]
+    assert shown == first
+    assert first < end <= 4000
+
+
+@pytest.mark.parametrize("part", ACCURACY_PARTS)
+def test_only_points_that_follow_one_another_are_joined_by_a_line(part: str) -> None:
+    axes = Mock()
+    points = [
+        SimpleNamespace(name=str(place), seconds=1e-3 * place, error=0.1 / place, current=False)
+        for place in (1, 2, 3)
+    ]
+    _draw_part(axes, part, points)  # type: ignore[arg-type]
+    styles = [call.kwargs.get("linestyle") for call in axes.plot.call_args_list]
+    assert ("-" in styles) == (part in CHAINED_PARTS)
 
 
 def test_the_ground_is_level_lines_each_shorter_than_the_one_above() -> None:

@@ -59,7 +59,8 @@ def tell_story(parts: Parts) -> None:
     parts.learning.exposure_chooser_made.connect(lambda made: _share_column(crosshair, made))
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
-    image.before.chosen.toggled.connect(lambda on: _show_where_asked(story, on))
+    asked = _WholePictureWhileAsked(story)
+    image.before.chosen.toggled.connect(asked.show)
     parts.window.actions_by_name["fit"].triggered.connect(story.fit)
     rows = story.rows
     rows.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
@@ -136,9 +137,21 @@ def _share_column(crosshair: Crosshair, exposure: ExposureController) -> None:
     follow()
 
 
-def _show_where_asked(story: StoryView, asked: bool) -> None:
-    if asked:
-        story.show_whole_picture(True)
+class _WholePictureWhileAsked(QObject):
+    """Shows the whole picture while something is asked of it, and then what was there before."""
+
+    def __init__(self, story: StoryView) -> None:
+        super().__init__(story)
+        self._story = story
+        self._showed_rows = False
+
+    def show(self, asked: bool) -> None:
+        """Show the whole picture, or again the rows that it was shown in place of."""
+        if asked:
+            self._showed_rows = not self._story.shows_whole_picture
+            self._story.show_whole_picture(True)
+        elif self._showed_rows:
+            self._story.show_whole_picture(False)
 
 
 def _rows_per_pixel(story: StoryView, image: ImageView) -> float:

@@ -48,7 +48,7 @@ class SliderStrip(QWidget):
         known = [share for share in self.shares if share is not None]
         text = self.tr(
             "Share of the bits that the decoder shown reads correctly along this slider, all "
-            "else being equal: blue none, yellow all, grey not known."
+            "else being equal: violet none, yellow all, grey not known."
         )
         good = sum(share > 0.99 for share in known)
         read = self.tr("read at {good} of {all} positions").format(good=good, all=len(known))

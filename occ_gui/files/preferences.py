@@ -45,13 +45,16 @@ class Preferences(QObject):
 
     @property
     def folder(self) -> str:
-        """The first folder of a dialog that opens files; empty for that of the system."""
-        return self._there(_FOLDER)
+        """The first folder of a dialog that opens files: at first that of the exported figures.
+
+        Empty for that of the system.
+        """
+        return self._there(_FOLDER) or self._there(_EXPORTS)
 
     @property
     def export_folder(self) -> str:
         """The first folder of a dialog that writes figures: at first that of the opened files."""
-        return self._there(_EXPORTS) or self.folder
+        return self._there(_EXPORTS) or self._there(_FOLDER)
 
     def _there(self, key: str) -> str:
         folder = self._folders[key]

@@ -56,7 +56,7 @@ class LessonReports(QObject):
             return
         author = one_line(author.strip())
         self._preferences.keep(_AUTHOR, author)
-        start = Path(self._preferences.folder, f"{lesson.name}{_ENDING}")
+        start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")
         chosen, _ = QFileDialog.getSaveFileName(
             self._window, self.tr("Save the report"), str(start),
             self.tr(
@@ -73,7 +73,7 @@ class LessonReports(QObject):
         self.runner.submit(_Job(path, lesson, tuple(steps), author))
 
     def _report(self, path: Path) -> None:
-        self._preferences.visit(path)
+        self._preferences.visit_export(path)
         self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
 
 

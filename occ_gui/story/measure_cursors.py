@@ -8,7 +8,7 @@ from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
-NAMES = ("A", "B")
+NAMES = ("1", "2")  # A and B are pins
 _START = (0.3, 0.6)
 """Where the cursors stand at first, as parts of what is in view."""
 

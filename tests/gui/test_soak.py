@@ -26,7 +26,7 @@ ACTIONS = int(os.environ.get("OCC_SOAK", "200"))
 _LONG = 5_000
 """Actions after whose first fifth all that is kept on purpose has been filled."""
 
-_MOST_GROWTH = 5e6
+_MOST_GROWTH = 3e6
 """Bytes."""
 
 

@@ -98,6 +98,14 @@ def test_without_settings_nothing_is_kept(tmp_path: Path) -> None:
     assert Preferences().files == ()
 
 
+def test_where_no_file_was_opened_a_dialog_begins_where_figures_were_written(
+    file: Path, tmp_path: Path
+) -> None:
+    preferences = Preferences(settings(file))
+    preferences.visit_export(tmp_path / "picture.png")
+    assert preferences.folder == str(tmp_path)
+
+
 def test_exports_have_a_folder_of_their_own(file: Path, tmp_path: Path) -> None:
     photos, figures = tmp_path / "photos", tmp_path / "figures"
     for folder in (photos, figures):

@@ -80,14 +80,22 @@ def test_a_long_message_ends_in_dots_and_is_whole_in_the_tip(line: StatusLine) -
     assert line.currentMessage() == LONG
 
 
-def test_the_change_of_the_plan_is_said_while_there_is_no_message(line: StatusLine) -> None:
+def test_the_change_of_the_plan_is_said_until_the_next_message(line: StatusLine) -> None:
     line.resize(800, 24)
     line.show_plan_change("Switched in: JPEG")
+    assert [label.text() for label, _ in texts_of(line)] == ["Switched in: JPEG"]
     line.showMessage("Saved scene.toml")
     QApplication.processEvents()
     assert [label.text() for label, _ in texts_of(line)] == ["Saved scene.toml"]
     line.clearMessage()
-    assert [label.text() for label, _ in texts_of(line)] == ["Switched in: JPEG"]
+    assert [label.text() for label, _ in texts_of(line) if label.text()] == []
+
+
+def test_the_change_of_the_plan_is_news_for_a_while(line: StatusLine, qtbot: QtBot) -> None:
+    line.resize(800, 24)
+    line._forgetting.setInterval(1)
+    line.show_plan_change("Switched in: JPEG")
+    qtbot.waitUntil(lambda: not [one for one, _ in texts_of(line) if one.text()])
 
 
 def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:

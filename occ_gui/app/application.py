@@ -324,7 +324,7 @@ class Application(QObject):
     def _on_photo(self, photo: Photo | None) -> None:
         self.messages.end_photo_failure()
         self.window.show_photo_name(None if photo is None else photo.path.name)
-        self.window.menus.show_match_found(False)
+        self.window.menus.show_match_found(self.photo_wiring.matching.match is not None)
         path = None if photo is None else photo.path
         if path not in (None, self._photo_path) and self._front_next:
             self.window.bring_to_front("photo")

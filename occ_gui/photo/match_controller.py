@@ -180,6 +180,15 @@ class MatchController(QObject):
         self._pane.show_match_begun()
         self.runner.start(request)
 
+    def take_over(self, found: Match) -> None:
+        """Show a match of the whole photo that the table has found, as if it were made here."""
+        if self.runner.is_running or self._photo is None:
+            return
+        from occ_model.photo.match import ESTIMATES
+
+        (self._asked_known,) = (name for name in ESTIMATES if name not in found.uncertainties)
+        self._take(found)
+
     def cancel(self) -> None:
         """Cancel the running match."""
         if self.runner.is_running:

@@ -16,6 +16,7 @@ from occ_gui.picture.photo_overlay import MODES
 from occ_gui.picture.placement import Placement, PlacementStore
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
+from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 
 
@@ -70,9 +71,23 @@ class PhotoWiring(QObject):
         # Not by lambdas: a signal would hold them, and they this object, beyond the window's end.
         self.photos.begun.connect(self._show_begun)
         self.photos.ended.connect(self._show_ended)
+        self.photos.opened.connect(self._take_listed)
+        self.many.matched.connect(self._take_listed_now)
         scenes.changed.connect(pane.show_scene)
         pane.show_scene(scenes.scene)
         self._show_reading(self.photos.reading)
+
+    def _take_listed(self, photo: Photo | None) -> None:
+        """Show what the table of several photos has found in this one, if it was read alike."""
+        row = None if photo is None else self._pane.many.rows.row_of(photo.path)
+        alike = self.many.reading in (None, self.photos.reading)
+        if row is not None and row.match is not None and alike and self.lamps.region is None:
+            self.matching.take_over(row.match)
+
+    def _take_listed_now(self) -> None:
+        """Show what the table has just found in the open photo, unless it is matched by itself."""
+        if self.matching.match is None:
+            self._take_listed(self.matching.photo)
 
     def _connect_lamps(self) -> None:
         form, lamps = self._pane.lamps, self.lamps

@@ -1,8 +1,9 @@
 """The table of several photos that were matched, and what they measured together."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
 SURE, DOUBTFUL, REFUSED, UNREADABLE = "sure", "doubtful", "refused", "unreadable"
@@ -43,6 +44,8 @@ class PhotoRow:
         ``"lines"`` or ``"columns"`` of the upright picture; empty of an unreadable one.
     camera
         The camera's maker and model, None where it is not known.
+    match
+        The match itself, None where there is none.
     """
 
     path: Path
@@ -60,6 +63,7 @@ class PhotoRow:
     size: tuple[int, int] = (0, 0)
     scanned_along: str = ""
     camera: str | None = None
+    match: Match | None = field(default=None, compare=False, repr=False)
 
     @property
     def exposure_verdict(self) -> str:

@@ -70,6 +70,8 @@ class ManyPhotosController(QObject):
         self._paths: tuple[Path, ...] = ()
         self._done = 0
         self.table: PhotoTable | None = None
+        self.reading: PhotoReading | None = None
+        """How the photos of the table were read; None before they are matched."""
         self.runner: Cancellable[ManyRequest, PhotoTable] = Cancellable(
             match_all, "match of several photos"
         )
@@ -107,7 +109,7 @@ class ManyPhotosController(QObject):
             scan_axis=reading.scan_axis,
             channel=reading.channel,
         )
-        self._done, self.table = 0, None
+        self._done, self.table, self.reading = 0, None, reading
         self._view.show_begun(choice.estimate, scene)
         self.runner.start(ManyRequest(self._paths, settings, self._jobs))
 

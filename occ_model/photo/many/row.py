@@ -115,6 +115,7 @@ def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> P
         correlation=match.correlation,
         pattern=match.pattern,
         is_exposure_doubtful=match.exposure_verdict == DOUBTFUL,
+        match=match,
     )
 
 

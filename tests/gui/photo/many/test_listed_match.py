@@ -1,0 +1,66 @@
+"""A photo of the table opens with the match that the table has found in it."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from gui.user import User
+
+from occ_gui.app.application import Application
+from occ_gui.files.file_controller import sample_photos
+from occ_model.photo.many import match_photos
+from occ_model.photo.many.row import MatchSettings, row_of_file
+from occ_model.results import PhotoRow
+
+
+@pytest.fixture
+def listed(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> tuple[Path, ...]:
+    """Match two copies of a photo in the table, in this process."""
+
+    def rows(
+        paths: tuple[Path, ...], settings: MatchSettings, _jobs: int, beat: Callable[[], None]
+    ) -> Iterator[tuple[int, PhotoRow]]:
+        yield from enumerate(row_of_file(path, settings, beat) for path in paths)
+
+    monkeypatch.setattr(match_photos, "matched_rows", rows)
+    (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
+    paths = tuple(tmp_path / f"{name}.jpg" for name in ("one", "two"))
+    for path in paths:
+        path.write_bytes(sample.read_bytes())
+    application.store.change(pattern="10", switching_frequency=2e3, readout_time=12e-6)
+    application.photo_wiring.many.show_files(paths)
+    application.photo_wiring.match_all()
+    user.wait_until_idle()
+    return paths
+
+
+def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
+    application: Application, user: User, listed: tuple[Path, ...]
+) -> None:
+    matching, started = application.photo_wiring.matching, list[object]()
+    matching.runner.start = started.append  # type: ignore[method-assign, assignment]
+    row = application.photo.many.rows.row_of(listed[1])
+    assert row is not None
+    assert row.match is not None
+    application.open_photo(listed[1])
+    user.wait_until_idle()
+    assert matching.match is row.match
+    assert application.photo.verdict.heading.startswith(f"Photo: the match is {row.verdict}")
+    user.choose("&Apply to the scene")
+    assert application.store.scene == row.match.scene
+    assert not started
+
+
+def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
+    application: Application, user: User, listed: tuple[Path, ...]
+) -> None:
+    application.open_photo(listed[0])
+    user.wait_until_idle()
+    assert application.photo_wiring.matching.match is not None
+    application.photos.scan_along("lines")
+    user.wait_until_idle()
+    assert application.photo_wiring.matching.match is None
+    application.photos.scan_along("auto")
+    user.wait_until_idle()

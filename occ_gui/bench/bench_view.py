@@ -7,6 +7,7 @@ from PySide6.QtGui import QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
+    QLabel,
     QPushButton,
     QStackedWidget,
     QVBoxLayout,
@@ -75,6 +76,8 @@ class BenchView(QWidget):
         self._pages = QStackedWidget()
         for plots in self.plots.values():
             self._pages.addWidget(plots)
+        self.invitation = self._make_invitation()
+        self._pages.addWidget(self.invitation)
         self.outdated = OutdatedMark(self._pages)
         self.table = BenchTable()
         self.legend = LineLegend()
@@ -85,6 +88,18 @@ class BenchView(QWidget):
         self._lay_out()
         self._show_what()
         self._show_state()
+
+    def _make_invitation(self) -> QLabel:
+        """Say what will stand here, in place of empty plots."""
+        text = self.tr(
+            "How often does each decoder misread a bit? Choose the code and the decoders above, "
+            "and press Measure: the error rates appear here, over the exposure and over the noise."
+        )
+        invitation = QLabel(text)
+        invitation.setWordWrap(True)
+        invitation.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        invitation.setContentsMargins(64, 8, 64, 8)
+        return invitation
 
     def _make_choices(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
         words = {
@@ -155,7 +170,7 @@ class BenchView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Show the table where there is space for it below the plots."""
         super().resizeEvent(event)
-        self.table.setVisible(self.height() >= _LEAST_WITH_TABLE)
+        self._show_page()
 
     def choice(self) -> BenchChoice:
         """Return what the user has chosen to measure."""
@@ -167,11 +182,17 @@ class BenchView(QWidget):
 
     def _show_what(self) -> None:
         what = self.what.key()
-        self._pages.setCurrentWidget(self.plots[what])
+        self._show_page()
         self.frame_rate.setVisible(what == BITS)
         self._show_bound_entry()
         self._draw()
         self._show_state()
+
+    def _show_page(self) -> None:
+        """Show plots and table, or before the first measurement what they are for."""
+        there = bool(self._setting)
+        self._pages.setCurrentWidget(self.plots[self.what.key()] if there else self.invitation)
+        self.table.setVisible(there and self.height() >= _LEAST_WITH_TABLE)
 
     def show_begun(self, request: BenchRequest) -> None:
         """Show that a measurement has begun, and forget the one before."""
@@ -182,6 +203,7 @@ class BenchView(QWidget):
             scheme=", ".join(request.schemes), bits=request.payload_bits,
             rows=request.rows_a_symbol,
         )  # fmt: skip
+        self._show_page()
         for plots in self.plots.values():
             plots.show_begun(request.decoders)
         self.table.show_begun(request)
@@ -263,9 +285,7 @@ class BenchView(QWidget):
 
     def _show_state(self) -> None:
         if not self._setting:
-            text = self._ended or self.tr(
-                "Rows see a code through their exposure, with noise: choose decoders, and measure."
-            )
+            text = self._ended
         else:
             parts = (
                 self._refusal if self.what.key() == BITS else "",

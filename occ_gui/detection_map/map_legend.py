@@ -23,7 +23,7 @@ class MapLegend(QWidget):
         super().__init__(parent)
         words = {
             "band": (
-                self.tr("t = t_LED"),
+                self.tr("t = 1 chip"),
                 self.tr("The exposure lasts as long as a chip: the band model ends."),
             ),
             "null": (

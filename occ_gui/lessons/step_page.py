@@ -125,7 +125,7 @@ class StepPage(QWidget):
         """Show a step of a lesson, with the answer given to it before."""
         step, count = lesson.steps[place], len(lesson.steps)
         self.place.setText(
-            self.tr("{title}, step {place} of {count}").format(
+            self.tr("{title} · step {place} of {count}").format(
                 title=lesson.title, place=place + 1, count=count
             )
         )

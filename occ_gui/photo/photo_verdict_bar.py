@@ -30,7 +30,8 @@ class PhotoVerdictBar(StateBar):
         self._match: Match | None = None
         self._row: PhotoRow | None = None
         self._is_running = False
-        self._why_not = self._outdated = ""
+        self._why_not: tuple[str, ...] = ()
+        self._outdated = ""
         self._is_applied = True
         self._certain: Mapping[str, float] = {}
         self._simulation: tuple[Chip, ...] = ()
@@ -39,7 +40,7 @@ class PhotoVerdictBar(StateBar):
     def show_photo(self, photo: Photo | None) -> None:
         """Show how far this photo is explained, or that none is open."""
         self._photo, self._match = photo, None
-        self._why_not = self._outdated = ""
+        self._why_not, self._outdated = (), ""
         self._write()
 
     def show_row(self, row: PhotoRow | None) -> None:
@@ -49,12 +50,12 @@ class PhotoVerdictBar(StateBar):
 
     def show_begun(self) -> None:
         """Show that a match is running."""
-        self._is_running, self._why_not = True, ""
+        self._is_running, self._why_not = True, ()
         self._write()
 
     def show_ended(self, why_not: Sequence[str] = ()) -> None:
         """Show that no match is running, and the sentences that say why none was found."""
-        self._is_running, self._why_not = False, " ".join(why_not)
+        self._is_running, self._why_not = False, tuple(why_not)
         self._write()
 
     def show_match(self, match: Match | None) -> None:
@@ -101,7 +102,8 @@ class PhotoVerdictBar(StateBar):
             sentence = self.tr("Open one, say what was sent as far as you know, and match it.")
             return State.NEUTRAL, (self.tr("No photo is open"), sentence)
         if self._why_not:
-            return State.BAD, (self.tr("Photo: not matched"), self._why_not)
+            reasons = (" ".join(self._why_not), self._first_of(self._why_not))
+            return State.BAD, (self.tr("Photo: not matched"), *reasons)
         if self._match is None and self._row is not None:
             return self._listed(self._row)
         if self._match is None:
@@ -121,11 +123,14 @@ class PhotoVerdictBar(StateBar):
             title = self.tr("Photo: the match is sure but for the exposure time")
             return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
         reasons = match.all_reasons
-        reason, more = reasons[0], len(reasons) - 1
-        if more > 0:
-            reason += self.tr(" And {count} more.").format(count=more)
+        reason = self._first_of(reasons)
         title = self.tr("Photo: the match is doubtful")
         return State.DOUBTFUL, (title, f"{reason} {found}", reason)
+
+    def _first_of(self, reasons: Sequence[str]) -> str:
+        """Return the first reason, and how many more there are."""
+        more = len(reasons) - 1
+        return reasons[0] + (self.tr(" And {count} more.").format(count=more) if more else "")
 
     def about(self) -> str:
         """Return the photo's name, and what its match is worth and has found, for a figure."""
@@ -150,8 +155,10 @@ class PhotoVerdictBar(StateBar):
             UNREADABLE: (State.BAD, self.tr("Photo: unreadable in the table")),
         }
         state, title = titles[row.verdict]
-        here = self.tr("Match it by itself to see its curves and to apply what is found.")
-        return state, (title, f"{row.note} {here}".lstrip(), row.note or here)
+        here = ""
+        if row.verdict in {SURE, DOUBTFUL}:
+            here = self.tr("Match it by itself to see its curves and to apply what is found.")
+        return state, (title, f"{row.note} {here}".strip(), row.note or here)
 
     def _found(self, match: Match) -> str:
         """Return what was found, in one sentence."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QLabel,
@@ -32,6 +32,9 @@ from occ_model.scene.scene import Scene
 
 _SCROLL_BAR = 20
 _LEAST_HEIGHT = 200
+
+_ABOVE = 4
+"""Pixels above a part that is scrolled to."""
 
 
 class PhotoView(QWidget):
@@ -256,7 +259,11 @@ class PhotoView(QWidget):
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, after the page has been laid out again."""
         self._page.adjustSize()
-        self._scroll.ensureWidgetVisible(part, 0, 4)
+        # From its top on: what comes first in it says most, and nothing above it is cut.
+        bar, room = self._scroll.verticalScrollBar(), self._scroll.viewport().height()
+        top = part.mapTo(self._page, QPoint()).y()
+        if not bar.value() <= top <= bar.value() + room - part.height():
+            bar.setValue(top - _ABOVE)
 
 
 def _line() -> QFrame:

@@ -2,18 +2,18 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.widgets.plot import BAND, PHOTO, REGION
+from occ_gui.widgets.state_look import State, colours_of
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 """A sign for each verdict, so that none is told by a colour alone."""
 
-_PLATES = {SURE: PHOTO, DOUBTFUL: REGION, REFUSED: BAND}
-"""Green, amber and orange: black on each of them has a contrast above 4.5 in any theme."""
+_STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL, REFUSED: State.BAD}
+"""Whose colours the plate has, as the bar at the top has."""
 
 _MARGIN = 4
 
@@ -38,7 +38,7 @@ class VerdictView(QWidget):
         fixed, least = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
         self.word.setSizePolicy(fixed, fixed)
         self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, least)
-        self._verdict = ""
+        self._verdict, self._is_outdated = "", False
         row = QHBoxLayout()
         row.addWidget(self.word)
         row.addStretch()
@@ -57,6 +57,7 @@ class VerdictView(QWidget):
 
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the verdict is on something else than is asked about now."""
+        self._is_outdated = outdated
         name = self._names()[self._verdict]
         self.word.setText(
             self.tr("Before: {verdict}").format(verdict=name)
@@ -66,10 +67,17 @@ class VerdictView(QWidget):
         self.word.setAutoFillBackground(not outdated)
         palette = QPalette()
         if not outdated:
-            palette.setColor(QPalette.ColorRole.Window, _PLATES[self._verdict])
-            palette.setColor(QPalette.ColorRole.WindowText, QColor(Qt.GlobalColor.black))
+            colours = colours_of(_STATES[self._verdict], self.palette())
+            palette.setColor(QPalette.ColorRole.Window, colours.paper)
+            palette.setColor(QPalette.ColorRole.WindowText, colours.ink)
         self.word.setPalette(palette)
         self.reasons.setEnabled(not outdated)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and self._verdict:
+            self.show_outdated(self._is_outdated)
 
     def _names(self) -> dict[str, str]:
         return {

@@ -24,6 +24,9 @@ from occ_model.results import Frame
 from occ_model.results.frame import PICTURES
 
 _GAINS = (1, 2, 4, 8)
+_APART = 8
+"""Pixels between the controls of one picture and the caption of the other."""
+
 _FIRST_GAIN = 4
 """Without a factor, differences of a few grey levels would look black."""
 
@@ -52,6 +55,7 @@ class ImageView(QWidget):
         self.simulation.caption.setMinimumWidth(self.fontMetrics().horizontalAdvance("Camera"))
         self.simulation.caption_row.addWidget(self.switch)
         self.simulation.caption_row.addWidget(self.before.controls)
+        self.photo.caption.setContentsMargins(_APART, 0, 0, 0)
         # The tops of both pictures are aligned.
         self.photo.caption.setMinimumHeight(
             max(part.sizeHint().height() for part in (self.switch, self.before.controls))
@@ -142,8 +146,9 @@ class ImageView(QWidget):
                 picture = text.format(step=frame.rows_step, picture=picture)
         if self._photo is None:
             return picture
-        if mode == "beside":  # both are pictures of a camera
-            return self.tr("Simulated: {picture}").format(picture=picture[:1].lower() + picture[1:])
+        if mode == "beside":  # whose picture it is stands in the choice beside it
+            is_draft = frame is not None and frame.rows_step > 1
+            return self.tr("Simulated, draft") if is_draft else self.tr("Simulated")
         if mode == "blend":
             return self.tr("Photo over: {picture}").format(picture=picture)
         if mode == "split":

@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QShowEvent
+from PySide6.QtGui import QPalette, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -26,7 +26,6 @@ from occ_gui.widgets.plot import (
     BEFORE,
     PACKETS_IN_VIEW,
     PHOTO,
-    REGION,
     SIMULATION,
     THRESHOLD,
     new_plot,
@@ -39,8 +38,11 @@ _LEAST_HEIGHT = 76
 
 _AXIS_WIDTH = 52
 
-_SHADE = 40
-"""Opacity of the region's colour under the curves, of 255."""
+_SHADE = 20
+"""Opacity of the text's colour over the columns that are not read, of 255."""
+
+_FAR = 1e7
+"""Column beyond any picture."""
 
 
 class ProfileView(QWidget):
@@ -66,7 +68,7 @@ class ProfileView(QWidget):
         self._before_levels: FloatArray | None = None
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
         self.plot = new_plot(
-            self.tr("Column profile"), self.tr("column"), self.tr("level"), self.palette()
+            self.tr("Column profile"), self.tr("column"), self.tr("grey level"), self.palette()
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         # Of several columns on one pixel the extremes are drawn, not an arbitrary one.
@@ -100,13 +102,19 @@ class ProfileView(QWidget):
         self.band = self.plot.add_curve(pens["band"][1])
         self.photo = self.plot.add_curve(pens["photo"][1])
         self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
-        shade = QColor(REGION)
-        shade.setAlpha(_SHADE)
-        self._region = pg.LinearRegionItem(brush=shade, pen=pg.mkPen(None), movable=False)
-        self._region.setZValue(-10)
-        for item in (self._region, self.threshold):
+        # As in the story, the columns that the decoder does not read are shaded.
+        self._outside = tuple(pg.LinearRegionItem(pen=pg.mkPen(None), movable=False) for _ in "lr")
+        for item in (*self._outside, self.threshold):
+            item.setZValue(-10)
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
+        self.plot.dress_with(self._dress)
+
+    def _dress(self, palette: QPalette) -> None:
+        shade = palette.color(QPalette.ColorRole.Text)
+        shade.setAlpha(_SHADE)
+        for item in self._outside:
+            item.setBrush(shade)
 
     def _make_controls(self) -> None:
         self.enhanced = QCheckBox(self.tr("Enhanced"))
@@ -207,6 +215,7 @@ class ProfileView(QWidget):
             self._photo_levels = profile.comparison.photo
             _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
         self.legend.show_line("photo", profile is not None)
+        self._offer_before()
         self._arrange_plots()
         if profile is not None:
             self.residual.show_profile(profile)
@@ -226,9 +235,13 @@ class ProfileView(QWidget):
         _draw(self.band, band)
         self.reason.setText(reading.band_undefined)
         self.reason.setVisible(bool(reading.band_undefined))
-        self._region.setVisible(decoded.region is not None)
-        if decoded.region is not None:
-            self._region.setRegion((decoded.region.first_column, decoded.region.last_column))
+        region = decoded.region
+        for item in self._outside:
+            item.setVisible(region is not None)
+        if region is not None:
+            low, high = self._outside
+            low.setRegion((-_FAR, region.first_column))
+            high.setRegion((region.last_column, _FAR))
         self.threshold.setVisible(enhanced and decoded.threshold is not None)
         if decoded.threshold is not None:
             self.threshold.setValue(decoded.threshold)
@@ -244,9 +257,15 @@ class ProfileView(QWidget):
     def show_before(self, snapshot: Snapshot) -> None:
         """Show the profile of these results in grey, as that before the latest change."""
         self._before = snapshot
-        self.legend.show_line("before", True)
         self._draw_before()
+        self._offer_before()
         self._fit_levels()
+
+    def _offer_before(self) -> None:
+        """Show the curve of before, unless the simulation is compared with a photo."""
+        shown = self._before is not None and self._photo_levels is None
+        self.before.setVisible(shown)
+        self.legend.show_line("before", shown)
 
     def _draw_before(self) -> None:
         if self._before is not None:
@@ -255,7 +274,8 @@ class ProfileView(QWidget):
 
     def _fit_levels(self) -> None:
         """Show from black to the largest value, rounded up so that the axis rarely changes."""
-        profiles = (*self._simulated_levels, self._before_levels, self._photo_levels)
+        before = self._before_levels if self._photo_levels is None else None
+        profiles = (*self._simulated_levels, before, self._photo_levels)
         largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)

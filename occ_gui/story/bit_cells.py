@@ -33,7 +33,7 @@ def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
     return all(needed <= width - _PADDING for width in widths)
 
 
-def draw_field(
+def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     painter: QPainter,
     cell: QRectF,
     texts: tuple[str, ...],
@@ -42,6 +42,7 @@ def draw_field(
     is_header: bool = False,
     state: State = State.NEUTRAL,
     is_marked: bool = False,
+    within: QRectF | None = None,
 ) -> None:
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
 
@@ -61,6 +62,8 @@ def draw_field(
         Good for a bit that is right, bad for one that is wrong, else neutral.
     is_marked
         Whether a tick or a cross follows the bit.
+    within
+        The area that is seen: the text stands in the part of the cell within it.
     """
     colours = colours_of(state, palette)
     inner = cell.adjusted(1, 0.5, -1, -0.5)
@@ -71,9 +74,10 @@ def draw_field(
     metrics = painter.fontMetrics()
     mark = _MARKS.get(state, "") if is_marked else ""
     painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
+    seen = inner if within is None else inner.intersected(within)
     for shown in (texts[0] + mark, *texts):
-        if metrics.horizontalAdvance(shown) <= inner.width() - _PADDING + 2:
-            painter.drawText(inner, Qt.AlignmentFlag.AlignCenter, shown)
+        if metrics.horizontalAdvance(shown) <= seen.width() - _PADDING + 2:
+            painter.drawText(seen, Qt.AlignmentFlag.AlignCenter, shown)
             break
     if state is State.BAD:
         painter.setPen(QPen(colours.ink, 1.5))

@@ -107,7 +107,7 @@ class CodeRow(StoryRow):
             for chip, left, right in zip(decoded.chips.tolist(), edges, edges[1:], strict=False)
             if right > area.left() and left < area.right()
         ]
-        draw_chips(painter, cells, SIMULATION, self.palette())
+        draw_chips(painter, cells, SIMULATION, self.palette(), within=area)
         if self.fields:
             self._draw_fields(painter, bits, decoded, edges)
         else:
@@ -123,7 +123,9 @@ class CodeRow(StoryRow):
         for bit, left, right in spans:
             cell = QRectF(left, place.top(), right - left, place.height())
             if bit is None:
-                draw_field(painter, cell, header_texts(), self.palette(), is_header=True)
+                draw_field(
+                    painter, cell, header_texts(), self.palette(), is_header=True, within=place
+                )
             else:
                 texts = (str(int(decoded.bits[bit])),)
                 draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),

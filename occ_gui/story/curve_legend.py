@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.widgets.contrast import pen_on
@@ -36,9 +36,7 @@ class CurveLegend(QWidget):
         self._lines, self._usual = dict(lines), usual
         self.shown: tuple[str, ...] = ()
         self.note = ""
-        policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        policy.setHeightForWidth(True)
-        self.setSizePolicy(policy)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(self.tr("Curves of the profile"))
 
     def rename(self, key: str, name: str) -> None:
@@ -57,8 +55,30 @@ class CurveLegend(QWidget):
             self.shown, self.note = keys, note
             texts = [self._lines[key][1] for key in keys] + ([note] if note else [])
             self.setAccessibleDescription(", ".join(texts))
-            self.updateGeometry()
+            self._take_lines()
             self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Take as many lines as the width asks for."""
+        super().resizeEvent(event)
+        self._take_lines()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Take as many lines as text of another size asks for."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "shown"):
+            self._take_lines()
+
+    def _take_lines(self) -> None:
+        # Not by Qt's height for width, which a row of several widgets does not ask for in time.
+        height = self.heightForWidth(self.width())
+        if height != self.height() or height != self.minimumHeight():
+            self.setFixedHeight(height)
+
+    @property
+    def widest(self) -> int:
+        """The width that the widest of the usual entries needs."""
+        return max(map(self._width, self._usual), default=0)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of the lines at the present width."""

@@ -18,7 +18,7 @@ from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
-from occ_gui.widgets.chip_cell import draw_digits
+from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
 from occ_model.results.teaching import LightCurve
 from occ_model.scene.scene import Scene
@@ -147,7 +147,8 @@ class LightRow(StoryRow):
             (chip, QRectF(left, light.top(), right - left, light.height()))
             for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False)
         ]
-        draw_digits(painter, cells)
+        if have_room_for_digits(cells):
+            draw_digits(painter, cells, light)
 
     def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
         """Draw header and bits of each packet in view under the chips that carry them."""
@@ -166,7 +167,9 @@ class LightRow(StoryRow):
                 if cell.right() < area.left() or cell.left() > area.right():
                     continue
                 texts = header_texts() if field.bit is None else (str(self._sent[field.bit]),)
-                draw_field(painter, cell, texts, self.palette(), is_header=field.bit is None)
+                draw_field(
+                    painter, cell, texts, self.palette(), is_header=field.bit is None, within=area
+                )
             start += length * step
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:

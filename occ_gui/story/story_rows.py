@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.decoding.verdict import result_of
 from occ_gui.profile.photo_profile import PhotoProfile
@@ -12,6 +12,7 @@ from occ_gui.story.code_row import CodeRow
 from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
 from occ_gui.story.curve_legend import CurveLegend
+from occ_gui.story.legend_line import LegendLine
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.measure_cursors import in_words as difference_in_words
 from occ_gui.story.measure_cursors import measure
@@ -83,12 +84,9 @@ class StoryRows(QWidget):
             },
             usual=("simulation", "band", "threshold"),
         )
-        part = QWidget()
-        layout = QHBoxLayout(part)
-        layout.setContentsMargins(GUTTER, 0, MARGIN, 0)
-        layout.setSpacing(6)
-        layout.addWidget(self.legend, 1)
-        self.controls = layout
+        part = LegendLine(self.legend)
+        part.setContentsMargins(GUTTER, 0, MARGIN, 0)
+        self.controls = part.controls
         return part
 
     def _show_legend(self) -> None:

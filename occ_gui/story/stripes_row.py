@@ -19,6 +19,9 @@ _LEAST_HEIGHT = 40
 _NAME = 22
 """Pixels of the row's name above the thumbnail."""
 
+_LEAST_THUMBNAIL = 32
+"""Pixels of height of a thumbnail in which a frame can still be made out."""
+
 
 class StripesRow(StoryRow):
     """The rows of the picture that show the panel, each pixel of the screen the mean of its cell.
@@ -99,7 +102,9 @@ class StripesRow(StoryRow):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Place the thumbnail under the row's name."""
         super().resizeEvent(event)
-        self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, max(self.height() - _NAME - 3, 0))
+        height = max(self.height() - _NAME - 3, 0)
+        self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, height)
+        self.thumbnail.setVisible(height >= _LEAST_THUMBNAIL)
 
     def _mark_view(self) -> None:
         first, last = (row * self._rows.step for row in self.rows_shown())

@@ -8,8 +8,11 @@ from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QStaticText
 
 from occ_gui.widgets.contrast import seen_on
 
-_LEAST_FOR_DIGIT = 9
+_LEAST_FOR_DIGIT = 7.5
 """Pixels of a chip from which its digit is drawn."""
+
+_MOST = 0.6
+"""Share of the cells that must have room for a digit: at the edges are parts of cells."""
 
 _FADED = 0.45
 
@@ -22,17 +25,33 @@ def _digit(value: int) -> QStaticText:
 
 
 def draw_digits(
-    painter: QPainter, cells: Sequence[tuple[int, QRectF]], least: float = _LEAST_FOR_DIGIT
+    painter: QPainter, cells: Sequence[tuple[int, QRectF]], within: QRectF | None = None
 ) -> None:
-    """Write each chip's digit into the middle of its cell, if that is wide enough."""
+    """Write each chip's digit into the middle of its cell, where that is wide enough.
+
+    Parameters
+    ----------
+    painter
+        Draws.
+    cells
+        The chips, each with its place.
+    within
+        The area that is seen: a digit that it would cut off is left out.
+    """
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()
     for chip, cell in cells:
-        if cell.width() >= least:
-            place = QPointF(
-                cell.left() + (cell.width() - width) / 2, cell.top() + (cell.height() - height) / 2
-            )
-            painter.drawStaticText(place, _digit(chip))
+        left = cell.left() + (cell.width() - width) / 2
+        is_whole = within is None or within.left() <= left <= within.right() - width
+        if cell.width() >= _LEAST_FOR_DIGIT and is_whole:
+            top = cell.top() + (cell.height() - height) / 2
+            painter.drawStaticText(QPointF(left, top), _digit(chip))
+
+
+def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
+    """Return whether most cells have room for their digits: else none has one."""
+    wide = sum(cell.width() >= _LEAST_FOR_DIGIT for _, cell in cells)
+    return wide >= _MOST * len(cells)
 
 
 def draw_chips(
@@ -41,6 +60,7 @@ def draw_chips(
     colour: QColor,
     palette: QPalette,
     certain: bool = True,
+    within: QRectF | None = None,
 ) -> None:
     """Draw chips, each a 0 or 1 with its place; those that are not certain are faded.
 
@@ -50,6 +70,7 @@ def draw_chips(
     base, text = (
         palette.color(role) for role in (QPalette.ColorRole.Base, QPalette.ColorRole.Text)
     )
+    with_digits = have_room_for_digits(cells)
     for value in (0, 1):
         some = [(chip, cell) for chip, cell in cells if chip == value]
         painter.setOpacity(1.0 if certain else _FADED)
@@ -58,4 +79,5 @@ def draw_chips(
         painter.drawRects([cell for _, cell in some])
         painter.setOpacity(1.0)
         painter.setPen(base if value and certain else text)
-        draw_digits(painter, some)
+        if with_digits:
+            draw_digits(painter, some, within)

@@ -88,20 +88,25 @@ class StateBar(QWidget):
         self.sentence.setVisible(self._lines == 1)
 
     def _take_lines(self, text: str, room: int) -> None:
-        """Count the lines that a text takes, as far as it may."""
-        metrics, lines = self.sentence.fontMetrics(), 1
-        if self.MOST_LINES > 1 and room > 0 and metrics.horizontalAdvance(text) > room:
-            box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
-            lines = math.ceil(box.height() / metrics.lineSpacing())
-            lines = lines if lines <= self.MOST_LINES else 1  # then shortened, with a tooltip
+        """Take as many lines as a text needs, or one, where it is shortened, with a tooltip."""
+        lines = self._lines_of(text, room)
+        lines = lines if lines <= self.MOST_LINES else 1
         if lines != self._lines:
             self._lines = lines
             self.updateGeometry()
 
+    def _lines_of(self, text: str, room: int) -> int:
+        """Return how many lines a text would take."""
+        metrics = self.sentence.fontMetrics()
+        if room <= 0 or metrics.horizontalAdvance(text) <= room:
+            return 1
+        box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
+        # A word that is wider than the room is cut off in as many lines as there may be.
+        return max(2, math.ceil(box.height() / metrics.lineSpacing()))
+
     def _fitting(self, room: int) -> str:
         """Return the longest of the sentences that fits, else the shortest."""
-        width = self.sentence.fontMetrics().horizontalAdvance
-        fitting = (text for text in self._sentences if width(text) <= room)
+        fitting = (t for t in self._sentences if self._lines_of(t, room) <= self.MOST_LINES)
         return next(fitting, self._sentences[-1])
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -157,10 +162,15 @@ class StateBar(QWidget):
         self.update()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
+        """Follow the theme and the size of text."""
         super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "chips"):
+        if not hasattr(self, "chips"):
+            return
+        if event.type() == QEvent.Type.PaletteChange:
             self._take_colours()
+        if event.type() == QEvent.Type.FontChange:
+            self.updateGeometry()
+            self._place()
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name

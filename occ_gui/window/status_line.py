@@ -9,7 +9,7 @@ from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 
-_MESSAGE_SHARE, _POINTED_SHARE, _TIMING_SHARE = 0.3, 0.4, 0.25
+_MESSAGE_SHARE, _POINTED_SHARE, _TIMING_SHARE = 0.3, 0.4, 0.3
 """Fractions of the width: the message takes at least so much, the readouts at most."""
 
 _PLAN_CHANGE_MS = 12_000

@@ -44,6 +44,10 @@ QPushButton:checked, QPushButton:checked:hover:enabled, QPushButton:checked:pres
     background: palette(highlight); color: palette(highlighted-text);
 }
 QPushButton:checked:hover:enabled { border-color: palette(window-text); }
+QPushButton#way:checked { background: palette(button); color: palette(button-text); }
+QPushButton#way:checked:hover:enabled {
+    background: palette(midlight); color: palette(button-text); border-color: palette(mid);
+}
 QPushButton:disabled { border-color: palette(midlight); }
 QPushButton:focus { border: 2px solid palette(accent); padding: 3px 8px; }
 QPushButton#step { border-radius: 13px; padding: 4px 4px; background: transparent; }

@@ -31,7 +31,7 @@ from occ_model.scene.scene import Scene
 
 _ROWS_SEEN = 6
 
-_WIDEST = {PHOTO: 90, NOTE: 280}
+_WIDEST = {PHOTO: 120, NOTE: 280}
 """Widths in pixels at most, so that the times stay in view; the whole text is in the tooltip."""
 
 
@@ -127,6 +127,7 @@ class ManyPhotosView(QWidget):
         self.table.setAccessibleName(self.tr("Photos"))
         self.table.setShowGrid(False)
         self.table.setWordWrap(False)
+        self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often end in a number
         self.table.setTabKeyNavigation(False)
         self.table.setSelectionBehavior(QTableView.SelectionBehavior.SelectRows)
         self.table.setSelectionMode(QTableView.SelectionMode.SingleSelection)

@@ -127,7 +127,7 @@ def test_a_lessons_title_is_text(
     assert plain(view.list.choices[0].text()).startswith(f"{TAG} & co")
     controller.choose(hostile[0].name)
     assert view.step.place.textFormat() == Qt.TextFormat.PlainText
-    assert view.step.place.text().startswith(f"{TAG} & co, step 1")
+    assert view.step.place.text().startswith(f"{TAG} & co · step 1")
 
 
 def test_a_name_that_is_no_utf_8_is_shown_and_remembered(

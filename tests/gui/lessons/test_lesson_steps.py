@@ -164,7 +164,7 @@ def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
     assert not QRect(report.mapTo(guide, QPoint()), report.size()).contains(spot)
     assert guide.end.next.text() == "Next lesson: Past the shutter speed"
     guide.end.next.click()
-    assert guide.step.place.text().startswith("Past the shutter speed, step 1")
+    assert guide.step.place.text().startswith("Past the shutter speed · step 1")
     guide.step.all.click()
     guide.list.choices[-1].click()
     while guide.step.next.text() != "Done":

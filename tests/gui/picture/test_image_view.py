@@ -275,7 +275,7 @@ def test_beside_a_photo_the_other_picture_is_called_simulated(
     view.show_snapshot(snapshot_of())
     assert view.simulation.caption.toolTip() == "Camera's picture"
     view.show_photo(photo)
-    assert view.simulation.caption.toolTip() == "Simulated: camera's picture"
+    assert view.simulation.caption.toolTip() == "Simulated"
     view.show_photo(None)
     assert view.simulation.caption.toolTip() == "Camera's picture"
 

